@@ -14,11 +14,20 @@ Number = TypeVar('Number', int, float)
 
 def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callable[[str], Number]:
     """
-    Return the type of a finite number that is neither too small nor too large.
+    Make a type for argparse that accepts finite numbers in a range.
 
-    :param kind: `int` or `float`
-    :param least: the smallest number that is taken
-    :param most: the largest one
+    Parameters
+    ----------
+    kind
+        `int` or `float`.
+    least, most
+        The smallest and the largest number that it accepts.
+
+    Returns
+    -------
+    Callable
+        Parses a text, and raises `argparse.ArgumentTypeError` if it is no such number.
+
     """
     bounds = f'at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
 
@@ -35,7 +44,20 @@ def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callab
 
 
 def built_workspace(text: str) -> Path:
-    """Return the folder of a built workspace."""
+    """
+    Return the folder of a built workspace; a type for argparse.
+
+    Parameters
+    ----------
+    text
+        The path of the folder.
+
+    Raises
+    ------
+    ArgumentTypeError
+        There is no built workspace.
+
+    """
     if not text.strip():
         raise argparse.ArgumentTypeError('an empty text names no folder.')
     folder = Path(text).resolve()
@@ -48,7 +70,20 @@ def built_workspace(text: str) -> Path:
 
 
 def workspace_sources(text: str) -> Path:
-    """Return the folder of a workspace, built or not, that is a clone of git."""
+    """
+    Return the folder of a workspace, built or not, that is a clone of git; a type for argparse.
+
+    Parameters
+    ----------
+    text
+        The path of the folder.
+
+    Raises
+    ------
+    ArgumentTypeError
+        There is no clone of a workspace.
+
+    """
     if not text.strip():
         raise argparse.ArgumentTypeError('an empty text names no folder.')
     folder = Path(text).resolve()

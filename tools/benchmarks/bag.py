@@ -48,7 +48,15 @@ def main() -> None:
 
 
 def print_recordings(folder: Path) -> None:
-    """Print what it costs to record, and whether others read what was sent."""
+    """
+    Record each of `LOADS`, and print what that costs and whether others read what was sent.
+
+    Parameters
+    ----------
+    folder
+        Where the bags are kept, for `print_playing`.
+
+    """
     print(f'{"CPU %":>7} {"MB":>6} {"lost":>6} {"mcap":>6} {"rosbags":>8}  recorded')
     for rate_hz, topic_count in LOADS:
         bag = folder / bag_name(rate_hz, topic_count)
@@ -69,7 +77,15 @@ def print_recordings(folder: Path) -> None:
 
 
 def print_playing(folder: Path) -> None:
-    """Print how far the times between messages are from the recorded ones."""
+    """
+    Play the recordings, and print how far the times between messages are from the recorded ones.
+
+    Parameters
+    ----------
+    folder
+        Where `print_recordings` has put the bags.
+
+    """
     print(f'\n{"mean ms":>8} {"max ms":>8} {"lost":>6}  played')
     for rate_hz, topic_count in LOADS:
         bag = folder / bag_name(rate_hz, topic_count)
@@ -90,7 +106,17 @@ def print_playing(folder: Path) -> None:
 
 
 def print_kills(folder: Path, runs: int) -> None:
-    """Print how old the oldest message is that is lost when the recorder is killed."""
+    """
+    Kill recorders, and print how old the oldest lost messages are.
+
+    Parameters
+    ----------
+    folder
+        Where the bags are put.
+    runs
+        How many recorders are killed.
+
+    """
     lost_s = []
     for run in range(runs):
         bag = folder / f'killed_{run}'
@@ -109,7 +135,24 @@ def print_kills(folder: Path, runs: int) -> None:
 
 
 def record(bag: Path, sender: Traffic, rate_hz: float) -> Cost:
-    """Record for a while and return what it cost, its start included."""
+    """
+    Record for `RECORD_S` seconds and measure what that costs, the start of the recorder included.
+
+    Parameters
+    ----------
+    bag
+        The folder of the bag, which does not exist yet.
+    sender
+        Sends the messages.
+    rate_hz
+        How many messages it sends a second, on all topics together.
+
+    Returns
+    -------
+    Cost
+        CPU time, wall time and peak RSS of the recorder.
+
+    """
     begin_s = time.monotonic()
     with quiet(recorder(bag)) as process:
         sender.connect()
@@ -122,7 +165,20 @@ def record(bag: Path, sender: Traffic, rate_hz: float) -> Cost:
 
 @contextmanager
 def quiet(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a command for the time of a `with`, its output thrown away."""
+    """
+    Run a command without its output for the time of a `with`, then kill it.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+
+    Yields
+    ------
+    Popen
+        The process.
+
+    """
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     ) as process:
@@ -133,22 +189,61 @@ def quiet(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def recorder(bag: Path) -> list[str]:
-    """Return the command that records into a folder."""
+    """
+    Return the command that records the topics of the benchmark.
+
+    Parameters
+    ----------
+    bag
+        The folder that it writes.
+
+    """
     return ['ros2', 'bag', 'record', '-e', '^/bag_bench', '-o', str(bag)]
 
 
 def topics(count: int) -> list[str]:
-    """Return names of topics."""
+    """
+    Return the names of the topics of the benchmark.
+
+    Parameters
+    ----------
+    count
+        How many.
+
+    """
     return [f'/bag_bench_{index}' for index in range(count)]
 
 
 def bag_name(rate_hz: int, topic_count: int) -> str:
-    """Return the name of the recording of a load."""
+    """
+    Return the name of the recording of a load.
+
+    Parameters
+    ----------
+    rate_hz
+        How many messages were sent a second, on all topics together.
+    topic_count
+        On how many topics.
+
+    """
     return f'{rate_hz}_hz_{topic_count}_topics'
 
 
 def read_by_mcap(bag: Path) -> Messages:
-    """Return topic, bytes and time of the messages as the library `mcap` reads them."""
+    """
+    Read the messages of a bag with the library `mcap`.
+
+    Parameters
+    ----------
+    bag
+        The folder of the bag.
+
+    Returns
+    -------
+    list of (str, bytes, int)
+        Topic, serialized message and time in ns of each, file by file.
+
+    """
     found = []
     for path in sorted(bag.glob('*.mcap')):
         with path.open('rb') as stream:
@@ -160,7 +255,20 @@ def read_by_mcap(bag: Path) -> Messages:
 
 
 def read_by_rosbags(bag: Path) -> Messages:
-    """Return topic, bytes and time of the messages as the library `rosbags` reads them."""
+    """
+    Read the messages of a bag with the library `rosbags`.
+
+    Parameters
+    ----------
+    bag
+        The folder of the bag.
+
+    Returns
+    -------
+    list of (str, bytes, int)
+        Topic, serialized message and time in ns of each.
+
+    """
     with AnyReader([bag]) as reader:
         return [
             (connection.topic, bytes(data), time_ns)
@@ -169,7 +277,23 @@ def read_by_rosbags(bag: Path) -> Messages:
 
 
 def errors_ms(recorded: Messages, received: Messages, rate: float) -> list[float]:
-    """Return how wrong each time between two messages is, in the order of the recording."""
+    """
+    Compute how wrong the time between each two messages was when a bag was played.
+
+    Parameters
+    ----------
+    recorded, received
+        Topic, serialized message and time in ns, as recorded and as they arrived; lost ones are
+        skipped.
+    rate
+        How many times as fast as recorded the bag was played.
+
+    Returns
+    -------
+    list of float
+        Absolute errors in ms, in the order of the recording.
+
+    """
     arrived_ns = {(topic, data): time_ns for topic, data, time_ns in received}
     pairs = [
         (at, arrived_ns[topic, data])

@@ -23,10 +23,26 @@ SILENCE_S = 1.0
 
 
 class Traffic:
-    """A node that sends serialized messages on some topics, or notes when it receives them."""
+    """
+    A node that sends serialized messages on some topics, or notes when it receives them.
+
+    To send, call `connect` first; to receive, `listen` and then `hear`.
+
+    Parameters
+    ----------
+    node
+        The node of rclpy.
+    topics
+        The names of the topics, whose messages are joint states.
+
+    Attributes
+    ----------
+    sent, received
+        Topic, serialized message and time in ns of each message.
+
+    """
 
     def __init__(self, node: Any, topics: list[str]) -> None:
-        """Make neither publishers nor subscriptions."""
         self._node = node
         self._topics = topics
         self._executor = SingleThreadedExecutor()
@@ -49,7 +65,17 @@ class Traffic:
             time.sleep(0.01)
 
     def send(self, rate_hz: float, seconds: float) -> None:
-        """Send so many messages a second, the topics in turn."""
+        """
+        Publish joint states at a fixed rate, on the topics in turn.
+
+        Parameters
+        ----------
+        rate_hz
+            How many messages a second, on all topics together.
+        seconds
+            For how long.
+
+        """
         begin_s = time.monotonic()
         for number in range(int(rate_hz * seconds)):
             topic, data = self._topics[number % len(self._topics)], joint_states(number)
@@ -70,7 +96,15 @@ class Traffic:
             )
 
     def hear(self, process: subprocess.Popen[bytes]) -> None:
-        """Note what comes until a process has ended and it is silent."""
+        """
+        Record what arrives until `SILENCE_S` after the end of a process.
+
+        Parameters
+        ----------
+        process
+            The player of a bag.
+
+        """
         self.received = []
         last_s = time.monotonic()
         while process.poll() is None or time.monotonic() < last_s + SILENCE_S:
@@ -87,7 +121,20 @@ class Traffic:
 
 @contextmanager
 def traffic(topics: list[str]) -> Iterator[Traffic]:
-    """Run a node for the time of a `with`."""
+    """
+    Run a node that sends or receives for the time of a `with`.
+
+    Parameters
+    ----------
+    topics
+        The names of its topics.
+
+    Yields
+    ------
+    Traffic
+        The node, without publishers and subscriptions yet.
+
+    """
     rclpy.init()
     node = rclpy.create_node('bag_traffic')
     try:
@@ -98,7 +145,15 @@ def traffic(topics: list[str]) -> Iterator[Traffic]:
 
 
 def joint_states(number: int) -> bytes:
-    """Return a message of about a kilobyte, different for each number."""
+    """
+    Serialize a message of joint states of about a kilobyte.
+
+    Parameters
+    ----------
+    number
+        What makes the message different from all others; it is also its stamp, in s.
+
+    """
     message = JointState(name=[f'joint_number_{index}' for index in range(JOINTS)])
     message.position = message.velocity = [number / (index + 1) for index in range(JOINTS)]
     message.header.stamp.sec = number

@@ -49,7 +49,17 @@ def main() -> None:
 
 
 def print_costs(workspace: Path, runs: list[Run]) -> None:
-    """Print what each process of a workspace takes."""
+    """
+    Print CPU and memory of each process of a workspace, in the run with the least CPU.
+
+    Parameters
+    ----------
+    workspace
+        Its folder, the heading of the table.
+    runs
+        What was measured there.
+
+    """
     best = min(runs, key=lambda run: run.total_cpu)
     print(f'\n{"CPU %":>7} {"MB":>6}  {workspace}')
     for name, cost in sorted(best.costs.items(), key=lambda item: -item[1].cpu):
@@ -58,14 +68,32 @@ def print_costs(workspace: Path, runs: list[Run]) -> None:
 
 
 def print_ratio(here: list[Run], there: list[Run]) -> None:
-    """Print what this workspace takes of what the other one does."""
+    """
+    Print the ratios of the least CPU and the least memory of two workspaces.
+
+    Parameters
+    ----------
+    here, there
+        The runs of this workspace, and of the other one.
+
+    """
     cpu = min(run.total_cpu for run in here) / min(run.total_cpu for run in there)
     memory = min(run.total_mb for run in here) / min(run.total_mb for run in there)
     print(f'\n{cpu:7.2f} {memory:6.2f}  of what the other one takes')
 
 
 def print_rates(workspaces: list[Path], runs: list[list[Run]]) -> None:
-    """Print the rates of all topics, a column for each workspace."""
+    """
+    Print the rates of all topics in the last runs, a column for each workspace.
+
+    Parameters
+    ----------
+    workspaces
+        Their folders.
+    runs
+        The runs of each of them, measured with rates.
+
+    """
     rates = [measured[-1].rates_hz for measured in runs]
     print('\n' + ' '.join(f'{"1/s":>8}' for _ in workspaces) + '  topic, by simulated time')
     for topic in sorted(set().union(*rates)):

@@ -177,7 +177,20 @@ def _class(kind: str) -> Any:
 
 
 def cpu_by_process(process: int) -> dict[int, float]:
-    """Return the CPU time that a process and its children have used so far, in seconds."""
+    """
+    Read the CPU time that a process and all its descendants have used so far.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    Returns
+    -------
+    dict of int to float
+        Seconds of user and system time by process id, of the processes that still run.
+
+    """
     found: dict[int, float] = {}
     try:
         fields = Path(f'/proc/{process}/stat').read_text().rpartition(')')[2].split()
@@ -191,7 +204,20 @@ def cpu_by_process(process: int) -> dict[int, float]:
 
 
 def pss_mb(process: int) -> float:
-    """Return the memory of a process; what several share is divided among them."""
+    """
+    Read the proportional set size (PSS) of a process: what several share is divided among them.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    Returns
+    -------
+    float
+        Memory in MiB, 0 if the process has ended.
+
+    """
     try:
         for line in Path(f'/proc/{process}/smaps_rollup').read_text().splitlines():
             if line.startswith('Pss:'):
@@ -202,5 +228,13 @@ def pss_mb(process: int) -> float:
 
 
 def process_name(process: int) -> str:
-    """Return the name of a process: that of its main thread, which nodes set."""
+    """
+    Read the name of a process: that of its main thread, which nodes set.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    """
     return Path(f'/proc/{process}/comm').read_text().strip()

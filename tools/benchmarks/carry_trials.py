@@ -62,7 +62,27 @@ def main() -> int:
 
 
 def walk(ros: RosSandbox, ways: int) -> int:
-    """Take the bottle, and carry it to and fro."""
+    """
+    Pick the bottle up, carry it to and fro, and print a row for each way.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot.
+    ways
+        How often it walks to the other room.
+
+    Returns
+    -------
+    int
+        The exit status: 0 if the bottle was kept on all ways, else 1.
+
+    Raises
+    ------
+    AssertionError
+        The robot does not reach the kitchen at first, or falls.
+
+    """
     traveller, entities = NavigatingRobot(ros), Entities(ros)
     robot = traveller.robot
     arrival = traveller.go(*KITCHEN)

@@ -35,7 +35,15 @@ class Workspace:
 
     @classmethod
     def at(cls, folder: Path) -> Workspace:
-        """Return the workspace in a folder that `built_workspace` has found to be one."""
+        """
+        Read the environment of a workspace.
+
+        Parameters
+        ----------
+        folder
+            The folder of the workspace, which `built_workspace` has found to be one.
+
+        """
         script = folder / 'tools' / 'in_environment'
         outside = {name: text for name, text in os.environ.items() if name not in NOT_OF_A_USER}
         outside['PATH'] = without_environments(outside['PATH'])
@@ -45,9 +53,28 @@ class Workspace:
         return cls({name: text for name, _, text in pairs if name})
 
     def cpu_s(self, command: str) -> float:
-        """Return the CPU time of a command and of all that it starts, until the last has ended.
+        """
+        Measure the CPU time of a command and of all that it starts, until the last has ended.
 
-        Raises RuntimeError if the command fails: what does not work costs nothing.
+        Call `adopt_orphans` before: otherwise processes that outlive the command do not count.
+
+        Parameters
+        ----------
+        command
+            The program and its arguments, as for a shell.
+
+        Returns
+        -------
+        float
+            User and system time in s.
+
+        Raises
+        ------
+        RuntimeError
+            The command fails: what does not work costs nothing.
+        ValueError
+            The workspace has no such program.
+
         """
         words = shlex.split(command)
         program = _find(words[0], self.environment['PATH'])
@@ -108,7 +135,15 @@ def collect_orphans() -> float:
 
 
 def without_environments(path: str) -> str:
-    """Return PATH without the folders of virtual environments: each workspace adds its own."""
+    """
+    Remove the folders of virtual environments from a PATH: each workspace adds its own.
+
+    Parameters
+    ----------
+    path
+        The text of the variable.
+
+    """
     folders = [Path(folder) for folder in path.split(os.pathsep)]
     kept = [folder for folder in folders if not (folder.parent / 'pyvenv.cfg').exists()]
     return os.pathsep.join(map(str, kept))

@@ -65,7 +65,15 @@ def main() -> None:
 
 
 def row(costs: list[Cost]) -> str:
-    """Return the columns of a row, and the ratios of the first to the second."""
+    """
+    Format a row of the table, with the ratios of the first to the second workspace.
+
+    Parameters
+    ----------
+    costs
+        What was measured in each workspace: one or two.
+
+    """
     text = ''.join(f'{cost.wall_s:8.1f} {cost.cpu_s:8.1f}   ' for cost in costs)
     if len(costs) == 1:
         return text
@@ -74,12 +82,35 @@ def row(costs: list[Cost]) -> str:
 
 
 def least(costs: list[Cost]) -> Cost:
-    """Return the least of each."""
+    """
+    Take the least wall time and the least CPU time of several runs.
+
+    Parameters
+    ----------
+    costs
+        What each run took.
+
+    """
     return Cost(min(cost.wall_s for cost in costs), min(cost.cpu_s for cost in costs))
 
 
 def first_run(folder: Path, command: str) -> Cost:
-    """Clone a workspace and measure a command of `make` in it, from nothing."""
+    """
+    Clone a workspace and measure a command of `make` in it, from nothing.
+
+    Parameters
+    ----------
+    folder
+        The workspace that is cloned.
+    command
+        `bringup`, which ends when the robot stands, or `build`.
+
+    Raises
+    ------
+    RuntimeError
+        The build has failed, or no robot has started.
+
+    """
     with tempfile.TemporaryDirectory(prefix='first_run_') as temporary:
         clone = Path(temporary, 'workspace')
         subprocess.run(['git', 'clone', '--quiet', '--no-hardlinks', folder, clone], check=True)
@@ -98,7 +129,27 @@ def first_run(folder: Path, command: str) -> Cost:
 
 @contextmanager
 def made(clone: Path, command: str) -> Iterator[subprocess.Popen[bytes]]:
-    """Run `make` for the time of a `with`, then end it; show what it wrote if it failed."""
+    """
+    Run `make` for the time of a `with`, then end it.
+
+    Parameters
+    ----------
+    clone
+        The folder where it runs.
+    command
+        `bringup`, without the page, or `build`.
+
+    Yields
+    ------
+    Popen
+        The process of make, the leader of a session of its own.
+
+    Raises
+    ------
+    RuntimeError
+        `make build` has failed; the message quotes its output.
+
+    """
     arguments = ['ARGS=gui:=false'] if command == 'bringup' else []
     with output_of(clone).open('wb') as stream:
         process = subprocess.Popen(
@@ -128,7 +179,22 @@ def variables() -> dict[str, str]:
 
 
 def wait_until_it_stands(clone: Path, process: subprocess.Popen[bytes]) -> None:
-    """Wait until the bring-up runs and the robot says how it walks: that it stands."""
+    """
+    Wait until the bring-up runs and the robot publishes its walking state: it stands then.
+
+    Parameters
+    ----------
+    clone
+        The folder of the workspace.
+    process
+        The process of `make bringup`.
+
+    Raises
+    ------
+    RuntimeError
+        The process has ended, or takes longer than `TIMEOUT_S`; the message quotes its output.
+
+    """
     end_s = time.monotonic() + TIMEOUT_S
     while STARTED not in output_of(clone).read_text(errors='replace'):
         if process.poll() is not None or time.monotonic() > end_s:
@@ -139,7 +205,15 @@ def wait_until_it_stands(clone: Path, process: subprocess.Popen[bytes]) -> None:
 
 
 def output_of(clone: Path) -> Path:
-    """Return the file that has what `make` prints."""
+    """
+    Return the file with the output of `make`.
+
+    Parameters
+    ----------
+    clone
+        The folder where it runs; the file is beside it.
+
+    """
     return clone.parent / 'output.txt'
 
 

@@ -71,7 +71,17 @@ def main() -> None:
 
 
 def print_run(gui: str, run: Run) -> None:
-    """Print a run."""
+    """
+    Print the times and shares of a run, and the memory of each process in its last phase.
+
+    Parameters
+    ----------
+    gui
+        `true` or `false`: whether the page was served.
+    run
+        What was measured.
+
+    """
     page = f', the page is up after {run.page_s:.1f} s' if run.page_s else ''
     print(f'\ngui:={gui}: ready after {run.ready_s:.1f} s{page}')
     for name, share in run.shares.items():
@@ -190,12 +200,35 @@ class Listener:
         return float(heard[0].clock.sec + heard[0].clock.nanosec * 1e-9)
 
     def spin(self, seconds: float) -> None:
-        """Listen for a while."""
+        """
+        Take messages for a while.
+
+        Parameters
+        ----------
+        seconds
+            How long, in real time.
+
+        """
         end_s = time.monotonic() + seconds
         self.spin_until(lambda: time.monotonic() > end_s, seconds + 1.0)
 
     def spin_until(self, is_true: Callable[[], bool], timeout_s: float) -> None:
-        """Listen until something holds."""
+        """
+        Take messages until a condition holds.
+
+        Parameters
+        ----------
+        is_true
+            The condition, which is checked at least every 0.1 s.
+        timeout_s
+            How long to wait at most, in real time.
+
+        Raises
+        ------
+        TimeoutError
+            The condition does not hold in time.
+
+        """
         end_s = time.monotonic() + timeout_s
         while not is_true():
             if time.monotonic() > end_s:

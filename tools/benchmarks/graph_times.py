@@ -64,7 +64,19 @@ def main() -> None:
 
 
 def print_row(what: str, measure: Callable[[], tuple[float, bool]], runs: int) -> None:
-    """Print one row of the table."""
+    """
+    Measure repeatedly, and print one row of the table.
+
+    Parameters
+    ----------
+    what
+        The name of the row.
+    measure
+        Returns the time in s, and whether all nodes or topics were known.
+    runs
+        How often to measure.
+
+    """
     results = [measure() for _ in range(runs)]
     times_s = [wall_s for wall_s, _ in results]
     complete = f'{sum(is_complete for _, is_complete in results)}/{runs}'
@@ -72,7 +84,22 @@ def print_row(what: str, measure: Callable[[], tuple[float, bool]], runs: int) -
 
 
 def listing(command: str, expected: set[str]) -> tuple[float, bool]:
-    """Run `ros2 topic list` or `ros2 node list`; return the wall time and if it was complete."""
+    """
+    Run `ros2 topic list` or `ros2 node list`.
+
+    Parameters
+    ----------
+    command
+        `topic` or `node`.
+    expected
+        The names that it should print.
+
+    Returns
+    -------
+    float, bool
+        The wall time in s, and whether it printed just these names.
+
+    """
     begin_s = time.monotonic()
     result = subprocess.run(['ros2', command, 'list'], capture_output=True, text=True, check=True)
     return time.monotonic() - begin_s, set(result.stdout.split()) == expected
@@ -88,7 +115,15 @@ def latecomer() -> tuple[float, bool]:
 
 @contextmanager
 def running_nodes(folder: Path) -> Iterator[None]:
-    """Start the nodes and wait until all are there."""
+    """
+    Launch the nodes for the time of a `with`, which begins when all are there, or a minute later.
+
+    Parameters
+    ----------
+    folder
+        Where to write the launch file.
+
+    """
     file = folder / 'many.launch.py'
     file.write_text(LAUNCH_FILE)
     launch = subprocess.Popen(['ros2', 'launch', str(file)], stdout=subprocess.DEVNULL)

@@ -69,7 +69,20 @@ def main() -> None:
 
 
 def whole_launches(folder: Path) -> Iterator[tuple[str, str]]:
-    """Yield commands that end by themselves, and what they are called in a table."""
+    """
+    List commands that end by themselves.
+
+    Parameters
+    ----------
+    folder
+        Where to write launch files.
+
+    Yields
+    ------
+    str, str
+        The command as for a shell, and what it is called in a table.
+
+    """
     for command in ('python3 -c pass', SHOW_ARGUMENTS):
         yield command, command
     for count in COUNTS:
@@ -78,14 +91,34 @@ def whole_launches(folder: Path) -> Iterator[tuple[str, str]]:
 
 
 def print_whole_launches(folder: Path, runs: int) -> None:
-    """Print what commands cost from their start to their end."""
+    """
+    Print what commands cost from their start to their end.
+
+    Parameters
+    ----------
+    folder
+        Where to write launch files.
+    runs
+        How many runs of each command count.
+
+    """
     print(f'\n{COST_HEADER}  command')
     for command, name in whole_launches(folder):
         print(f'{median_cost(shlex.split(command), runs)}  {name}', flush=True)
 
 
 def print_start_and_end(folder: Path, runs: int) -> None:
-    """Print how long it takes to start processes, and to end them."""
+    """
+    Print how long it takes to start processes, and to end them.
+
+    Parameters
+    ----------
+    folder
+        Where to write launch files.
+    runs
+        How many runs count for each number in the table.
+
+    """
     print(f'\n{"start s":>7} {"end s":>7}  processes (command to last start, SIGINT to last end)')
     for count in COUNTS:
         file = launch_file(folder, count, '/bin/sleep', '60')
@@ -95,7 +128,15 @@ def print_start_and_end(folder: Path, runs: int) -> None:
 
 
 def print_imports(runs: int) -> None:
-    """Print how long imports take, without the start of Python itself."""
+    """
+    Print how long imports take, without the start of Python itself.
+
+    Parameters
+    ----------
+    runs
+        How many runs of each import count.
+
+    """
     print(f'\n{"ms":>7}  import (python3 -X importtime)')
     for statement in MODULES:
         took_ms = median_of(lambda statement=statement: import_ms(statement), runs)
@@ -103,14 +144,41 @@ def print_imports(runs: int) -> None:
 
 
 def launch_file(folder: Path, count: int, program: str, argument: str) -> str:
-    """Write a launch file of so many equal processes and return its path."""
+    """
+    Write a launch file of several equal processes and return its path.
+
+    Parameters
+    ----------
+    folder
+        Where to write it.
+    count
+        How many processes.
+    program, argument
+        What each of them executes, with an argument that may be empty.
+
+    """
     path = folder / f'{count}_{Path(program).name}.launch.py'
     path.write_text(LAUNCH_FILE.format(program=program, argument=argument, count=count))
     return str(path)
 
 
 def start_and_end(file: str, count: int) -> tuple[float, float]:
-    """Return the seconds until the last process has started, and from SIGINT to the end."""
+    """
+    Launch processes that do not end, and interrupt the launch once all have started.
+
+    Parameters
+    ----------
+    file
+        The launch file.
+    count
+        How many processes it starts.
+
+    Returns
+    -------
+    float, float
+        The seconds until the last process has started, and from SIGINT to the end.
+
+    """
     begin_s = time.monotonic()
     with running(['ros2', 'launch', file]) as launch:
         assert launch.stdout is not None
@@ -126,7 +194,20 @@ def start_and_end(file: str, count: int) -> tuple[float, float]:
 
 @contextmanager
 def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a command for the time of a `with`."""
+    """
+    Run a command with its output in a pipe for the time of a `with`, then kill it.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+
+    Yields
+    ------
+    Popen
+        The process.
+
+    """
     with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
         try:
             yield process
@@ -135,7 +216,20 @@ def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def import_ms(statement: str) -> float:
-    """Return the milliseconds in which Python executes the modules that a statement imports."""
+    """
+    Measure how long Python executes the modules that a statement imports.
+
+    Parameters
+    ----------
+    statement
+        An import statement.
+
+    Returns
+    -------
+    float
+        Milliseconds, without the modules that Python imports at its own start.
+
+    """
     command = [sys.executable, '-X', 'importtime', '-c', statement]
     lines = subprocess.run(command, capture_output=True, text=True, check=True).stderr.splitlines()
     modules = [line.split('|') for line in lines if line.startswith('import time:')][1:]

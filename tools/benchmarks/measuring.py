@@ -30,7 +30,15 @@ COST_HEADER = f'{"CPU s":>7} {"wall s":>7} {"MB":>6}'
 
 
 def run_once(command: list[str]) -> Cost:
-    """Run a command, its output thrown away."""
+    """
+    Run a command without its output and measure what it costs.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+
+    """
     begin_s = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, _, usage = os.wait4(process.pid, 0)
@@ -39,7 +47,17 @@ def run_once(command: list[str]) -> Cost:
 
 
 def median_cost(command: list[str], runs: int) -> Cost:
-    """Run a command once to warm up, then several times, and return the medians."""
+    """
+    Run a command once to warm up, then several times, and return the medians.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+    runs
+        How many runs count.
+
+    """
     costs = [run_once(command) for _ in range(runs + 1)][1:]
     return Cost(
         median(cost.cpu_s for cost in costs),
@@ -49,13 +67,36 @@ def median_cost(command: list[str], runs: int) -> Cost:
 
 
 def median_of(measure: Callable[[], float], runs: int) -> float:
-    """Return the median of several measurements after one that is not counted."""
+    """
+    Return the median of several measurements after one that is not counted.
+
+    Parameters
+    ----------
+    measure
+        Returns what is measured.
+    runs
+        How many measurements count.
+
+    """
     return median([measure() for _ in range(runs + 1)][1:])
 
 
 @contextmanager
 def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a command for the time of a `with`."""
+    """
+    Run a command without its output for the time of a `with`, then terminate it.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+
+    Yields
+    ------
+    Popen
+        The process.
+
+    """
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     ) as process:
@@ -66,19 +107,55 @@ def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def cpu_s(process: int) -> float:
-    """Return the CPU time that a process has used so far."""
+    """
+    Read the CPU time in s that a process has used so far, its children not included.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    """
     fields = Path(f'/proc/{process}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 def memory_mb(process: int) -> float:
-    """Return the memory of a process that is in RAM, with all that it shares (RSS)."""
+    """
+    Read the resident set size (RSS) of a process in MB, with all that it shares.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    """
     pages = int(Path(f'/proc/{process}/statm').read_text().split()[1])
     return pages * os.sysconf('SC_PAGE_SIZE') / 1e6
 
 
 def child_of(parent: int, executable: str) -> int:
-    """Return the child, or the process itself, that runs an executable of a name."""
+    """
+    Find the child of a process, or the process itself, that runs an executable.
+
+    Parameters
+    ----------
+    parent
+        The id of the process.
+    executable
+        The file name of the executable or script.
+
+    Returns
+    -------
+    int
+        The process id.
+
+    Raises
+    ------
+    SystemExit
+        There is none.
+
+    """
     children = Path(f'/proc/{parent}/task/{parent}/children').read_text().split()
     for number in (*children, str(parent)):
         words = Path(f'/proc/{number}/cmdline').read_bytes().split(b'\0')

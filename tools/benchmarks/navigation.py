@@ -79,13 +79,33 @@ def rows() -> Iterator[tuple[str, float | None, Callable[[], object]]]:
 
 
 def print_row(cost: float, limit_ms: float | None, what: str) -> None:
-    """Print one row of the first table."""
+    """
+    Print one row of the first table.
+
+    Parameters
+    ----------
+    cost
+        The CPU time in ms.
+    limit_ms
+        How long it may take, if there is a limit.
+    what
+        The name of the row.
+
+    """
     limit = '' if limit_ms is None else f'{limit_ms:.0f}'
     print(f'{cost:7.2f} {limit:>7}  {what}', flush=True)
 
 
 def cost_ms(action: Callable[[], object]) -> float:
-    """Return the CPU time of an action."""
+    """
+    Measure the CPU time in ms that an action takes in this thread.
+
+    Parameters
+    ----------
+    action
+        What to measure.
+
+    """
     begin_s = time.thread_time()
     action()
     return (time.thread_time() - begin_s) * 1e3

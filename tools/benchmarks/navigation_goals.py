@@ -101,13 +101,45 @@ def main() -> int:
 
 
 def run_trial(robot: LoopbackRobot, number: int, start: Place, goal: Place) -> Trial:
-    """Put the robot somewhere and send it somewhere else."""
+    """
+    Place the robot at a pose and navigate to another one.
+
+    Parameters
+    ----------
+    robot
+        The robot of the loopback simulator.
+    number
+        The number of the trial.
+    start, goal
+        The two poses in the map.
+
+    Raises
+    ------
+    AssertionError
+        The localisation does not accept the start, or the goal is rejected or takes too long.
+
+    """
     robot.put(start)
     return Trial(number, start, goal, robot.go(goal))
 
 
 def drawn_pairs(map_file: Path, seed: int) -> Iterator[tuple[Place, Place]]:
-    """Yield pairs of poses without end; a way leads from each first to its second."""
+    """
+    Draw pairs of poses between which a path exists, without end.
+
+    Parameters
+    ----------
+    map_file
+        The YAML file of the map.
+    seed
+        Of the random numbers.
+
+    Yields
+    ------
+    Place, Place
+        Start and goal in the map, both at least `PLACE_M` from what is not free.
+
+    """
     table = yaml.safe_load(map_file.read_text(encoding='utf-8'))
     picture = cv2.imread(str(map_file.parent / table['image']), cv2.IMREAD_GRAYSCALE)
     assert picture is not None
@@ -132,7 +164,15 @@ def drawn_pairs(map_file: Path, seed: int) -> Iterator[tuple[Place, Place]]:
 
 
 def row(trial: Trial) -> str:
-    """Return the row of a trial."""
+    """
+    Format the table row of a trial.
+
+    Parameters
+    ----------
+    trial
+        The trial that has ended.
+
+    """
     outcome = trial.outcome
     result = f'{outcome.distance_m:.2f} m, {outcome.turn_rad:.2f} rad off'
     if not outcome.is_reached:
@@ -147,7 +187,15 @@ def row(trial: Trial) -> str:
 
 
 def summary(trials: Sequence[Trial]) -> str:
-    """Return how many were reached, and how."""
+    """
+    Summarize how many goals were reached, and how.
+
+    Parameters
+    ----------
+    trials
+        All trials.
+
+    """
     reached = [trial.outcome for trial in trials if trial.is_reached]
     if not reached:
         return f'\n0 of {len(trials)} reached'
@@ -162,7 +210,15 @@ def summary(trials: Sequence[Trial]) -> str:
 
 
 def cpu_s(pid: int) -> float:
-    """Return the CPU time that a process has used so far."""
+    """
+    Read the CPU time in s that a process has used so far, its children not included.
+
+    Parameters
+    ----------
+    pid
+        The process id.
+
+    """
     fields = Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 

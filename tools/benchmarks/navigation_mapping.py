@@ -64,7 +64,22 @@ def main() -> int:
 
 
 def drive_round(robot: SimulatedRobot, speed: float) -> None:
-    """Turn and walk from point to point; ground truth steers, which stands for a person."""
+    """
+    Drive through all rooms along `ROUND_M`; ground truth steers, which stands for a person.
+
+    Parameters
+    ----------
+    robot
+        The simulated robot.
+    speed
+        The greatest forward velocity in m/s.
+
+    Raises
+    ------
+    FellError
+        The robot fell.
+
+    """
     for point_m in ROUND_M:
         for only_turn in (True, False):
             while not _steer(robot, point_m, speed, only_turn):
@@ -84,7 +99,20 @@ def _steer(robot: SimulatedRobot, point_m: complex, speed: float, only_turn: boo
 
 
 def share_near(drawn_file: Path, true_file: Path) -> float:
-    """Return the share of occupied cells of a map that are near those of another one."""
+    """
+    Compute the share of the occupied cells of a map that are near those of another map.
+
+    Parameters
+    ----------
+    drawn_file, true_file
+        The YAML files of the map that is judged, and of the one that is right.
+
+    Returns
+    -------
+    float
+        From 0 to 1; near is within `NEAR_M`, and cells beyond the true map are not near.
+
+    """
     (drawn, origin_m, size_m), (true, true_origin_m, true_size_m) = map(
         _occupied, (drawn_file, true_file)
     )
@@ -104,7 +132,15 @@ def _occupied(file: Path) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64
 
 
 def go_round(ros: RosSandbox) -> int:
-    """Go to places by the map that was drawn; return how many were not reached."""
+    """
+    Navigate to `GOALS` in the map that was drawn, and return how many were not reached.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot.
+
+    """
     robot, belief, bad = NavigatingRobot(ros), Belief(ros), 0
     for number, goal in enumerate(GOALS, 1):
         arrival = robot.go(*goal)

@@ -91,7 +91,17 @@ VALUES: dict[str, dict[str, Any]] = {
 
 
 def house(side: int, room: int = 80, door: int = 20) -> Costmap2D:
-    """Return a square costmap of rooms with doors, with furniture and inflation."""
+    """
+    Build a square costmap of rooms with doors, with furniture and inflation.
+
+    Parameters
+    ----------
+    side
+        The length of its sides in cells of 0.05 m.
+    room, door
+        The distance of the walls from each other, and the width of the doors, in cells.
+
+    """
     random = np.random.default_rng(7)
     cells = np.zeros((side, side), np.uint8)
     for at in [*range(0, side - 1, room), side - 2]:
@@ -111,7 +121,20 @@ def house(side: int, room: int = 80, door: int = 20) -> Costmap2D:
 
 
 def planning(grid: Costmap2D) -> tuple[Action, Action, Action]:
-    """Return requests for a path across a map: a fresh goal, the same, and with other costs."""
+    """
+    Prepare requests for a path from corner to corner of a map.
+
+    Parameters
+    ----------
+    grid
+        The costmap, which is not changed.
+
+    Returns
+    -------
+    Action, Action, Action
+        Plan to a fresh goal, to the same goal again, and to that goal after a cost has changed.
+
+    """
     node = _node('planner_server')
     far_m = grid.size_x * CELL_M - 1.5
     start, goal = Pose2D(1.5, 1.5, 0.0), Pose2D(far_m, far_m, 0.0)
@@ -157,7 +180,20 @@ def smoothing() -> dict[str, Action]:
 
 
 def control_step(name: str) -> Action:
-    """Return the step of a controller beside a wall, in a local costmap of 60 x 60 cells."""
+    """
+    Prepare a control step beside a wall, in a local costmap of 60 x 60 cells.
+
+    Parameters
+    ----------
+    name
+        A key of `KINDS`, perhaps with a suffix after a comma; `VALUES` may have its parameters.
+
+    Returns
+    -------
+    Action
+        Tracks the path and computes a velocity.
+
+    """
     kind = name.partition(',')[0]
     node = _node(
         'controller_server', {f'FollowPath.{k}': v for k, v in VALUES.get(name, {}).items()}
@@ -188,7 +224,20 @@ def control_step(name: str) -> Action:
 
 
 def localization(particles: int) -> Action:
-    """Return an update of AMCL in a house."""
+    """
+    Prepare an update of AMCL in a house.
+
+    Parameters
+    ----------
+    particles
+        How many particles the filter has.
+
+    Returns
+    -------
+    Action
+        Updates the filter with a scan of 360 ranges.
+
+    """
     found, caster = _scanned_house()
     options = FilterOptions(min_particles=particles, max_particles=particles)
     localizer = Localizer(LocalizerSettings(filter_options=options), np.random.default_rng(1))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+import inspect
 from typing import Any
 
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
@@ -32,10 +33,22 @@ DOOR_M = (2.7, -0.7)
 
 
 class Stage:
-    """The robot, and what is put into its way."""
+    """
+    The robot, and what is put into its way.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot, which is waited for.
+
+    Attributes
+    ----------
+    navigating, belief
+        The robot as a client of Nav2, and its own estimate of its pose.
+
+    """
 
     def __init__(self, ros: RosSandbox) -> None:
-        """Wait for the robot."""
         self.ros = ros
         self.navigating, self.belief = NavigatingRobot(ros), Belief(ros)
         self._node = ros.start(lambda **options: Node('stage', **options))
@@ -52,7 +65,17 @@ class Stage:
         self.robot.wait(2.0)
 
     def ask(self, kind: Any, name: str, request: Any) -> Any:
-        """Call a service."""
+        """
+        Call a service and return its response.
+
+        Parameters
+        ----------
+        kind, name
+            The type and the name of the service.
+        request
+            The request.
+
+        """
         client = self._node.create_client(kind, name)
         self.ros.wait_until(client.service_is_ready, PATIENCE_S, f'the service {name}')
         future = client.call_async(request)
@@ -61,7 +84,24 @@ class Stage:
         return future.result()
 
     def put_box(self, name: str, centre_m: tuple[float, float], size_m: tuple[float, ...]) -> None:
-        """Make a heavy box that stands on the floor."""
+        """
+        Spawn a box of 20 kg that stands on the floor.
+
+        Parameters
+        ----------
+        name
+            The name of the new entity.
+        centre_m
+            x, y of its centre in the world.
+        size_m
+            Its extents along x, y and z.
+
+        Raises
+        ------
+        AssertionError
+            The simulator cannot spawn it.
+
+        """
         text = f'{{shape: box, size: {list(size_m)}, mass: 20.0}}'
         request = SpawnEntity.Request(name=name, entity_resource=Resource(resource_string=text))
         _place(request.initial_pose.pose, centre_m, size_m[2])
@@ -69,14 +109,39 @@ class Stage:
         assert answer.result.result == 1, answer.result.error_message
 
     def move_box(self, name: str, centre_m: tuple[float, float], height_m: float) -> None:
-        """Put a box elsewhere."""
+        """
+        Move a box to another place on the floor.
+
+        Parameters
+        ----------
+        name
+            The name of the entity.
+        centre_m
+            x, y of its centre in the world.
+        height_m
+            The height of the box, half of which its centre is above the floor.
+
+        Raises
+        ------
+        AssertionError
+            The simulator cannot move it.
+
+        """
         request = SetEntityState.Request(entity=name)
         _place(request.state.pose, centre_m, height_m)
         answer = self.ask(SetEntityState, '/simulator/set_entity_state', request)
         assert answer.result.result == 1, answer.result.error_message
 
     def take_box(self, name: str) -> None:
-        """Take a box away."""
+        """
+        Delete a box.
+
+        Parameters
+        ----------
+        name
+            The name of the entity.
+
+        """
         self.ask(DeleteEntity, '/simulator/delete_entity', DeleteEntity.Request(entity=name))
 
 
@@ -86,7 +151,15 @@ def _place(pose: Any, centre_m: tuple[float, float], height_m: float) -> None:
 
 
 def blocked_door(stage: Stage) -> Arrival:
-    """Go around when the door is closed by something that the map does not have."""
+    """
+    Go around when the door is closed by something that the map does not have.
+
+    Parameters
+    ----------
+    stage
+        Where the story takes place.
+
+    """
     stage.navigating.go(*CORRIDOR)
     stage.put_box('blockade', DOOR_M, (1.1, 0.25, 1.1))
     arrival = stage.navigating.go(*LIVING_ROOM, at_most_s=240.0)
@@ -95,13 +168,29 @@ def blocked_door(stage: Stage) -> Arrival:
 
 
 def kidnapped(stage: Stage) -> Arrival:
-    """Find out where it is when it was told a place 1 m off."""
+    """
+    Find out where it is when it was told a place 1 m off.
+
+    Parameters
+    ----------
+    stage
+        Where the story takes place.
+
+    """
     stage.navigating.say_where(HOME[0] - 1.0, HOME[1], HOME[2])
     return stage.navigating.go(*KITCHEN)
 
 
 def lost(stage: Stage) -> Arrival:
-    """Find out where it is when nobody tells, by turning and walking about."""
+    """
+    Find out where it is when nobody tells, by turning and walking about.
+
+    Parameters
+    ----------
+    stage
+        Where the story takes place.
+
+    """
     stage.ask(Empty, '/reinitialize_global_localization', Empty.Request())
     for forward, turn, time_s in ((0.0, 0.5, 13.0), (0.2, 0.0, 8.0), (0.0, 0.5, 13.0)):
         stage.robot.drive(forward, 0.0, turn)
@@ -113,7 +202,15 @@ def lost(stage: Stage) -> Arrival:
 
 
 def pushed_chair(stage: Stage) -> Arrival:
-    """Walk around what is pushed into the way while it walks."""
+    """
+    Walk around what is pushed into the way while it walks.
+
+    Parameters
+    ----------
+    stage
+        Where the story takes place.
+
+    """
     size_m = (0.4, 0.4, 1.0)
     stage.navigating.go(*BESIDE_THE_TABLE)
     stage.put_box('chair', (5.3, -2.8), size_m)
@@ -150,7 +247,8 @@ def main() -> int:
         for number, name in enumerate(names, 1):
             story, goal = STORIES[name]
             stage.begin()
-            print(f'{name}: {story.__doc__}', flush=True)
+            title = (inspect.getdoc(story) or '').partition('\n')[0]
+            print(f'{name}: {title}', flush=True)
             arrival = story(stage)
             report(number, goal, arrival)
             bad += (

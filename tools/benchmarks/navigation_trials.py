@@ -43,7 +43,15 @@ def main() -> int:
 
 @contextmanager
 def robot_at_home(*arguments: str) -> Iterator[None]:
-    """Run the robot in the apartment, with Nav2, from when that is active until a block ends."""
+    """
+    Run the robot in the apartment with Nav2, from when that is active until a block ends.
+
+    Parameters
+    ----------
+    *arguments
+        Further arguments of bringup.launch.py, as `name:=value`.
+
+    """
     bringup = Path(get_package_share_directory('humanoid_bringup')) / 'launch/bringup.launch.py'
     given = ('scene:=apartment', 'navigation:=true', 'gui:=false', *arguments)
     with running_launch_file(bringup, *given) as program:
@@ -52,7 +60,22 @@ def robot_at_home(*arguments: str) -> Iterator[None]:
 
 
 def walk(ros: RosSandbox, options: argparse.Namespace) -> int:
-    """Go from place to place."""
+    """
+    Navigate from place to place, and print a row for each goal.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot.
+    options
+        The command line: `goals` or `minutes`, and `seed`.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if more than one in ten goals was not reached cleanly.
+
+    """
     folder = Path(get_package_share_directory('humanoid_navigation')) / 'maps'
     robot, belief = NavigatingRobot(ros), Belief(ros)
     arrivals: list[Arrival] = []
@@ -77,7 +100,19 @@ def walk(ros: RosSandbox, options: argparse.Namespace) -> int:
 
 
 def report(number: int, goal: tuple[float, float, float], arrival: Arrival) -> None:
-    """Print how a goal ended."""
+    """
+    Print the row of a goal.
+
+    Parameters
+    ----------
+    number
+        The number of the goal.
+    goal
+        x (m), y (m) and yaw (rad) in the map.
+    arrival
+        How it ended.
+
+    """
     place = f'({goal[0]:.2f}, {goal[1]:.2f}, {math.degrees(goal[2]):.0f})'
     turn_deg = math.degrees(arrival.turn_rad)
     print(
@@ -90,23 +125,51 @@ def report(number: int, goal: tuple[float, float, float], arrival: Arrival) -> N
 
 
 def reason(arrival: Arrival) -> str:
-    """Return why a goal was not reached."""
+    """
+    Explain why a goal was not reached.
+
+    Parameters
+    ----------
+    arrival
+        How it ended.
+
+    """
     if arrival.status == GoalStatus.STATUS_CANCELED:
         return f'canceled after {arrival.took_s:.0f} s '
     return f'{arrival.error_code}: {arrival.error_msg} '
 
 
 class Belief:
-    """Where the transforms say that the robot is."""
+    """
+    The pose of the robot according to its transforms, to be compared with the truth.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot.
+
+    """
 
     def __init__(self, ros: RosSandbox) -> None:
-        """Listen."""
         node = ros.start(lambda **options: Node('believer', **options))
         self._buffer = Buffer(node=node)
         self._listener = TransformListener(self._buffer, node)
 
     def error(self, robot: NavigatingRobot) -> tuple[float, float]:
-        """Return how far off it is, in m and degrees; the robot stands."""
+        """
+        Wait a second and compare the estimated pose with the true one, while the robot stands.
+
+        Parameters
+        ----------
+        robot
+            The robot, which has ground truth.
+
+        Returns
+        -------
+        float, float
+            The distance in m, and the absolute heading error in degrees.
+
+        """
         robot.robot.wait(1.0)
         moved = self._buffer.lookup_transform('map', 'base_footprint', Time()).transform
         yaw_rad = 2.0 * math.atan2(moved.rotation.z, moved.rotation.w)

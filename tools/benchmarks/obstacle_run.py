@@ -52,7 +52,15 @@ class Trial:
 
     @classmethod
     def drawn(cls, number: int) -> Trial:
-        """Draw the trial of a number: kinds and sides take turns."""
+        """
+        Draw a trial at random: kinds and sides take turns.
+
+        Parameters
+        ----------
+        number
+            The number of the trial, which also seeds the random numbers.
+
+        """
         random = np.random.default_rng([number, 12])
         kind = KINDS[number % len(KINDS)]
         side = tuple(SIDES)[number // len(KINDS) % len(SIDES)]
@@ -96,7 +104,15 @@ class TrialResult:
 
 
 def run_trial(trial: Trial) -> TrialResult:
-    """Let a robot walk into the obstacle, insist, let go, and watch it stand."""
+    """
+    Walk a robot into the obstacle, insist, let go, and watch whether it stands.
+
+    Parameters
+    ----------
+    trial
+        The obstacle and the command.
+
+    """
     settings = BackendSettings(noise=REALISTIC, seed=trial.number)
     scene = Scene(floor=Floor(friction=trial.friction), things=(trial.obstacle,))
     return _Run(trial, LockstepRobot(settings, scene)).result()

@@ -46,7 +46,15 @@ def main() -> int:
 
 
 def row(result: TrialResult) -> str:
-    """Return the row of a trial."""
+    """
+    Format the table row of a trial.
+
+    Parameters
+    ----------
+    result
+        How the trial ended.
+
+    """
     trial, touched_s = result.trial, result.touched_s
     blocked = '-'
     if result.reported_s is not None and touched_s is not None:
@@ -63,7 +71,17 @@ def row(result: TrialResult) -> str:
 
 
 def summary(results: Sequence[TrialResult], wall_s: float) -> str:
-    """Return the falls by kind and side, and in total."""
+    """
+    Format the falls by kind and side of the obstacle, and in total.
+
+    Parameters
+    ----------
+    results
+        How all trials ended.
+    wall_s
+        How long they took together.
+
+    """
     lines = ['', '| falls | ' + ' | '.join(SIDES) + ' |', '|---' * (len(SIDES) + 1) + '|']
     for kind in KINDS:
         cells = [

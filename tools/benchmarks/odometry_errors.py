@@ -27,17 +27,34 @@ FACTOR = 2.0
 
 
 class OdometryRun:
-    """A robot that walks without pushes, and how far its odometry is off."""
+    """
+    A robot that walks without pushes, and how far its odometry is off.
+
+    Parameters
+    ----------
+    seed
+        Of the commands, and of the noise and biases of the sensors.
+    noise
+        The noise of the sensors.
+
+    """
 
     def __init__(self, seed: int, noise: SensorNoise) -> None:
-        """Put the robot into its world."""
         self._robot = LockstepRobot(BackendSettings(noise=noise, seed=seed))
         self._random = np.random.default_rng([seed, 4])
         self._start = self._robot.pose
         self._left_s = 0.0
 
     def walk(self, duration_s: float) -> bool:
-        """Obey random commands for a while; return whether it stands."""
+        """
+        Walk by random commands; return whether the robot still stands.
+
+        Parameters
+        ----------
+        duration_s
+            How long, in simulated time.
+
+        """
         end_s = self._robot.backend.time_s + duration_s
         while (rest_s := end_s - self._robot.backend.time_s) > 1e-6:
             if self._left_s <= 0.0:
@@ -106,7 +123,23 @@ def main() -> int:
 
 
 def rows(samples: list[tuple[Array, Array]], after_s: float) -> list[tuple[str, float]]:
-    """Return a row of the table, and the ratio of the variances, for each quantity."""
+    """
+    Compare the true with the stated variance of each quantity, over all runs.
+
+    Parameters
+    ----------
+    samples
+        Of each run the errors (6,) and the stated variances (6,) of x, y, z in m and roll, pitch,
+        yaw in rad.
+    after_s
+        How long the robot had walked, for the table.
+
+    Returns
+    -------
+    list of (str, float)
+        For each of `QUANTITIES` a row, and the ratio of the stated variance to the true one.
+
+    """
     errors = np.array([error for error, _ in samples])
     stated = np.array([variance for _, variance in samples])
     result = []

@@ -120,7 +120,20 @@ def _cost_ms(action: Any) -> float:
 
 
 class Listener(Node):
-    """Notes how old detections are when they come."""
+    """
+    A node that records how old detections are when they arrive.
+
+    Parameters
+    ----------
+    simulated
+        Whether stamps are in simulated time, from `/clock`, instead of that of the computer.
+
+    Attributes
+    ----------
+    ages_s, times_s
+        The age of each result, and when it arrived by the monotonic clock.
+
+    """
 
     def __init__(self, simulated: bool) -> None:
         super().__init__('listener')
@@ -141,7 +154,15 @@ class Listener(Node):
         self.times_s.append(time.monotonic())
 
     def spin(self, seconds: float) -> None:
-        """Go on for a while."""
+        """
+        Take messages for a while.
+
+        Parameters
+        ----------
+        seconds
+            How long, in real time.
+
+        """
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s:
             rclpy.spin_once(self, timeout_sec=0.05)
@@ -159,7 +180,15 @@ class Listener(Node):
 
 
 def measure_robot(seconds: float) -> None:
-    """Start the robot, and print what its perception takes."""
+    """
+    Start the robot, and print what its perception takes.
+
+    Parameters
+    ----------
+    seconds
+        For how long to measure, in real time.
+
+    """
     with running(ROBOT.split()) as launch:
         listener = Listener(simulated=True)
         while not listener.ages_s:
@@ -179,7 +208,15 @@ def measure_robot(seconds: float) -> None:
 
 
 def measure_camera(seconds: float) -> None:
-    """Start a detector alone, send it pictures faster than it can take them, and print."""
+    """
+    Send large pictures to a detector faster than it can take them, and print how it copes.
+
+    Parameters
+    ----------
+    seconds
+        For how long to measure, in real time.
+
+    """
     width, height = CAMERA_PX
     color, depth_m, camera = _picture(width, height)
     listener = Listener(simulated=False)

@@ -96,7 +96,17 @@ class Tally:
         return self.longest_view_s >= FOR_S
 
     def judge(self, time_s: float, is_in_view: bool) -> None:
-        """Take whether the thing is in view at a time."""
+        """
+        Update the tally with a new picture.
+
+        Parameters
+        ----------
+        time_s
+            When the picture was taken, in simulated time.
+        is_in_view
+            Whether the thing is near and visible enough in it.
+
+        """
         if not is_in_view:
             self.in_view_since_s = math.inf
             return
@@ -187,7 +197,32 @@ class Report:
 
 
 class Judge(Node):
-    """Knows what is true: says where the robot is, and what it should remember."""
+    """
+    Knows what is true: says where the robot is, and what it should remember.
+
+    Parameters
+    ----------
+    detector
+        `truth` to publish detections drawn from the scene; otherwise another node detects.
+    seed
+        Of the noise of these detections.
+    **options
+        Further arguments of `Node`.
+
+    Attributes
+    ----------
+    tallies
+        What is true of each thing of the apartment.
+    objects
+        The newest message of remembered objects.
+    report
+        The false things so far; `finish` completes it.
+    time_s, began_s
+        The simulated time of the newest depth image, and of the first that was judged; NaN before.
+    velocities, put, ask, scan
+        The publisher of `cmd_vel`, and clients of the simulator and of `scan_room`.
+
+    """
 
     def __init__(self, detector: str, seed: int, **options: Any) -> None:
         super().__init__('judge', **options)
@@ -214,7 +249,27 @@ class Judge(Node):
         self._count = 0
 
     def pose(self, frame: str, child: str, time: Time = Time()) -> tuple[Array, Array]:
-        """Return a pose by the transforms."""
+        """
+        Look up the pose of a frame in another one.
+
+        Parameters
+        ----------
+        frame, child
+            The frame in which the pose is expressed, and the one whose pose it is.
+        time
+            When; the latest time for which it is known by default.
+
+        Returns
+        -------
+        Array, Array
+            The position (3,) in m, and the rotation (3, 3).
+
+        Raises
+        ------
+        TransformException
+            The transform is not known.
+
+        """
         return pose_of(self._buffer.lookup_transform(frame, child, time).transform)
 
     def _localise(self) -> None:
@@ -366,7 +421,17 @@ def _detection(at: Array, kind: str, colour: str, size: Sequence[float]) -> Dete
 
 
 class Tour:
-    """Leads the robot."""
+    """
+    Leads the robot through the apartment.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot.
+    judge
+        Hears the robot and drives it; all that it needs is waited for.
+
+    """
 
     def __init__(self, ros: RosSandbox, judge: Judge) -> None:
         self._ros, self._judge = ros, judge
@@ -376,7 +441,20 @@ class Tour:
         ros.wait_until(lambda: not math.isnan(judge.began_s), PATIENCE_S, 'pictures')
 
     def teleport(self, x_m: float, y_m: float) -> None:
-        """Put the robot somewhere as it stands: its gyroscope would miss a turn."""
+        """
+        Put the robot somewhere without turning it: its gyroscope would miss a turn.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The position of its base in the world.
+
+        Raises
+        ------
+        RuntimeError
+            The simulator cannot put it there.
+
+        """
         state: EntityState = self._answer(
             self._judge.ask, GetEntityState.Request(entity='robot')
         ).state
@@ -387,7 +465,15 @@ class Tour:
         self.wait(1.5)
 
     def turn_to(self, yaw_rad: float) -> None:
-        """Turn on the spot."""
+        """
+        Turn on the spot, for 30 s of simulated time at most.
+
+        Parameters
+        ----------
+        yaw_rad
+            The heading in the world.
+
+        """
         judge, begin_s = self._judge, self._judge.time_s
         while judge.time_s - begin_s < 30.0:
             _, rotation = judge.pose(WORLD, 'base_link')
@@ -402,7 +488,15 @@ class Tour:
         self.wait(1.0)
 
     def walk(self, x_m: float, y_m: float) -> None:
-        """Walk straight to a point, and stand."""
+        """
+        Walk straight to a point and stand, after 90 s of simulated time at the latest.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point in the world.
+
+        """
         judge, begin_s = self._judge, self._judge.time_s
         while judge.time_s - begin_s < 90.0:
             position, rotation = judge.pose(WORLD, 'base_link')
@@ -431,7 +525,15 @@ class Tour:
             raise RuntimeError(f'The look around failed: {result.error_msg}')
 
     def wait(self, duration_s: float) -> None:
-        """Let simulated time pass."""
+        """
+        Wait while simulated time passes, as the depth images tell it.
+
+        Parameters
+        ----------
+        duration_s
+            How long.
+
+        """
         end_s = self._judge.time_s + duration_s
         self._ros.wait_until(lambda: self._judge.time_s >= end_s, PATIENCE_S, 'pictures')
 
@@ -443,7 +545,20 @@ class Tour:
 
 @contextmanager
 def programs(options: argparse.Namespace) -> Iterator[dict[str, int]]:
-    """Run the simulator and the nodes of perception; give their process ids."""
+    """
+    Run the simulator and the nodes of perception for the time of a `with`.
+
+    Parameters
+    ----------
+    options
+        The command line: `renderer`, `speed`, `teleport`, `detector`, `backend` and `log`.
+
+    Yields
+    ------
+    dict of str to int
+        The process ids by name.
+
+    """
     timed = ('--ros-args', '-p', 'use_sim_time:=true')
     told = {
         'scene': 'apartment',
@@ -487,7 +602,15 @@ def programs(options: argparse.Namespace) -> Iterator[dict[str, int]]:
 
 
 def cpu_s(pid: int) -> float:
-    """Return the processor time that a process has taken."""
+    """
+    Read the CPU time in s that a process has used so far, its children not included.
+
+    Parameters
+    ----------
+    pid
+        The process id.
+
+    """
     fields = Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 

@@ -89,7 +89,22 @@ def main() -> int:
 
 
 def run(kitchen: Kitchen, options: argparse.Namespace) -> int:
-    """Try one thing after another."""
+    """
+    Do one trial after another, and print a row for each.
+
+    Parameters
+    ----------
+    kitchen
+        The apartment.
+    options
+        The command line: `trials`, `first` and `seed`.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if too few things were held, the robot fell, or a success was none.
+
+    """
     random = np.random.default_rng(options.seed)
     ends: Counter[str] = Counter()
     knocked = 0
@@ -113,7 +128,20 @@ def run(kitchen: Kitchen, options: argparse.Namespace) -> int:
 
 
 class Kitchen:
-    """The apartment, its robot, and who moves things in it."""
+    """
+    The apartment, its robot, and who moves things in it.
+
+    Parameters
+    ----------
+    ros
+        The domain of the robot, whose servers are waited for.
+
+    Attributes
+    ----------
+    robot
+        The simulated robot.
+
+    """
 
     def __init__(self, ros: RosSandbox) -> None:
         self._ros, self.robot = ros, SimulatedRobot(ros)
@@ -137,7 +165,15 @@ class Kitchen:
         self._homes = {name: self._entities.position_m(name) for name in self._things}
 
     def drawn(self, random: np.random.Generator) -> Trial:
-        """Draw a trial: a thing near which a robot can stand, and a robot in that room."""
+        """
+        Draw a trial: a thing near which a robot can stand, and a robot in that room.
+
+        Parameters
+        ----------
+        random
+            The source of random numbers.
+
+        """
         while True:
             name = str(random.choice([n for n, t in self._things.items() if t.kind in KINDS]))
             surfaces = self._places.surfaces
@@ -197,7 +233,24 @@ class Kitchen:
         )
 
     def tell(self, trial: Trial) -> tuple[str, float, list[str]]:
-        """Do a trial; return how it ended, how long it took, and what else was moved."""
+        """
+        Do a trial: set it up, look around, pick the thing, and drop it again.
+
+        Parameters
+        ----------
+        trial
+            What stands where, and where the robot begins.
+
+        Returns
+        -------
+        str
+            `held`, `told wrongly` if the robot says so and it is not, `fell`, or one of `CODES`.
+        float
+            How long it took, in s of simulated time.
+        list of str
+            The other things that were moved.
+
+        """
         self._prepare(trial)
         before = {name: self._entities.position_m(name) for name in self._things}
         begin_s = self.robot.topics.time_s

@@ -73,7 +73,21 @@ def apartment() -> tuple[RulePlanner, World]:
 
 
 def cost_ms(planner: RulePlanner, world: World, text: str, runs: int) -> float:
-    """Return the CPU time of a sentence, on average; the first time warms up."""
+    """
+    Measure the mean CPU time in ms of planning a sentence, after one run to warm up.
+
+    Parameters
+    ----------
+    planner
+        The planner by rules.
+    world
+        What it knows.
+    text
+        The sentence.
+    runs
+        How many runs count.
+
+    """
     planner.plan(text, world, Dialogue())
     begin_s = time.process_time()
     for _ in range(runs):

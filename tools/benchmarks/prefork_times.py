@@ -94,7 +94,17 @@ class Cost:
 
 
 def write_package(prefix: str, nodes: int) -> None:
-    """Install the package into a folder."""
+    """
+    Install the package of the talkers, and write its launch file.
+
+    Parameters
+    ----------
+    prefix
+        The folder to install into.
+    nodes
+        How many nodes the launch file starts.
+
+    """
     for path, text in FILES.items():
         path = os.path.join(prefix, path)
         os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -104,7 +114,15 @@ def write_package(prefix: str, nodes: int) -> None:
 
 
 def environment_with(prefix: str) -> dict[str, str]:
-    """Return the environment in which the package is found."""
+    """
+    Return the environment in which the package is found.
+
+    Parameters
+    ----------
+    prefix
+        The folder that it is installed in.
+
+    """
     added = {'AMENT_PREFIX_PATH': prefix, 'PYTHONPATH': os.path.join(prefix, SITE_PACKAGES)}
     joined = {
         name: os.pathsep.join(filter(None, (path, os.environ.get(name, ''))))
@@ -114,7 +132,24 @@ def environment_with(prefix: str) -> dict[str, str]:
 
 
 def measure(prefix: str, nodes: int, options: list[str]) -> Cost:
-    """Launch the nodes, wait for the last of them, look at their memory and end them."""
+    """
+    Launch the nodes, wait until all have published, measure their cost and end them.
+
+    Parameters
+    ----------
+    prefix
+        The folder that the package is installed in.
+    nodes
+        How many nodes the launch file starts.
+    options
+        Further options of `ros2 launch`.
+
+    Returns
+    -------
+    Cost
+        The times are those of the launch and all nodes; the memory is the mean of a node.
+
+    """
     command = ['ros2', 'launch', *options, os.path.join(prefix, 'talkers.launch.py')]
     begin_s = time.monotonic()
     with subprocess.Popen(
@@ -137,7 +172,20 @@ def measure(prefix: str, nodes: int, options: list[str]) -> Cost:
 
 
 def cpu_times(pids: list[int]) -> Iterator[float]:
-    """Yield the seconds of CPU time that each process and its ended children have used."""
+    """
+    Read the CPU time that each process and its ended children have used.
+
+    Parameters
+    ----------
+    pids
+        The process ids.
+
+    Yields
+    ------
+    float
+        User and system time in s, one for each process.
+
+    """
     for pid in pids:
         with open(f'/proc/{pid}/stat') as file:
             fields = file.read().rpartition(')')[2].split()
@@ -145,7 +193,15 @@ def cpu_times(pids: list[int]) -> Iterator[float]:
 
 
 def pss_of(pid: int) -> float:
-    """Return the memory of a process in MB."""
+    """
+    Read the proportional set size (PSS) of a process, in thousands of kB.
+
+    Parameters
+    ----------
+    pid
+        The process id.
+
+    """
     with open(f'/proc/{pid}/smaps_rollup') as file:
         line = next(line for line in file if line.startswith('Pss:'))
     return int(line.split()[1]) / 1000

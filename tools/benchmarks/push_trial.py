@@ -38,7 +38,20 @@ class PushTrial:
 
 
 def stands_after(trial: PushTrial) -> bool:
-    """Let a robot walk and push it; return whether it still stands after a while."""
+    """
+    Walk a robot and push it; return whether it still stands `WATCH_S` later.
+
+    Parameters
+    ----------
+    trial
+        The push, and how the robot walks.
+
+    Raises
+    ------
+    RuntimeError
+        The robot does not walk when it is to be pushed.
+
+    """
     # Legs that pass through each other would make it easy to cross them.
     settings = BackendSettings(
         Physics(self_collision='all'), noise=REALISTIC.scaled(trial.noise), seed=trial.seed

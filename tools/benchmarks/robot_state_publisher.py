@@ -56,7 +56,19 @@ def main() -> None:
 
 
 def print_rows(file: Path, rate_hz: int, runs: int) -> None:
-    """Print the rows of one frequency; the two kinds of nodes take turns."""
+    """
+    Print the rows of one frequency; the two kinds of nodes take turns.
+
+    Parameters
+    ----------
+    file
+        The URDF file of the robot.
+    rate_hz
+        How many joint states are sent a second.
+    runs
+        How often each node is measured.
+
+    """
     pairs = [
         (share_of(listener(), rate_hz), share_of(publisher(file, rate_hz), rate_hz))
         for _ in range(runs)
@@ -74,7 +86,17 @@ def listener() -> list[str]:
 
 
 def publisher(file: Path, rate_hz: int) -> list[str]:
-    """Return the command of the node that is measured."""
+    """
+    Return the command that runs `robot_state_publisher`.
+
+    Parameters
+    ----------
+    file
+        The URDF file of the robot.
+    rate_hz
+        How many joint states are sent a second: half the frequency that it may publish at.
+
+    """
     return [
         *(sys.executable, '-m', 'robot_state_publisher.program', str(file)),
         *('--ros-args', '-p', f'publish_frequency:={2 * rate_hz}.0'),
@@ -82,7 +104,22 @@ def publisher(file: Path, rate_hz: int) -> list[str]:
 
 
 def share_of(command: list[str], rate_hz: int) -> tuple[float, float]:
-    """Return what share of a core a node takes while it hears states, and the tf it sends."""
+    """
+    Measure a node that subscribes to joint states.
+
+    Parameters
+    ----------
+    command
+        The command that runs the node.
+    rate_hz
+        How many joint states are sent a second.
+
+    Returns
+    -------
+    float, float
+        The share of a core that it takes, and the messages a second on `/tf`.
+
+    """
     with running(command) as process, sender() as (node, states):
         send(node, states, rate_hz, SETTLE_S)
         begin_s, begin_cpu_s = time.monotonic(), cpu_s(process.pid)
@@ -110,7 +147,21 @@ def sender() -> Iterator[tuple[Any, Any]]:
 
 
 def send(node: Any, states: Any, rate_hz: int, seconds: float) -> int:
-    """Send states that change; return how many transform messages came meanwhile."""
+    """
+    Publish joint states that change; return how many messages came on `/tf` meanwhile.
+
+    Parameters
+    ----------
+    node
+        The node of rclpy, which is spun.
+    states
+        Its publisher of joint states.
+    rate_hz
+        How many joint states are sent a second.
+    seconds
+        For how long.
+
+    """
     heard: list[bytes] = []
     tf = node.create_subscription(TFMessage, '/tf', heard.append, 100, raw=True)
     message = JointState(name=NAMES)

@@ -59,10 +59,24 @@ class Cost(NamedTuple):
 
 
 class Visitor:
-    """Counts what a browser gets, and how often the first link moves."""
+    """
+    Counts what a browser gets, and how often a link of the first robot moves.
+
+    Parameters
+    ----------
+    connection
+        A WebSocket of viser, which is read in a thread until it is closed.
+
+    Attributes
+    ----------
+    size
+        The number of bytes so far.
+    frames
+        How often the orientation of the first `link_1` was set so far.
+
+    """
 
     def __init__(self, connection: ClientConnection) -> None:
-        """Begin to read."""
         self.size = self.frames = 0
         self._connection = connection
         self._first = ''
@@ -85,7 +99,15 @@ class Visitor:
 
 
 def messages_in(data: bytes) -> list[dict[str, Any]]:
-    """Return what the server of viser sends together."""
+    """
+    Decode the messages that the server of viser sends together.
+
+    Parameters
+    ----------
+    data
+        One message of the WebSocket.
+
+    """
     packed_size = int.from_bytes(data[8:16], 'little')
     packed = zstandard.ZstdDecompressor().decompress(data[16 : 16 + packed_size])
     messages: list[dict[str, Any]] = msgspec.msgpack.decode(packed)['messages']
@@ -109,7 +131,21 @@ def main() -> None:
 
 
 def print_row(file: Path, count: int, rate_hz: int, runs: int) -> None:
-    """Print one row of the table."""
+    """
+    Measure repeatedly, and print one row of the table.
+
+    Parameters
+    ----------
+    file
+        The RViz configuration that is written.
+    count
+        How many robots are shown.
+    rate_hz
+        How many frames RViz draws a second.
+    runs
+        How often to measure; the row has the medians.
+
+    """
     file.write_text(rviz_file(count, rate_hz))
     costs = [measure(file, count) for _ in range(runs)]
     cost = Cost(*(median(values) for values in zip(*costs)))
@@ -121,7 +157,22 @@ def print_row(file: Path, count: int, rate_hz: int, runs: int) -> None:
 
 
 def measure(file: Path, count: int) -> Cost:
-    """Return the cost of showing robots."""
+    """
+    Run robots and RViz, and measure what showing them takes.
+
+    Parameters
+    ----------
+    file
+        The RViz configuration.
+    count
+        How many robots move.
+
+    Returns
+    -------
+    Cost
+        The share of a core, the memory, and what a browser gets.
+
+    """
     robots = Path(__file__).with_name('rviz_robots.py')
     port = free_port()
     program = [sys.executable, '-m', 'rviz2.rviz2', '-d', str(file)]
@@ -146,7 +197,25 @@ def measure(file: Path, count: int) -> Cost:
 
 @contextmanager
 def connection(port: int) -> Iterator[ClientConnection]:
-    """Connect as a browser does, as soon as the page is served."""
+    """
+    Connect to viser for the time of a `with`, as a browser does, as soon as the page is served.
+
+    Parameters
+    ----------
+    port
+        The port of the page on this machine.
+
+    Yields
+    ------
+    ClientConnection
+        The WebSocket, which has sent a first camera.
+
+    Raises
+    ------
+    OSError
+        There is still no page after `TIMEOUT_S`.
+
+    """
     end_s = time.monotonic() + TIMEOUT_S
     while True:
         try:
@@ -173,7 +242,17 @@ def free_port() -> int:
 
 
 def rviz_file(count: int, rate_hz: int) -> str:
-    """Return a file that shows some robots, the frames of which are not shown."""
+    """
+    Return an RViz configuration that shows some robots, without a display of their frames.
+
+    Parameters
+    ----------
+    count
+        How many robots.
+    rate_hz
+        How many frames are drawn a second.
+
+    """
     robots = ''.join(
         f"""
     - Class: rviz_default_plugins/RobotModel

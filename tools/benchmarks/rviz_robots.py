@@ -60,12 +60,32 @@ def urdf() -> str:
 
 
 def above(index: int) -> int:
-    """Return the link that a joint hangs from: six in a row make a limb."""
+    """
+    Return the number of the link that is the parent of a joint: six joints in a row make a limb.
+
+    Parameters
+    ----------
+    index
+        The number of the joint, from 0 on.
+
+    """
     return 0 if index % 6 == 0 else index
 
 
 def describe(node: Any, name: str, index: int) -> TransformStamped:
-    """Publish the description of a robot; return where it stands."""
+    """
+    Publish the description of a robot; return the transform from the map to its first link.
+
+    Parameters
+    ----------
+    node
+        The node of rclpy that publishes it.
+    name
+        The name of the robot, which is the prefix of its topic and frames.
+    index
+        Where it stands: so many m along y.
+
+    """
     publisher = node.create_publisher(String, f'/{name}/robot_description', LATCHED)
     publisher.publish(String(data=urdf()))
     transform = TransformStamped(child_frame_id=f'{name}/link_0')
@@ -75,13 +95,38 @@ def describe(node: Any, name: str, index: int) -> TransformStamped:
 
 
 def phases(name: str) -> list[bytes]:
-    """Return the messages of a robot that moves, with a stamp that is to be replaced."""
+    """
+    Serialize the transforms of a robot over one period of its motion.
+
+    Parameters
+    ----------
+    name
+        The name of the robot, which is the prefix of its frames.
+
+    Returns
+    -------
+    list of bytes
+        `PHASES` messages for `/tf`, whose stamps `stamped` replaces.
+
+    """
     model = parse_urdf(urdf())
     return [serialize_message(pose_of(model, name, number)) for number in range(PHASES)]
 
 
 def pose_of(model: RobotModel, name: str, number: int) -> TFMessage:
-    """Return the transforms of one pose."""
+    """
+    Compute the transforms of all joints in one pose, with the stamp `STAMP`.
+
+    Parameters
+    ----------
+    model
+        The robot.
+    name
+        The prefix of its frames.
+    number
+        The phase of the motion, from 0 to below `PHASES`.
+
+    """
     transforms = []
     for index, joint in enumerate(model.joints):
         transform = TransformStamped(child_frame_id=f'{name}/{joint.child}')
@@ -96,7 +141,15 @@ def pose_of(model: RobotModel, name: str, number: int) -> TFMessage:
 
 
 def stamped(message: bytes) -> bytes:
-    """Return a message with the time that it is."""
+    """
+    Replace the stamps of a serialized message by the current time.
+
+    Parameters
+    ----------
+    message
+        One of `phases`.
+
+    """
     now_ns = time.time_ns()
     return message.replace(STAMP, struct.pack('<iI', now_ns // 10**9, now_ns % 10**9))
 

@@ -52,7 +52,15 @@ def main() -> None:
 
 
 def print_costs(runs: list[dict[str, float]]) -> None:
-    """Print what the parts of a tick cost while the robot walks."""
+    """
+    Print what the parts of a tick cost while the robot walks.
+
+    Parameters
+    ----------
+    runs
+        Of each run the CPU time of each part in us.
+
+    """
     settings = BackendSettings()
     print(f'{"CPU us":>7}  of a tick, mean of {TICKS} while it walks, median of {len(runs)} runs')
     for name in runs[0]:
@@ -64,13 +72,36 @@ def print_costs(runs: list[dict[str, float]]) -> None:
 
 
 def print_share(runs: list[Share], what: str) -> None:
-    """Print what share of a core the simulator takes, and how fast its time runs."""
+    """
+    Print what share of a core the simulator takes, and how fast its time runs.
+
+    Parameters
+    ----------
+    runs
+        What was measured; the row has the medians.
+    what
+        The name of the row.
+
+    """
     cpu, factor = median(run.cpu for run in runs), median(run.factor for run in runs)
     print(f'{cpu:7.1%} {factor:7.2f}  {what}', flush=True)
 
 
 def sweep_us(scene: str) -> float:
-    """Return what a sweep takes, with noise, by the state of a robot that stands in a scene."""
+    """
+    Measure the least CPU time of a sweep of the laser scanner, with noise, of a robot that stands.
+
+    Parameters
+    ----------
+    scene
+        The name of the scene around it.
+
+    Returns
+    -------
+    float
+        Microseconds, with the forward kinematics that a sweep needs.
+
+    """
     backend = MujocoBackend(scene=load_scene(scene))
     model, data = backend.model, mujoco.MjData(backend.model)
     scanner = LaserScanner(model, 'robot/laser', noise=ScanNoise(0.01, 0.002))

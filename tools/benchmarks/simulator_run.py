@@ -40,7 +40,22 @@ def simulator_share(
     """
     Start the simulator without a camera, let the robot walk, and measure.
 
-    `scans` subscribes to the laser scanner, which costs nothing otherwise.
+    Parameters
+    ----------
+    real_time_factor
+        How many times as fast as real the simulation may run; 0 is as fast as possible.
+    forward_m_s
+        The commanded forward velocity.
+    scene
+        The name of the scene.
+    scans
+        Whether to subscribe to the laser scanner, which costs nothing otherwise.
+
+    Raises
+    ------
+    TimeoutError
+        The simulator has not started.
+
     """
     with domain_id() as domain:
         os.environ['ROS_DOMAIN_ID'] = str(domain)

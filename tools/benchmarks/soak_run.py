@@ -40,7 +40,15 @@ class Conditions:
 
     @classmethod
     def drawn(cls, seed: int) -> Conditions:
-        """Draw friction 0.5 to 1.1, the trunk's mass +-20 %, and up to 20 ms of latency."""
+        """
+        Draw friction 0.5 to 1.1, the trunk's mass +-20 %, and up to 20 ms of latency.
+
+        Parameters
+        ----------
+        seed
+            Of the random numbers; the same seed gives the same conditions.
+
+        """
         random = np.random.default_rng([seed, 1])
         return cls(
             seed,
@@ -75,7 +83,17 @@ class SoakResult:
 
 
 def drawn_segment(random: np.random.Generator, push_ns: float) -> Segment:
-    """Draw a command of one of six kinds, and a push in any direction."""
+    """
+    Draw a command of one of six kinds, and a push in any direction.
+
+    Parameters
+    ----------
+    random
+        The source of random numbers.
+    push_ns
+        The impulse of the push in N s; 0 for none.
+
+    """
     forward, left, turn = (
         (0.0, 0.0, 0.0),
         (random.uniform(-0.2, 0.35), 0.0, 0.0),
@@ -95,7 +113,21 @@ def drawn_segment(random: np.random.Generator, push_ns: float) -> Segment:
 
 
 class SoakRun:
-    """A robot that walks in a world of its own, without ROS."""
+    """
+    A robot that walks in a world of its own, without ROS.
+
+    Parameters
+    ----------
+    conditions, push_ns
+        What differs from run to run, and the impulse of the pushes in N s.
+    drop_outs
+        The chance at a tick that control begins to stall.
+    hands
+        Whether the robot has wrists and grippers.
+    load_kg
+        What the left hand carries, held before the body; only with hands.
+
+    """
 
     def __init__(
         self,
@@ -105,21 +137,6 @@ class SoakRun:
         hands: bool = False,
         load_kg: float = 0.0,
     ) -> None:
-        """
-        Make the world.
-
-        Parameters
-        ----------
-        conditions, push_ns
-            What differs from run to run, and the impulse of the pushes.
-        drop_outs
-            The chance at a tick that control begins to stall.
-        hands
-            Whether the robot has wrists and grippers.
-        load_kg
-            What the left hand carries, held before the body.
-
-        """
         self._conditions, self._push_ns = conditions, push_ns
         masses = {MASS_LINK: conditions.mass_factor}
         if load_kg:
@@ -149,7 +166,15 @@ class SoakRun:
         arm.accept(control.checked_goal(ARM, request), lambda end: None)
 
     def run(self, duration_s: float) -> SoakResult:
-        """Walk until the time is over or the robot falls."""
+        """
+        Walk by random commands until the time is over or the robot falls.
+
+        Parameters
+        ----------
+        duration_s
+            How long at most, in simulated time.
+
+        """
         backend = self._robot.backend
         segment = Segment(VelocityCommand(), SETTLE_S, 0.0, 0j)
         stands = self._obey(segment, duration_s)

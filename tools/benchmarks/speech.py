@@ -153,7 +153,23 @@ def measured(
     words: list[str], commands: list[str], planner: RulePlanner, world: World,
     listener: Listener, options: argparse.Namespace,
 ) -> Row:  # fmt: skip
-    """Let a voice say everything."""
+    """
+    Synthesize all sentences with a voice, recognize them, and count what became of them.
+
+    Parameters
+    ----------
+    words
+        The command of the voice, one of `VOICES`.
+    commands
+        The sentences that are commands; `OTHER` and `STOPS` follow.
+    planner, world
+        Decide whether two sentences mean the same.
+    listener
+        The recogniser that is measured.
+    options
+        The command line: `noise` and `list`.
+
+    """
     row = Row()
     for number, text in enumerate([*commands, *OTHER, *STOPS]):
         sound = spoken(words, text, options.noise, number)
@@ -177,14 +193,48 @@ def measured(
 
 
 def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
-    """Return a sentence with silence and noise around it."""
+    """
+    Synthesize a sentence with silence and noise around it.
+
+    Parameters
+    ----------
+    words
+        The command of the voice.
+    text
+        The sentence.
+    noise
+        The standard deviation of the noise, in steps of 16-bit samples.
+    seed
+        Of the noise.
+
+    Returns
+    -------
+    bytes
+        Samples in S16LE, 16 kHz, mono.
+
+    """
     samples = np.concatenate([np.zeros(8000), synthesized(words, text), np.zeros(16_000)])
     samples += np.random.default_rng(seed).normal(0.0, noise, samples.size)
     return s16le(samples)
 
 
 def synthesized(words: list[str], text: str) -> NDArray[np.float64]:
-    """Return the samples of a sentence at 16 kHz, as loud as the others."""
+    """
+    Synthesize a sentence with a voice, with a peak of `PEAK`.
+
+    Parameters
+    ----------
+    words
+        The command of the voice, with `{file}` and `{text}` to be filled in.
+    text
+        The sentence.
+
+    Returns
+    -------
+    NDArray
+        Samples (n,) at 16 kHz, in steps of 16-bit samples.
+
+    """
     with TemporaryDirectory() as folder:
         file = f'{folder}/speech.wav'
         command = [word.format(file=file, text=text) for word in words]
@@ -194,12 +244,30 @@ def synthesized(words: list[str], text: str) -> NDArray[np.float64]:
 
 
 def s16le(samples: NDArray[np.float64]) -> bytes:
-    """Return samples as bytes."""
+    """
+    Convert samples to bytes in S16LE, clipped to 16 bits.
+
+    Parameters
+    ----------
+    samples
+        The samples (n,), in steps of 16-bit samples.
+
+    """
     return np.clip(samples, -32768, 32767).astype('<i2').tobytes()
 
 
 def write_samples(folder: Path, grammar: str) -> None:
-    """Write the sentences of `SAMPLES` and their grammar; files are named by text and voice."""
+    """
+    Write the sentences of `SAMPLES` and their grammar; files are named by text and voice.
+
+    Parameters
+    ----------
+    folder
+        Where to write them.
+    grammar
+        The commands in JSGF.
+
+    """
     folder.mkdir(parents=True, exist_ok=True)
     (folder / 'robot.jsgf').write_text(grammar)
     for voice, texts in SAMPLES.items():
@@ -210,7 +278,22 @@ def write_samples(folder: Path, grammar: str) -> None:
 
 
 def recognized(listener: Listener, sound: bytes) -> tuple[str, bool, bool]:
-    """Return what is heard in a sound, whether all of it counts, and whether any is a stop."""
+    """
+    Segment a sound into utterances and recognize them.
+
+    Parameters
+    ----------
+    listener
+        The recogniser.
+    sound
+        Samples in S16LE, 16 kHz, mono.
+
+    Returns
+    -------
+    str, bool, bool
+        The words, whether all of them are accepted, and whether any utterance is a stop.
+
+    """
     segmenter = UtteranceSegmenter()
     texts, is_accepted, is_stop = [], True, False
     for piece in chunks(sound, 0.03):
@@ -223,7 +306,24 @@ def recognized(listener: Listener, sound: bytes) -> tuple[str, bool, bool]:
 
 
 def plan_of(planner: RulePlanner, world: World, text: str) -> tuple[object, ...] | None:
-    """Return the steps of the plan for a sentence; None if there is none."""
+    """
+    Plan a sentence, so that plans can be compared.
+
+    Parameters
+    ----------
+    planner
+        The planner by rules.
+    world
+        What it knows.
+    text
+        The sentence.
+
+    Returns
+    -------
+    tuple or None
+        Skill and arguments of each step; None if there is no plan.
+
+    """
     outcome = planner.plan(text, world, Dialogue())
     if isinstance(outcome, Plan):
         return tuple((step.skill, repr(step.arguments)) for step in outcome.steps)

@@ -29,7 +29,7 @@ def main() -> int:
         '--drop-outs',
         type=in_range(float, 0.0, 1.0),
         default=0.0,
-        help='share of the ticks at which control stalls',
+        help='chance of a tick that control stalls for 1 to 10 ticks',
     )
     parser.add_argument('--hands', action='store_true', help='give the robot hands')
     parser.add_argument(
@@ -58,7 +58,15 @@ def main() -> int:
 
 
 def row(result: SoakResult) -> str:
-    """Return the row of a run."""
+    """
+    Format the table row of a run.
+
+    Parameters
+    ----------
+    result
+        How the run ended.
+
+    """
     conditions = result.conditions
     return (
         f'| {conditions.seed} | {conditions.friction:.2f} | {conditions.mass_factor - 1:+.0%} '
@@ -67,7 +75,15 @@ def row(result: SoakResult) -> str:
 
 
 def ending(result: SoakResult) -> str:
-    """Say how a run ended."""
+    """
+    Describe how a run ended.
+
+    Parameters
+    ----------
+    result
+        The run.
+
+    """
     if not result.fell:
         return 'stood'
     command, push_ns = result.last.command, result.last.impulse_ns
@@ -79,7 +95,17 @@ def ending(result: SoakResult) -> str:
 
 
 def summary(results: list[SoakResult], cpu_s: float) -> str:
-    """Return the last line."""
+    """
+    Format the summary of all runs.
+
+    Parameters
+    ----------
+    results
+        How they ended.
+    cpu_s
+        The CPU time that they took together.
+
+    """
     stood = sum(not result.fell for result in results)
     simulated_s = sum(result.survived_s for result in results)
     return (

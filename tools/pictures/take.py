@@ -98,33 +98,73 @@ def main() -> None:
 
 
 def console(browser: Any) -> None:
-    """Take those of the page while the robot walks in a room."""
+    """
+    Take the pictures of the page while the robot walks in a room.
+
+    Parameters
+    ----------
+    browser
+        The browser of Playwright.
+
+    """
     with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=room') as addresses:
         picture_console(browser, addresses['RViz is'])
 
 
 def apartment(browser: Any) -> None:
-    """Take those of the home."""
+    """
+    Take the pictures of the apartment and its rooms.
+
+    Parameters
+    ----------
+    browser
+        The browser of Playwright.
+
+    """
     with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=apartment') as addresses:
         picture_apartment(browser, addresses['RViz is'])
         picture_rooms()
 
 
 def command(browser: Any) -> None:
-    """Take that of a command."""
+    """
+    Take the animation of a typed command that is carried out.
+
+    Parameters
+    ----------
+    browser
+        The browser of Playwright.
+
+    """
     with launched('humanoid_bringup', 'full_system.launch.py', 1, 'voice:=false') as addresses:
         picture_command(browser, addresses['RViz is'])
 
 
 def sliders(browser: Any) -> None:
-    """Take those of the model alone."""
+    """
+    Take the pictures of the model alone: its sliders and its frames.
+
+    Parameters
+    ----------
+    browser
+        The browser of Playwright.
+
+    """
     with launched('humanoid_description', 'view.launch.py', 2) as addresses:
         picture_sliders(browser, addresses['The sliders are'])
         picture_frames(browser, addresses['RViz is'])
 
 
 def picture_console(browser: Any, address: str) -> None:
-    """Show the page and its stick while the robot walks, the button, topics."""
+    """
+    Take the pictures of the page and its stick while the robot walks, the button, and topics.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    """
     tab = opened(browser, address)
     show_camera(tab)
     tab.get_by_role('tab', name='Drive').click()
@@ -141,7 +181,15 @@ def picture_console(browser: Any, address: str) -> None:
 
 
 def picture_stop(tab: Any) -> None:
-    """Show the button once it was pressed, and that nobody drives, however the drive ended."""
+    """
+    Take the picture of the stop button once it was pressed and nobody drives, then release it.
+
+    Parameters
+    ----------
+    tab
+        The page, with the robot at rest or in a drive that has just ended.
+
+    """
     safety = tab.frame_locator('iframe[title=safety]')
     for label in ('Give back', 'Take control'):
         safety.locator('#take').click()
@@ -153,14 +201,35 @@ def picture_stop(tab: Any) -> None:
 
 
 def show_camera(tab: Any) -> None:
-    """Open the window with what the robot sees."""
+    """
+    Open the window with the image of the robot's camera.
+
+    Parameters
+    ----------
+    tab
+        The page.
+
+    """
     tab.get_by_text('Camera (off)').click()
     tab.locator('label:has-text("Enabled"):visible').first.click()
     tab.get_by_text('messages have come on /camera/image_raw').wait_for()
 
 
 def walk(tab: Any) -> None:
-    """Drive forwards and to the left, until the pointer is released."""
+    """
+    Drive forwards and to the left; the pointer still holds the stick afterwards.
+
+    Parameters
+    ----------
+    tab
+        The page, with its tab *Drive* open.
+
+    Raises
+    ------
+    SystemExit
+        The robot has stopped in each of `ATTEMPTS`.
+
+    """
     drive, safety = (tab.frame_locator(f'iframe[title={name}]') for name in ('drive', 'safety'))
     for _ in range(ATTEMPTS):
         hold_stick(tab)
@@ -173,14 +242,30 @@ def walk(tab: Any) -> None:
 
 
 def release(tab: Any) -> None:
-    """Let a robot go on that was stopped."""
+    """
+    Release a robot that was stopped, confirmation included.
+
+    Parameters
+    ----------
+    tab
+        The page.
+
+    """
     button = tab.frame_locator('iframe[title=safety]').locator('#release')
     button.click()
     button.click()
 
 
 def hold_stick(tab: Any) -> None:
-    """Hold the stick for some steps."""
+    """
+    Press the stick and hold it for `WALK_MS`.
+
+    Parameters
+    ----------
+    tab
+        The page, with its tab *Drive* open.
+
+    """
     stick = tab.frame_locator('iframe[title=drive]').locator('#stick')
     stick.scroll_into_view_if_needed()
     tab.wait_for_timeout(2000)
@@ -193,7 +278,15 @@ def hold_stick(tab: Any) -> None:
 
 
 def picture_apartment(browser: Any, address: str) -> None:
-    """Show the whole home from above, with walls cut."""
+    """
+    Take the picture of the whole home from above, with walls cut.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    """
     tab = opened(browser, address)
     show_from(tab, WHOLE_HOME)
     scene = {'x': 0, 'y': 0, 'width': WIDTH - 390, 'height': HEIGHT}
@@ -202,7 +295,17 @@ def picture_apartment(browser: Any, address: str) -> None:
 
 
 def show_from(tab: Any, view: Mapping[str, Sequence[str]]) -> None:
-    """Look at the home from somewhere, by the labels of the fields of the view."""
+    """
+    Set the view of the page.
+
+    Parameters
+    ----------
+    tab
+        The page.
+    view
+        The texts to enter, by the label of the fields; a label may have several fields.
+
+    """
     tab.get_by_role('tab', name='Views').click()
     for label, values in view.items():
         name = tab.locator('label', has_text=re.compile(f'^{label}')).filter(visible=True).first
@@ -214,7 +317,20 @@ def show_from(tab: Any, view: Mapping[str, Sequence[str]]) -> None:
 
 
 def picture_command(browser: Any, address: str) -> None:
-    """Show how a command is done, eight times as fast as it is."""
+    """
+    Take the animation of a command that is carried out, `FASTER` times as fast as it was.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    Raises
+    ------
+    SystemExit
+        The robot has not carried out the command, or not within `COMMAND_S`.
+
+    """
     tab = opened(browser, address)
     show_from(tab, KITCHEN)
     tab.get_by_role('tab', name='Command').click()
@@ -255,7 +371,15 @@ def picture_command(browser: Any, address: str) -> None:
 
 
 def taken(tab: Any) -> Image.Image:
-    """Take a picture of a page for an animation."""
+    """
+    Take a frame of an animation.
+
+    Parameters
+    ----------
+    tab
+        The page; the frame has three quarters of its size.
+
+    """
     picture = Image.open(BytesIO(tab.screenshot()))
     return picture.convert('RGB').resize((WIDTH * 3 // 4, HEIGHT * 3 // 4))
 
@@ -273,12 +397,38 @@ def picture_rooms() -> None:
 
 
 def ros2(*command: str) -> None:
-    """Run a command."""
+    """
+    Run a command of `ros2`, without its output.
+
+    Parameters
+    ----------
+    *command
+        What follows `ros2`.
+
+    """
     subprocess.run(['ros2', *command], check=True, stdout=subprocess.DEVNULL)
 
 
 def seen_from(pose: str) -> NDArray[np.uint8]:
-    """Put the robot somewhere, and return the picture that its camera takes for who joins."""
+    """
+    Put the robot somewhere, and take the image that its camera sends to a new subscriber.
+
+    Parameters
+    ----------
+    pose
+        A `geometry_msgs/Pose` in the world, in YAML.
+
+    Returns
+    -------
+    NDArray
+        The image in RGB (height, width, 3).
+
+    Raises
+    ------
+    SystemExit
+        No image came within `TIMEOUT_S`.
+
+    """
     put = 'simulation_interfaces/srv/SetEntityState', f'{{state: {{pose: {pose}}}}}'
     ros2('service', 'call', '/simulator/set_entity_state', *put)
     rclpy.init()
@@ -296,7 +446,15 @@ def seen_from(pose: str) -> NDArray[np.uint8]:
 
 
 def picture_sliders(browser: Any, address: str) -> None:
-    """Raise an arm with the sliders, and show them."""
+    """
+    Raise an arm with the sliders, and take their picture.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the sliders.
+
+    """
     tab = opened(browser, address)
     for label, angle in (('shoulder_roll', '1.2'), ('elbow', '-1.4')):
         name = tab.locator('label', has_text=label).first
@@ -309,7 +467,15 @@ def picture_sliders(browser: Any, address: str) -> None:
 
 
 def picture_frames(browser: Any, address: str) -> None:
-    """Show the frames of the robot."""
+    """
+    Take the picture of the frames of the robot.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    """
     tab = opened(browser, address)
     keep('frames', tab.screenshot)
     tab.close()
@@ -317,7 +483,29 @@ def picture_frames(browser: Any, address: str) -> None:
 
 @contextmanager
 def launched(package: str, file: str, count: int, *arguments: str) -> Iterator[dict[str, str]]:
-    """Run a launch file for the time of a `with`; give the addresses that it prints."""
+    """
+    Run a launch file for the time of a `with`.
+
+    Parameters
+    ----------
+    package, file
+        The package, and the name of the launch file.
+    count
+        How many addresses it prints.
+    *arguments
+        Arguments of the launch file, as `name:=value`.
+
+    Yields
+    ------
+    dict of str to str
+        The URLs, by `RViz is` and `The sliders are`.
+
+    Raises
+    ------
+    SystemExit
+        It does not print so many addresses within `TIMEOUT_S`.
+
+    """
     with tempfile.NamedTemporaryFile() as output:
         process = subprocess.Popen(
             ['ros2', 'launch', package, file, *arguments],
@@ -332,7 +520,27 @@ def launched(package: str, file: str, count: int, *arguments: str) -> Iterator[d
 
 
 def addresses_in(output: Path, count: int) -> dict[str, str]:
-    """Wait for some addresses in what is printed."""
+    """
+    Wait until some addresses are in the output of a launch file.
+
+    Parameters
+    ----------
+    output
+        The file with the output so far.
+    count
+        How many addresses there are to be.
+
+    Returns
+    -------
+    dict of str to str
+        The URLs, by `RViz is` and `The sliders are`.
+
+    Raises
+    ------
+    SystemExit
+        They are not there within `TIMEOUT_S`.
+
+    """
     end_s = time.monotonic() + TIMEOUT_S
     while time.monotonic() < end_s:
         found = dict(ADDRESS.findall(output.read_text()))
@@ -343,7 +551,20 @@ def addresses_in(output: Path, count: int) -> dict[str, str]:
 
 
 def opened(browser: Any, address: str) -> Any:
-    """Open a page without the notes that only concern this browser."""
+    """
+    Open a page without the notes that only concern this browser.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    Returns
+    -------
+    Any
+        The `Page` of Playwright.
+
+    """
     tab = browser.new_page(viewport={'width': WIDTH, 'height': HEIGHT})
     tab.set_default_timeout(PATIENCE_MS)
     tab.goto(f'{address}&fixedDpr=1')
@@ -355,7 +576,24 @@ def opened(browser: Any, address: str) -> Any:
 
 
 def keep(name: str, screenshot: Callable[..., Any], largest: int = LARGEST) -> None:
-    """Write a picture to its file, with the suffix .png unless the name has another."""
+    """
+    Write a picture to its file, with the suffix .png unless the name has another.
+
+    Parameters
+    ----------
+    name
+        The name of the file in `FOLDER`.
+    screenshot
+        Called with `path`, where it writes the picture.
+    largest
+        How many bytes the file may have.
+
+    Raises
+    ------
+    SystemExit
+        The file is larger.
+
+    """
     path = FOLDER / (name if '.' in name else f'{name}.png')
     screenshot(path=str(path))
     size = path.stat().st_size

@@ -22,18 +22,47 @@ TRANSFORM_PACKAGES = ('tf2_ros', 'tf2_py', 'tf2_geometry_msgs', 'tf2_tools')
 
 
 def output(*command: str) -> str:
-    """Return what a command prints, with the home folder and the workspace as variables."""
+    """
+    Return the output of a command, with the home folder and the workspace as variables.
+
+    Parameters
+    ----------
+    *command
+        The program and its arguments.
+
+    Raises
+    ------
+    CalledProcessError
+        The command fails.
+
+    """
     text = subprocess.check_output(command, env=ENVIRONMENT, encoding='utf-8')
     return text.replace(str(ROOT), '$HUMANOID').replace(str(Path.home()), '~').strip('\n')
 
 
 def block(text: str) -> str:
-    """Return a text as a block."""
+    """
+    Format a text as a block of Markdown.
+
+    Parameters
+    ----------
+    text
+        What to show as it is.
+
+    """
     return f'```text\n{text}\n```\n'
 
 
 def listed(help_text: str) -> list[str]:
-    """Return the names that the help of `ros2`, or of a command, lists at its end, if any."""
+    """
+    Extract the names that the help of `ros2`, or of a command, lists at its end, if any.
+
+    Parameters
+    ----------
+    help_text
+        What `--help` prints.
+
+    """
     _, *listing = re.split('^Commands:$', help_text, flags=re.MULTILINE)
     return re.findall(r'^  (\w+)  ', ''.join(listing), flags=re.MULTILINE)
 

@@ -10,6 +10,14 @@ MAINTAINER = 'maintainers@humanoid-workspace.dev'
 
 
 def is_own_package(folder: Path) -> bool:
-    """Return whether a package's manifest names the project's own maintainer."""
+    """
+    Whether a package's manifest names the project's own maintainer.
+
+    Parameters
+    ----------
+    folder
+        The folder with the package.xml.
+
+    """
     manifest = ElementTree.parse(folder / 'package.xml')
     return any(each.get('email') == MAINTAINER for each in manifest.iter('maintainer'))

@@ -36,7 +36,20 @@ MOST_SENTENCES = 4
 
 
 def lines(root: Path) -> Iterator[str]:
-    """Yield the lines of the page; `root` is the folder of the project."""
+    """
+    Yield the lines of the page of skills.
+
+    Parameters
+    ----------
+    root
+        The folder of the project.
+
+    Yields
+    ------
+    str
+        Markdown; a text may have several lines.
+
+    """
     skills = load(root)
     yield INTRODUCTION
     for skill in skills:
@@ -54,19 +67,43 @@ def lines(root: Path) -> Iterator[str]:
 
 
 def all_sentences(root: Path) -> list[str]:
-    """Return an example of each phrase of each skill."""
+    """
+    Return an example of each phrase of each skill.
+
+    Parameters
+    ----------
+    root
+        The folder of the project.
+
+    """
     skills = load(root)
     return [each for skill in skills for each in sentences(skill, skills)]
 
 
 def sentences(skill: Any, skills: Any) -> list[str]:
-    """Return an example of each phrase of a skill."""
+    """
+    Return an example of each phrase of a skill.
+
+    Parameters
+    ----------
+    skill, skills
+        The skill, and all skills of the project.
+
+    """
     examples = import_module('llm_planner.examples')
     return list(examples.examples(skill, skills, examples.fixed_words()))
 
 
 def load(root: Path) -> Any:
-    """Return the skills of the project."""
+    """
+    Load the skills of the project from skills.yaml.
+
+    Parameters
+    ----------
+    root
+        The folder of the project.
+
+    """
     path = root / 'src' / 'llm_planner' / 'config' / 'skills.yaml'
     return import_module('llm_planner.skills_file').load_skills(path)
 

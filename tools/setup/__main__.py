@@ -12,7 +12,15 @@ import prerequisites
 
 
 def main(argv: List[str]) -> int:
-    """Check the machine, then hand over to the command; return the exit status."""
+    """
+    Check the version of Python, run a command of the set-up, and return its exit status.
+
+    Parameters
+    ----------
+    argv
+        Command-line arguments, without the name of the program.
+
+    """
     problem = prerequisites.python_problem()
     if problem:
         sys.stderr.write(problem + '\n')

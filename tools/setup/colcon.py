@@ -22,14 +22,31 @@ def build_underlay(
     waiting: list[str],
     finished: Callable[[str], None],
 ) -> None:
-    """Build packages of tools/underlay into the environment, which thereby gets its setup.bash.
+    """
+    Build packages of tools/underlay into the environment, which thereby gets its setup.bash.
 
     ros_environment goes first: once the environment has set-up files, it can be named as the
     prefix in which the other packages find what they depend on.
 
-    waiting: packages that are neither built nor to be built now. colcon would look for what they
-    install, as others depend on them for their tests; finished: called with the name of each
-    package as soon as it is built.
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    steps
+        Shows which packages are being built.
+    names
+        Packages to build.
+    waiting
+        Packages that are neither built nor to be built now. colcon would look for what they
+        install, as others depend on them for their tests.
+    finished
+        Called with the name of each package as soon as it is built.
+
+    Raises
+    ------
+    SetupError
+        The build failed; the message quotes the errors and names the log.
+
     """
     variables = environment_variables(locations.environment)
     if FIRST in names:
@@ -82,18 +99,49 @@ def _build_underlay(
 
 
 def workspace_sources(locations: Locations) -> Iterator[str]:
-    """List the files that install/ is built from."""
+    """
+    List the files that install/ is built from.
+
+    Parameters
+    ----------
+    locations
+        The workspace.
+
+    Yields
+    ------
+    str
+        The path of each file below src/, without caches and tests, and that of colcon.meta.
+
+    """
     yield from files_below(locations.root / 'src')
     yield str(locations.root / 'colcon.meta')
 
 
 def build_workspace(locations: Locations, arguments: list[str]) -> int:
-    """Run `colcon build` as a user would in the sourced environment; return its exit status."""
+    """
+    Run `colcon build` as a user would in the sourced environment; return its exit status.
+
+    Parameters
+    ----------
+    locations
+        The workspace to build.
+    arguments : list[str]
+        Further arguments of `colcon build`.
+
+    """
     runner = os.fspath(locations.root / 'tools' / 'in_environment')
     command = [runner, '--underlay', 'colcon', 'build', *arguments]
     return run(command, cwd=locations.root, variables=without_inherited())
 
 
 def is_built(root: Path) -> bool:
-    """Tell whether there is anything to source."""
+    """
+    Whether a workspace has an install/setup.bash to source.
+
+    Parameters
+    ----------
+    root
+        The folder of the workspace.
+
+    """
     return (root / 'install' / 'setup.bash').is_file()

@@ -33,7 +33,20 @@ TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
 
 
 def main(argv: list[str]) -> int:
-    """Run a command; return the exit status."""
+    """
+    Run a command of the set-up, report what ends it early, and return the exit status.
+
+    Parameters
+    ----------
+    argv
+        Command-line arguments, without the name of the program.
+
+    Returns
+    -------
+    int
+        That of the command, 1 after an error, or 130 after an interruption.
+
+    """
     options, rest = parse(argv)
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.default_int_handler)
@@ -52,7 +65,20 @@ def main(argv: list[str]) -> int:
 
 
 def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
-    """Read the command line; what `build` does not know goes to colcon."""
+    """
+    Parse the command line; what `build` does not know goes to colcon.
+
+    Parameters
+    ----------
+    argv
+        Command-line arguments, without the name of the program.
+
+    Returns
+    -------
+    Namespace, list of str
+        The options `command` and `venv`, and the arguments for `colcon build`.
+
+    """
     parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
     commands = ['setup', 'build', 'prepare', 'tests', 'clean', 'distclean']
     parser.add_argument('command', nargs='?', default='setup', choices=commands)
@@ -64,7 +90,24 @@ def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
 
 
 def run(command: str, locations: Locations, arguments: list[str]) -> int:
-    """Do what a command says; return the exit status."""
+    """
+    Run one command of the set-up and return its exit status.
+
+    Parameters
+    ----------
+    command
+        One of `setup`, `build`, `prepare`, `tests`, `clean` and `distclean`.
+    locations
+        The workspace and its environment.
+    arguments : list[str]
+        Further arguments of `colcon build`, which only `build` uses.
+
+    Raises
+    ------
+    SetupError
+        The machine lacks something, a step failed, or another workspace owns the environment.
+
+    """
     if command == 'setup':
         return set_up(locations)
     if command == 'build':
@@ -82,7 +125,18 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
 
 @contextmanager
 def only_one_at_a_time(root: Path) -> Iterator[None]:
-    """Wait until no other set-up or build runs here, nor what a killed one started."""
+    """
+    Lock a workspace against a second set-up or build, waiting for one that runs.
+
+    Programs that are started meanwhile inherit the lock, so what a killed set-up leaves running
+    is waited for, too.
+
+    Parameters
+    ----------
+    root
+        The folder of the workspace.
+
+    """
     descriptor = os.open(root / 'tools' / 'setup', os.O_RDONLY)
     try:
         try:
@@ -97,10 +151,29 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
 
 
 def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True) -> int:
-    """Make the environment what this workspace needs; quick where it is that already.
+    """
+    Bring the environment up to date with this workspace; quick where it is already.
 
-    Without `everything`, what the command does not need waits: interface packages that nothing in
-    src/ depends on, and packages on demand and wheels of parts that ASKED_FOR does not name.
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    quiet
+        Print nothing if the environment is complete, and no hint at the end.
+    everything
+        Otherwise, what the command does not need waits: interface packages that nothing in src/
+        depends on, and packages on demand and wheels of parts that ASKED_FOR does not name.
+
+    Returns
+    -------
+    int
+        The exit status, 0.
+
+    Raises
+    ------
+    SetupError
+        The machine lacks something, a step failed, or another workspace owns the environment.
+
     """
     requirements = wheels_digest(REQUIREMENTS)
     wheels_stamp = Stamp(locations.environment / 'stamp' / 'wheels')
@@ -149,7 +222,20 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
 
 
 def set_up_tests(locations: Locations) -> int:
-    """Add what only tests need."""
+    """
+    Install the wheels of requirements-test.txt, which only tests need.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment, which is complete but for them.
+
+    Returns
+    -------
+    int
+        The exit status, 0.
+
+    """
     current = wheels_digest(REQUIREMENTS, TEST_REQUIREMENTS)
     stamp = Stamp(locations.environment / 'stamp' / 'tests')
     if not stamp.matches(current):
@@ -165,13 +251,41 @@ def set_up_tests(locations: Locations) -> int:
 
 
 def wheels_digest(*requirements: Path) -> str:
-    """Return the digest of what is installed, and of how it is mended."""
+    """
+    Compute the digest of what is installed, and of how it is mended.
+
+    Parameters
+    ----------
+    *requirements
+        The requirements files that pin the wheels.
+
+    Returns
+    -------
+    str
+        A SHA-256 digest in hexadecimal.
+
+    """
     mends = [ROOT / 'tools' / 'setup' / name for name in ('mend.py', 'fast_dds.py')]
     return digest([*requirements, *mends])
 
 
 def require_machine(locations: Locations, *, has_wheels: bool) -> None:
-    """Refuse a machine that lacks something, before anything is downloaded."""
+    """
+    Check that the machine has all that is needed, before anything is downloaded.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    has_wheels
+        Whether the wheels are installed already, so that less disk space is needed.
+
+    Raises
+    ------
+    SetupError
+        Something is missing; the message lists all of it.
+
+    """
     root, environment = os.fspath(locations.root), os.fspath(locations.environment)
     missing = prerequisites.problems(root, environment, has_wheels=has_wheels)
     if missing:
@@ -179,7 +293,22 @@ def require_machine(locations: Locations, *, has_wheels: bool) -> None:
 
 
 def build(locations: Locations, arguments: list[str]) -> int:
-    """Build src/ into install/ where it differs from what was built; return the exit status."""
+    """
+    Build src/ into install/ if its sources, the environment or the arguments have changed.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    arguments : list[str]
+        Further arguments of `colcon build`.
+
+    Returns
+    -------
+    int
+        The exit status of colcon, or 0 if nothing has changed.
+
+    """
     made_with = (os.fspath(locations.environment), python_version())
     current = digest(colcon.workspace_sources(locations), *made_with, *arguments)
     stamp = Stamp(ROOT / 'install' / '.built')
@@ -193,14 +322,35 @@ def build(locations: Locations, arguments: list[str]) -> int:
 
 
 def remove(paths: Iterator[Path]) -> None:
-    """Delete folders that exist."""
+    """
+    Delete those of some folders that exist.
+
+    Parameters
+    ----------
+    paths
+        The folders; files are left alone.
+
+    """
     for path in paths:
         if path.is_dir():
             shutil.rmtree(path)
 
 
 def refuse_what_belongs_to_others(locations: Locations) -> None:
-    """Refuse to forget the environment of another workspace, to which no link leads from here."""
+    """
+    Check that no other workspace owns an environment that is to be deleted.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+
+    Raises
+    ------
+    SetupError
+        It belongs to another workspace, and .venv is no link to it.
+
+    """
     other = Home(locations).other_workspace()
     if other and not locations.is_linked:
         raise SetupError(
@@ -210,7 +360,15 @@ def refuse_what_belongs_to_others(locations: Locations) -> None:
 
 
 def forget_environment(locations: Locations) -> None:
-    """Delete the environment that the set-up placed; of one that the user named, only the link."""
+    """
+    Delete the environment that the set-up placed; of one that the user named, only the link.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+
+    """
     if Home(locations).is_deleted_with_the_workspace():
         remove(iter([locations.environment]))
     else:
@@ -220,7 +378,15 @@ def forget_environment(locations: Locations) -> None:
 
 
 def explain_os_error(error: OSError) -> str:
-    """Say what the machine refused."""
+    """
+    Format an error of the operating system as a message for the user.
+
+    Parameters
+    ----------
+    error
+        What was raised during a command.
+
+    """
     name = f' ({error.filename})' if error.filename else ''
     return (
         f'The machine refused: {error.strerror}{name}. Mend that and run the same command again: '

@@ -12,12 +12,19 @@ class SetupError(Exception):
 
 
 class Steps:
-    """Numbered steps with progress: a line that is rewritten on a terminal, else one at times."""
+    """
+    Numbered steps with progress: a line that is rewritten on a terminal, else one at times.
+
+    Parameters
+    ----------
+    count
+        How many steps there will be.
+
+    """
 
     QUIET_PERIOD_S = 5.0
 
     def __init__(self, count: int) -> None:
-        """Expect so many steps."""
         self._count = count
         self._number = 0
         self._terminal = sys.stdout.isatty()
@@ -25,14 +32,30 @@ class Steps:
         self._last_line_s = 0.0
 
     def begin(self, text: str) -> None:
-        """Start the next step."""
+        """
+        Start the next step.
+
+        Parameters
+        ----------
+        text
+            The heading of the step, which is printed after its number.
+
+        """
         self._close_line()
         self._number += 1
         print(f'[{self._number}/{self._count}] {text}', flush=True)
         self._last_line_s = time.monotonic()
 
     def progress(self, text: str) -> None:
-        """Say how far the step is."""
+        """
+        Show how far the step is; off a terminal, at most every `QUIET_PERIOD_S`.
+
+        Parameters
+        ----------
+        text
+            One line, which the next one replaces on a terminal.
+
+        """
         if self._terminal:
             print(f'\r\033[K      {text}', end='', flush=True)
             self._line_open = True
@@ -40,7 +63,15 @@ class Steps:
             self.note(text)
 
     def note(self, text: str) -> None:
-        """Say something that stays on the screen."""
+        """
+        Print a line that stays on the screen.
+
+        Parameters
+        ----------
+        text
+            The line.
+
+        """
         self._close_line()
         print(f'      {text}', flush=True)
         self._last_line_s = time.monotonic()

@@ -24,7 +24,19 @@ IN_CMAKE = 'message(FATAL_ERROR "{sentence}")\n'
 
 
 def describe(package: Package, locations: Locations) -> None:
-    """Put the definitions of a package into the environment, and a sentence where it is used."""
+    """
+    Install the interface definitions of a package, and an error message for whoever uses it.
+
+    Importing an interface package in Python or finding it in CMake fails with that message.
+
+    Parameters
+    ----------
+    package
+        A package that is not built.
+    locations
+        The workspace, which the message names, and its environment.
+
+    """
     environment = locations.environment
     definitions = [path for kind in KINDS for path in sorted(package.folder.glob(f'{kind}/*'))]
     share = environment / 'share' / package.name
@@ -58,10 +70,28 @@ def describe(package: Package, locations: Locations) -> None:
 
 
 def forget(package: Package, locations: Locations) -> None:
-    """Take back what was said of a package that is built now, and not replaced by that."""
+    """
+    Delete the notes on a package that building it does not replace.
+
+    Parameters
+    ----------
+    package
+        A package that is built now.
+    locations
+        The workspace and its environment.
+
+    """
     (index(locations.environment) / 'on_demand' / package.name).unlink(missing_ok=True)
 
 
 def index(environment: Path) -> Path:
-    """Return the folder by which packages and their interfaces are found."""
+    """
+    Return the folder of the ament index, by which packages and their interfaces are found.
+
+    Parameters
+    ----------
+    environment
+        The prefix that the index belongs to.
+
+    """
     return environment / 'share' / 'ament_index' / 'resource_index'

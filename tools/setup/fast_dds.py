@@ -29,18 +29,40 @@ MENDED = HALVE.join(AROUND)
 
 
 def libraries(environment: Path) -> list[Path]:
-    """List the copies of the library that the wheels have put into the environment."""
+    """
+    List the copies of the Fast DDS library that the wheels have put into the environment.
+
+    Parameters
+    ----------
+    environment
+        The prefix, whose folder lib holds them.
+
+    """
     return sorted((environment / 'lib').glob('libfastrtps.so*'))
 
 
 def is_mended(library: Path) -> bool:
-    """Whether a library has the changed instruction, and not the original one."""
+    """
+    Whether a library has the changed instruction, and not the original one.
+
+    Parameters
+    ----------
+    library
+        A copy of libfastrtps.so.
+
+    """
     content = library.read_bytes()
     return content.count(MENDED) == 1 and BROKEN not in content
 
 
 def mend_fast_dds(environment: Path) -> None:
-    """Mend all copies of the library; harmless where they are mended already.
+    """
+    Mend all copies of the Fast DDS library; harmless where they are mended already.
+
+    Parameters
+    ----------
+    environment
+        The prefix, whose folder lib holds them.
 
     Raises
     ------

@@ -49,7 +49,28 @@ class Locations:
 
 
 def find_locations(root: Path, wanted: str | None) -> Locations:
-    """Decide where the environment lies: as wanted, as it is now, in .venv, or in the cache."""
+    """
+    Decide where the environment lies: as wanted, as it is now, in .venv, or in the cache.
+
+    Parameters
+    ----------
+    root
+        The folder of the workspace.
+    wanted
+        The environment that the user named, if any.
+
+    Returns
+    -------
+    Locations
+        The folders; the environment need not exist yet.
+
+    Raises
+    ------
+    SetupError
+        .venv holds another environment than the wanted one, or scripts cannot name the
+        interpreter in their first line.
+
+    """
     link = root / '.venv'
     if wanted:
         environment = Path(os.path.realpath(Path(wanted).expanduser()))
@@ -73,7 +94,15 @@ def find_locations(root: Path, wanted: str | None) -> Locations:
 
 
 def fits_in_shebang(environment: Path) -> bool:
-    """Tell whether scripts can name the environment's interpreter in their first line."""
+    """
+    Whether scripts can name the environment's interpreter in their first line.
+
+    Parameters
+    ----------
+    environment
+        The environment, whose path must not be too long or contain white space.
+
+    """
     line = f'#!{environment}/bin/python3'
     return len(os.fsencode(line)) <= LONGEST_SHEBANG and not any(c.isspace() for c in line)
 
@@ -85,7 +114,15 @@ def cache_folder() -> Path:
 
 
 def link_environment(locations: Locations) -> None:
-    """Make .venv lead to an environment that lies elsewhere."""
+    """
+    Make .venv a link to an environment that lies elsewhere.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment; nothing is done if that is .venv itself.
+
+    """
     if not locations.is_elsewhere:
         return
     if locations.link.is_symlink():

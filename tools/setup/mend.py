@@ -416,16 +416,39 @@ NOT_EVERYWHERE = (f'{PACKAGES}/cmeel.pth',)  # comes with what only tests need
 
 
 def is_mended(environment: Path, path: Path) -> bool:
-    """Tell whether mending changes a file of the environment, which then is not as its wheel's."""
+    """
+    Whether mending changes a file, so that its size may differ from the one its wheel records.
+
+    Parameters
+    ----------
+    environment
+        The prefix of the wheels.
+    path
+        A file in it.
+
+    """
     relative = os.path.relpath(path, environment)
     return any(fnmatchcase(relative, pattern) for pattern, _ in MENDED)
 
 
 def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
-    """Mend all; harmless where it is mended already.
+    """
+    Patch the files of installed wheels; harmless where they are patched already.
 
-    environment: the prefix of the wheels; include: the folder with Python.h; site_packages: the
-    environment's own.
+    Parameters
+    ----------
+    environment
+        The prefix of the wheels.
+    include
+        The folder with Python.h.
+    site_packages
+        The environment's own.
+
+    Raises
+    ------
+    FileNotFoundError
+        A wheel lacks a file that was to be patched.
+
     """
     numpy_headers = str(site_packages / 'numpy' / '_core' / 'include')
     interpreter = Interpreter(include, numpy_headers, site_packages.parent.name)
@@ -453,7 +476,17 @@ def _rewrite(path: Path, mend: Mend, interpreter: Interpreter) -> None:
 
 
 def link_libraries(library_folder: Path, site_packages: Path) -> None:
-    """Link the libraries that wheels bring along into the folder of all libraries."""
+    """
+    Link the libraries that wheels bring along into the folder of all libraries.
+
+    Parameters
+    ----------
+    library_folder
+        The folder of all libraries, which is lib in the environment.
+    site_packages
+        The folder whose `ros_*.libs` contain the libraries.
+
+    """
     for source in sorted(site_packages.glob('ros_*.libs/*.so*')):
         link = library_folder / source.name
         if not link.exists():

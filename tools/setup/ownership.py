@@ -17,10 +17,17 @@ def python_version() -> str:
 
 
 class Home:
-    """The note in an environment on the workspace, the place and the Python it was made for."""
+    """
+    The note in an environment on the workspace, the place and the Python it was made for.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment, which need not exist yet.
+
+    """
 
     def __init__(self, locations: Locations) -> None:
-        """Take no look yet."""
         self._locations = locations
         self._path = locations.environment / 'stamp' / 'home'
         self._text = f'{locations.root}\n{locations.environment}\n{python_version()}'

@@ -30,9 +30,16 @@ class Package:
 
 
 def read_packages(folder: Path) -> dict[str, Package]:
-    """Return the packages below a folder by name, without those that colcon ignores.
+    """
+    Find the packages below a folder, by name, without those that colcon ignores.
 
     One whose package.xml cannot be read is left out: colcon says what is wrong with it.
+
+    Parameters
+    ----------
+    folder
+        Where to look; a COLCON_IGNORE in this very folder does not count.
+
     """
     found: dict[str, Package] = {}
     folders = [folder]
@@ -68,12 +75,25 @@ def _read(folder: Path) -> Package | None:
 def needed(
     underlay: dict[str, Package], workspace: dict[str, Package], asked_for: str = ''
 ) -> set[str]:
-    """Return the packages of the underlay without which a command does not run.
+    """
+    Select the packages of the underlay without which a command does not run.
 
     These are all programs and libraries, and of the interface packages, which take long to build,
     those that something in the workspace or in another needed package depends on. Packages on
-    demand, and what the workspace has for them alone, count when the command names them:
-    asked_for has its arguments.
+    demand, and what the workspace has for them alone, count when the command names them.
+
+    Parameters
+    ----------
+    underlay, workspace
+        Packages of tools/underlay and of src/, by name.
+    asked_for
+        The arguments of the command; words that end in `:=false` do not count.
+
+    Returns
+    -------
+    set of str
+        The names of the packages.
+
     """
     words = [word for word in asked_for.lower().split() if not word.endswith(':=false')]
     left_out = {

@@ -40,13 +40,29 @@ class Part:
     pins: tuple[str, ...]
 
     def is_asked_for(self, arguments: str) -> bool:
-        """Whether the arguments of a command name the part."""
+        """
+        Whether the arguments of a command name the part.
+
+        Parameters
+        ----------
+        arguments : str
+            All of them, separated by spaces; those that end in `:=false` do not count.
+
+        """
         given = [word for word in arguments.lower().split() if not word.endswith(':=false')]
         return any(word in each for word in self.words for each in given)
 
 
 def read_parts(requirements: str) -> list[Part]:
-    """Read the parts of a requirements file, in which each begins with a line that names it."""
+    """
+    Parse the parts of a requirements file, in which each begins with a line that names it.
+
+    Parameters
+    ----------
+    requirements
+        The text of the file.
+
+    """
     found: list[tuple[re.Match[str], list[str]]] = []
     for line in requirements.splitlines():
         header = _HEADER.match(line)
@@ -64,16 +80,35 @@ def read_parts(requirements: str) -> list[Part]:
 
 
 class Parts:
-    """The parts of a requirements file in an environment, each with a stamp once it is there."""
+    """
+    The parts of a requirements file in an environment, each with a stamp once it is there.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    requirements
+        The file, which is read at once.
+    asked_for
+        The arguments of the command, which may name parts.
+
+    """
 
     def __init__(self, locations: Locations, requirements: Path, asked_for: str = '') -> None:
-        """Read the file; asked_for has the arguments of the command."""
         self._locations = locations
         self._asked_for = asked_for
         self._parts = read_parts(requirements.read_text(encoding='utf-8'))
 
     def to_install(self, *, everything: bool) -> list[Part]:
-        """Return the parts that are wanted, or were installed before, and are not as pinned."""
+        """
+        List the parts that are wanted, or were installed before, and are not as pinned.
+
+        Parameters
+        ----------
+        everything
+            Whether all parts are wanted, instead of those that the command names.
+
+        """
         return [
             part
             for part in self._parts
@@ -82,7 +117,22 @@ class Parts:
         ]
 
     def install(self, parts: list[Part], steps: Steps) -> None:
-        """Install the wheels of parts, and say no more of them that they are missing."""
+        """
+        Install the wheels of parts and delete the stubs that reported them as missing.
+
+        Parameters
+        ----------
+        parts
+            What to install.
+        steps
+            Shows the progress.
+
+        Raises
+        ------
+        SetupError
+            The wheels of a part could not be installed.
+
+        """
         folder = self._locations.environment / 'requirements'
         folder.mkdir(exist_ok=True)
         for part in parts:

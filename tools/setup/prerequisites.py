@@ -23,7 +23,15 @@ UNUSABLE_CHARACTERS = ':;"\'`$\\\n'
 def python_problem(
     version: Optional[Tuple[int, int]] = None, implementation: Optional[str] = None
 ) -> Optional[str]:
-    """Name a Python for which the wheels do not exist."""
+    """
+    Report a Python for which the wheels do not exist.
+
+    Parameters
+    ----------
+    version, implementation
+        (major, minor), and a name such as CPython; by default those of the running interpreter.
+
+    """
     version = version or sys.version_info[:2]
     implementation = implementation or platform.python_implementation()
     if implementation == 'CPython' and OLDEST_PYTHON <= version <= NEWEST_PYTHON:
@@ -40,7 +48,17 @@ def platform_problem(
     machine: Optional[str] = None,
     libc: Optional[Tuple[str, str]] = None,
 ) -> Optional[str]:
-    """Name a machine for which the wheels do not exist."""
+    """
+    Report a platform for which the wheels do not exist.
+
+    Parameters
+    ----------
+    system, machine
+        As `sys.platform` and `platform.machine` name them; by default those of this machine.
+    libc
+        Name and version, as from `platform.libc_ver`; by default those of this machine.
+
+    """
     system, machine = system or sys.platform, machine or platform.machine()
     if system != 'linux' or machine != 'x86_64':
         return (
@@ -69,14 +87,30 @@ def venv_problem() -> Optional[str]:
 
 
 def compiler_problem(path: Optional[str] = None) -> Optional[str]:
-    """Name a missing C++ compiler."""
+    """
+    Report a missing C++ compiler.
+
+    Parameters
+    ----------
+    path
+        The search path for programs; by default that of this process.
+
+    """
     if any(shutil.which(name, path=path) for name in COMPILERS):
         return None
     return 'There is no C++ compiler here: sudo apt install g++'
 
 
 def headers_problem(include: Optional[str] = None) -> Optional[str]:
-    """Name missing C headers of Python, which message packages compile against."""
+    """
+    Report missing C headers of Python, which message packages compile against.
+
+    Parameters
+    ----------
+    include
+        The folder that should contain Python.h; by default that of the running interpreter.
+
+    """
     include = include or sysconfig.get_path('include')
     if os.path.isfile(os.path.join(include, 'Python.h')):
         return None
@@ -87,7 +121,15 @@ def headers_problem(include: Optional[str] = None) -> Optional[str]:
 
 
 def path_problem(path: str) -> Optional[str]:
-    """Name a character in a path that search paths and build tools cannot hold."""
+    """
+    Report a character in a path that search paths and build tools cannot hold.
+
+    Parameters
+    ----------
+    path
+        The folder of the workspace, or that of its environment.
+
+    """
     found = sorted(set(path) & set(UNUSABLE_CHARACTERS))
     if not found:
         return None
@@ -98,7 +140,17 @@ def path_problem(path: str) -> Optional[str]:
 
 
 def space_problem(folder: str, needed: int) -> Optional[str]:
-    """Name a disk without room for the environment."""
+    """
+    Report a disk without room for the environment.
+
+    Parameters
+    ----------
+    folder
+        The folder of the environment, which need not exist yet.
+    needed
+        How much space has to be free, in bytes.
+
+    """
     while not os.path.isdir(folder):
         folder = os.path.dirname(folder)
     free = shutil.disk_usage(folder).free
@@ -111,7 +163,22 @@ def space_problem(folder: str, needed: int) -> Optional[str]:
 
 
 def problems(root: str, environment: str, has_wheels: bool) -> List[str]:
-    """Return the sentences of all that is missing for this workspace and its environment."""
+    """
+    Check all that a machine must have for a workspace and its environment.
+
+    Parameters
+    ----------
+    root, environment
+        Their folders.
+    has_wheels
+        Whether the wheels are installed already, so that less disk space is needed.
+
+    Returns
+    -------
+    list of str
+        A message for each problem, none if all is well.
+
+    """
     checks = [
         platform_problem(),
         venv_problem(),

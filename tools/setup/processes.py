@@ -34,7 +34,20 @@ INHERITED = {
 
 
 def environment_variables(environment: Path) -> dict[str, str]:
-    """Return the variables with which the environment's own programs run."""
+    """
+    Compute the variables with which the environment's own programs run.
+
+    Parameters
+    ----------
+    environment
+        The prefix of the programs.
+
+    Returns
+    -------
+    dict of str to str
+        All variables of a process, as for `subprocess.Popen`.
+
+    """
     variables = without_inherited()
     variables['PATH'] = f'{environment}/bin{os.pathsep}{variables.get("PATH", os.defpath)}'
     variables['LD_LIBRARY_PATH'] = f'{environment}/lib'
@@ -50,7 +63,22 @@ def without_inherited() -> dict[str, str]:
 
 @contextmanager
 def started(command: Sequence[str | Path], **options: Any) -> Iterator[subprocess.Popen[str]]:
-    """Start a program in a session of its own; an exception ends it with all that it started."""
+    """
+    Start a program in a session of its own; an exception ends it with all that it started.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+    **options
+        Further arguments of `subprocess.Popen`.
+
+    Yields
+    ------
+    Popen
+        The process, which may outlive the block if no exception ends it.
+
+    """
     process = subprocess.Popen(
         [str(part) for part in command],
         stdin=subprocess.DEVNULL,
@@ -88,9 +116,27 @@ def run_logged(
     log: Path,
     each_line: Callable[[str], None] = lambda line: None,
 ) -> int:
-    """Run a program, keep what it prints in a file, and show each line to a function.
+    """
+    Run a program, log its output to a file, and pass each line to a function.
 
-    Returns the exit status.
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+    cwd
+        Its working directory.
+    variables
+        All of its environment variables.
+    log
+        The file for stdout and stderr, which is overwritten.
+    each_line
+        Called with each line, without the line break.
+
+    Returns
+    -------
+    int
+        The exit status.
+
     """
     log.parent.mkdir(parents=True, exist_ok=True)
     output = {'stdout': subprocess.PIPE, 'stderr': subprocess.STDOUT}
@@ -103,19 +149,60 @@ def run_logged(
 
 
 def run(command: Sequence[str | Path], *, cwd: Path, variables: dict[str, str]) -> int:
-    """Run a program that prints to the terminal; return the exit status."""
+    """
+    Run a program that prints to the terminal; return the exit status.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+    cwd
+        Its working directory.
+    variables
+        All of its environment variables.
+
+    """
     with started(command, cwd=cwd, env=variables) as process:
         return process.wait()
 
 
 def last_words(log: Path, mark: str, count: int = 3) -> str:
-    """Return the last lines of a log that hold a mark, or its last lines."""
+    """
+    Quote the last lines of a log that contain a mark, or its last lines if none does.
+
+    Parameters
+    ----------
+    log
+        The file.
+    mark
+        A text such as `ERROR`.
+    count
+        How many lines to quote at most.
+
+    """
     lines = [line for line in log.read_text(encoding='utf-8').splitlines() if line.strip()]
     return '\n'.join([line for line in lines if mark in line][-count:] or lines[-count:])
 
 
 def run_or_fail(command: Sequence[str | Path], *, cwd: Path, failure: str) -> None:
-    """Run a program that says nothing when all is well."""
+    """
+    Run a program that needs to print nothing when all is well.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+    cwd
+        Its working directory.
+    failure
+        The beginning of the message if it fails.
+
+    Raises
+    ------
+    SetupError
+        The exit status is not 0; the message quotes the output.
+
+    """
     output = {'stdout': subprocess.PIPE, 'stderr': subprocess.STDOUT}
     with started(command, cwd=cwd, **output) as process:
         text, _ = process.communicate()

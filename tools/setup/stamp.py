@@ -12,14 +12,42 @@ IGNORED = {'__pycache__', '.pytest_cache', '.mypy_cache', '.ruff_cache', 'test'}
 
 
 def files_below(folder: Path) -> Iterator[str]:
-    """List the files below a folder, sorted, without caches and tests."""
+    """
+    List the files below a folder, sorted, without caches and tests.
+
+    Parameters
+    ----------
+    folder
+        Where to look.
+
+    Yields
+    ------
+    str
+        The path of each file, which begins with the folder.
+
+    """
     for base, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if name not in IGNORED)
         yield from (os.path.join(base, name) for name in sorted(files))
 
 
 def digest(paths: Iterable[str | Path], *more: str) -> str:
-    """Return a digest of the contents and names of files, and of some texts."""
+    """
+    Compute a digest of the names and contents of files, and of some texts.
+
+    Parameters
+    ----------
+    paths
+        The files; their order counts.
+    *more
+        The texts.
+
+    Returns
+    -------
+    str
+        A SHA-256 digest in hexadecimal.
+
+    """
     total = hashlib.sha256('\0'.join(more).encode())
     for path in paths:
         total.update(os.fsencode(path) + b'\0')
@@ -28,14 +56,29 @@ def digest(paths: Iterable[str | Path], *more: str) -> str:
 
 
 class Stamp:
-    """The digest of the sources that a result was made from; absent while it is being made."""
+    """
+    The digest of the sources that a result was made from; absent while it is being made.
+
+    Parameters
+    ----------
+    path
+        The file with the digest, which need not exist yet.
+
+    """
 
     def __init__(self, path: Path) -> None:
-        """Keep the digest in this file."""
         self._path = path
 
     def matches(self, current: str) -> bool:
-        """Tell whether the result was made, to its end, from these sources."""
+        """
+        Whether the result was made, to its end, from these sources.
+
+        Parameters
+        ----------
+        current
+            The digest of the sources as they are now.
+
+        """
         try:
             return self._path.read_text() == current
         except OSError:
@@ -50,6 +93,14 @@ class Stamp:
         self._path.unlink(missing_ok=True)
 
     def write(self, current: str) -> None:
-        """Say that the result is complete."""
+        """
+        Record that the result is complete.
+
+        Parameters
+        ----------
+        current
+            The digest of the sources that it was made from.
+
+        """
         self._path.parent.mkdir(parents=True, exist_ok=True)
         self._path.write_text(current)

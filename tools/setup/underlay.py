@@ -14,20 +14,26 @@ from stamp import digest, files_below, Stamp
 
 
 class Underlay:
-    """The packages of tools/underlay, each with a stamp once it is built into the environment.
+    """
+    The packages of tools/underlay, each with a stamp once it is built into the environment.
 
     An interface package that nothing in src/ depends on waits until everything is asked for, and
-    so does one on demand until it, or everything, is. Until
-    then it is only described, so that `ros2` finds and shows it, and who imports it is told what
-    to do. One that was built before is kept up to date.
+    so does one on demand until it, or everything, is. Until then it is only described, so that
+    `ros2` finds and shows it, and who imports it is told what to do. One that was built before is
+    kept up to date.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    requirements
+        The digest of the wheels that the packages build on.
+    asked_for
+        The arguments of the command, which may name what is only built on demand.
+
     """
 
     def __init__(self, locations: Locations, requirements: str, asked_for: str = '') -> None:
-        """Look at the sources.
-
-        requirements: the digest of the wheels that they build on; asked_for: the arguments of the
-        command, which may name what is only built on demand.
-        """
         self._locations = locations
         self._asked_for = asked_for
         self._packages = read_packages(locations.underlay)
@@ -35,12 +41,41 @@ class Underlay:
         self._digests: dict[str, str] = {}
 
     def to_build(self, *, everything: bool) -> list[str]:
-        """Return the packages that are wanted and are not built, or from other sources."""
+        """
+        List the packages that are wanted and are not built, or from other sources.
+
+        Parameters
+        ----------
+        everything
+            Whether all packages are wanted; otherwise, those that the command needs and those that
+            were built before.
+
+        Returns
+        -------
+        list of str
+            Their names, sorted.
+
+        """
         wanted = set(self._packages) if everything else self._wanted()
         return sorted(name for name in wanted if not self._stamp(name).matches(self._digest(name)))
 
     def build(self, names: list[str], steps: Steps) -> None:
-        """Build packages; what an interruption leaves half is built anew the next time."""
+        """
+        Build packages; what an interruption leaves half built is built anew the next time.
+
+        Parameters
+        ----------
+        names
+            Which packages.
+        steps
+            Shows the progress.
+
+        Raises
+        ------
+        SetupError
+            The build failed.
+
+        """
         for name in names:
             self._stamp(name).clear()
             self._stamp(name, 'described').clear()

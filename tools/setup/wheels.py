@@ -18,7 +18,22 @@ PIP = ('-m', 'pip', '--disable-pip-version-check', '--no-input')
 
 
 def make_environment(locations: Locations, interpreter: str) -> None:
-    """Make the virtual environment, or complete one whose making was interrupted."""
+    """
+    Create the virtual environment, or complete one whose creation was interrupted.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    interpreter
+        The Python that the environment is to use.
+
+    Raises
+    ------
+    SetupError
+        The module venv failed.
+
+    """
     run_or_fail(
         [interpreter, '-m', 'venv', locations.environment],
         cwd=locations.root,
@@ -27,23 +42,68 @@ def make_environment(locations: Locations, interpreter: str) -> None:
 
 
 def has_pip(locations: Locations) -> bool:
-    """Tell whether the environment exists to its end."""
+    """
+    Whether the environment is complete to the last step of its creation, which installs pip.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment, which need not exist yet.
+
+    """
     folders = locations.environment.glob('lib/python3.*/site-packages/pip-*.dist-info/RECORD')
     return locations.python.exists() and any(folders)
 
 
 def site_packages(locations: Locations) -> Path:
-    """Return the environment's folder of Python packages."""
+    """
+    Return the environment's folder of Python packages.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment, which has to exist.
+
+    """
     return next(iter(sorted(locations.environment.glob('lib/python3.*/site-packages'))))
 
 
 def pinned_names(requirements: str) -> list[str]:
-    """Return the names of the pinned distributions of a requirements file."""
+    """
+    Extract the names of the distributions that a requirements file pins.
+
+    Parameters
+    ----------
+    requirements
+        The text of the file.
+
+    """
     return re.findall(r'^([A-Za-z0-9._-]+)==', requirements, flags=re.MULTILINE)
 
 
 def install_wheels(locations: Locations, steps: Steps, include: str, requirements: Path) -> None:
-    """Install what a file pins, repair what an interruption left half, and mend it."""
+    """
+    Install the wheels that a file pins, repair incomplete ones, and mend them all.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    steps
+        Shows the progress.
+    include
+        The folder with Python.h.
+    requirements
+        The file that pins them.
+
+    Raises
+    ------
+    SetupError
+        pip failed, or the Fast DDS library is not the build that can be mended.
+    FileNotFoundError
+        A wheel lacks a file that was to be mended.
+
+    """
     count = len(pinned_names(requirements.read_text(encoding='utf-8')))
     _pip(locations, steps, count, '--no-deps', '--requirement', str(requirements))
     packages = site_packages(locations)
@@ -86,10 +146,17 @@ def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> Non
 
 
 def compile_all(locations: Locations) -> None:
-    """Compile every module, for all processors at once; what does not compile is never imported.
+    """
+    Compile every module, on all processors at once; what does not compile is never imported.
 
     pip would do so too, but one after the other, and most are not used by the robot: until then
     Python compiles a module when it is first imported.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+
     """
     packages = site_packages(locations)
     command = [str(locations.python), '-m', 'compileall', '-q', '-j', '0', str(packages)]
@@ -102,7 +169,22 @@ def compile_all(locations: Locations) -> None:
 
 
 def incomplete_distributions(packages: Path, environment: Path) -> Iterator[str]:
-    """Yield `name==version` of each distribution that lacks files of its own list."""
+    """
+    Find the distributions whose files are missing or not of the size that RECORD gives.
+
+    Parameters
+    ----------
+    packages
+        The folder of Python packages.
+    environment
+        The environment that it belongs to.
+
+    Yields
+    ------
+    str
+        `name==version` of each.
+
+    """
     for info in packages.glob('*.dist-info'):
         name, _, version = info.name[: -len('.dist-info')].rpartition('-')
         if name != 'pip' and not _is_complete(info, environment):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that docstrings in `src` explain the arguments of what they describe."""
+"""Check that docstrings explain the arguments of what they describe."""
 
 from __future__ import annotations
 
@@ -9,16 +9,29 @@ from pathlib import Path
 
 import pytest
 
-SRC = Path(__file__).parents[2] / 'src'
-PACKAGES = sorted(each.parent.name for each in SRC.glob('*/package.xml'))
+ROOT = Path(__file__).parents[2]
+FOLDERS = sorted(
+    str(each.relative_to(ROOT))
+    for each in (
+        *(
+            package.parent
+            for place in ('src', 'tools/underlay')
+            for package in (ROOT / place).glob('*/package.xml')
+        ),
+        *(
+            ROOT / 'tools' / name
+            for name in ('benchmarks', 'pictures', 'reference', 'setup', 'training')
+        ),
+    )
+)
 HEADING = 'Parameters\n----------\n'
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
-def modules(package: str) -> Iterator[Path]:
-    """Yield the modules of a package, without its tests."""
-    for path in sorted((SRC / package).rglob('*.py')):
-        if 'test' not in path.relative_to(SRC / package).parts:
+def modules(folder: Path) -> Iterator[Path]:
+    """Yield the modules of a folder, without its tests."""
+    for path in sorted(folder.rglob('*.py')):
+        if 'test' not in path.relative_to(folder).parts:
             yield path
 
 
@@ -57,14 +70,14 @@ def explained(docstring: str) -> set[str]:
     return names
 
 
-@pytest.mark.parametrize('package', PACKAGES)
-def test_arguments_are_explained(package: str) -> None:
+@pytest.mark.parametrize('folder', FOLDERS)
+def test_arguments_are_explained(folder: str) -> None:
     """Each by its name, in the section for that, and none that is not there."""
     wrong = []
-    for path in modules(package):
+    for path in modules(ROOT / folder):
         for function, docstring in explaining(ast.parse(path.read_text())):
             wanted, found = arguments(function), explained(docstring)
             if wanted != found:
-                where = f'{path.relative_to(SRC)}:{function.lineno} {function.name}'
+                where = f'{path.relative_to(ROOT)}:{function.lineno} {function.name}'
                 wrong.append(f'{where}: {sorted(wanted ^ found)}')
     assert not wrong, '\n'.join(wrong)

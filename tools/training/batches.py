@@ -47,7 +47,15 @@ class Batch:
 
 
 class Album:
-    """All pictures of a folder; more of them can be added while it is used."""
+    """
+    All pictures of a folder; more of them can be added while it is used.
+
+    Parameters
+    ----------
+    folder
+        The folder of the shards, which is read at once.
+
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -65,7 +73,15 @@ class Album:
         return len(self._items)
 
     def batch(self, seed: int, step: int) -> Batch:
-        """Return the batch of a step."""
+        """
+        Make the batch of a step: whole pictures at every `EVERY_WHOLE`-th step, otherwise crops.
+
+        Parameters
+        ----------
+        seed, step
+            The seed of the training, and the number of the step: together they seed the batch.
+
+        """
         generator = np.random.default_rng([seed, step])
         if step % EVERY_WHOLE == 0:
             height_px, width_px, count = HEIGHT_PX, WIDTH_PX, WHOLE
@@ -126,9 +142,27 @@ def _view(
 def moved(
     labels: Labels, zoom: float, low_px: NDArray[np.float64], size_px: tuple[int, int]
 ) -> Labels:
-    """Return the labels in a part of a picture that begins at a pixel and has a width and height.
+    """
+    Transform labels to a part of a picture.
 
     What is cut off is no longer visible: the part that is and the number of pixels shrink.
+
+    Parameters
+    ----------
+    labels
+        The labels (n, 8) in the picture.
+    zoom
+        How many pixels of the part are one of the picture, across and down.
+    low_px
+        The upper left corner (2,) x, y of the part in the picture.
+    size_px
+        Width and height of the part, in its own pixels.
+
+    Returns
+    -------
+    Labels
+        Those of what is left in the part (m, 8), in its own pixels.
+
     """
     seen = labels.copy()
     whole = zoom * (labels[:, BOX] - np.tile(low_px, 2))
@@ -141,7 +175,26 @@ def moved(
 
 
 def targets(labels: Labels, cells: Cells) -> tuple[Array, NDArray[np.int32], Array]:
-    """Return what each cell should say: boxes (n, 4), classes (n,) and weights (n,)."""
+    """
+    Compute what each cell should predict.
+
+    Parameters
+    ----------
+    labels
+        The labels (m, 8) of the picture.
+    cells
+        The cells of the network for a picture of this size.
+
+    Returns
+    -------
+    boxes : Array
+        (n, 4) x1, y1, x2, y2 in pixels; anything where nothing is.
+    classes : NDArray
+        (n,), -1 where nothing is.
+    weights : Array
+        (n,), 0 where nothing can be learned, else 1.
+
+    """
     is_clear = learnable(labels)
     clear, vague = labels[is_clear], labels[~is_clear]
     chosen = assignment(clear[:, BOX], cells)
@@ -153,7 +206,20 @@ def targets(labels: Labels, cells: Cells) -> tuple[Array, NDArray[np.int32], Arr
 
 
 def learnable(labels: Labels) -> NDArray[np.bool_]:
-    """Whether each thing is visible enough to be learned."""
+    """
+    Select the things that are visible enough to be learned.
+
+    Parameters
+    ----------
+    labels
+        The labels (n, 8) of a picture.
+
+    Returns
+    -------
+    NDArray
+        Whether each is (n,).
+
+    """
     edges = labels[:, 3:5] - labels[:, 1:3]
     return np.asarray(
         (labels[:, VISIBLE] >= LEAST_VISIBLE)
@@ -163,7 +229,17 @@ def learnable(labels: Labels) -> NDArray[np.bool_]:
 
 
 def spoilt(generator: np.random.Generator, picture: Color) -> Color:
-    """Return a picture with other brightness, contrast, tint, and noise like a camera's."""
+    """
+    Augment a picture with other brightness, contrast, tint, blur, and noise like a camera's.
+
+    Parameters
+    ----------
+    generator
+        The source of random numbers.
+    picture
+        The picture (height, width, 3), which is not changed.
+
+    """
     if generator.random() < 0.8:
         gain = generator.uniform(0.8, 1.2) * generator.uniform(0.94, 1.06, 3)
         shift = generator.uniform(-20, 20)
@@ -183,7 +259,20 @@ def spoilt(generator: np.random.Generator, picture: Color) -> Color:
 
 
 def letterboxed(picture: Color) -> tuple[Color, int]:
-    """Return a picture of 320x240 in the middle of an input, and the rows above it."""
+    """
+    Pad a picture of 320x240 above and below to the input size of the network.
+
+    Parameters
+    ----------
+    picture
+        The picture (240, 320, 3).
+
+    Returns
+    -------
+    Color, int
+        The input (256, 320, 3), and the number of rows above the picture.
+
+    """
     rows = (HEIGHT_PX - picture.shape[0]) // 2
     below = HEIGHT_PX - picture.shape[0] - rows
     borders = ((rows, below), (0, 0), (0, 0))
@@ -191,5 +280,18 @@ def letterboxed(picture: Color) -> tuple[Color, int]:
 
 
 def stacked(colors: Sequence[Color]) -> Color:
-    """Return inputs for some pictures, (n, height, width, 3)."""
+    """
+    Pad several pictures to a batch of inputs.
+
+    Parameters
+    ----------
+    colors
+        The pictures (240, 320, 3).
+
+    Returns
+    -------
+    Color
+        The inputs (n, 256, 320, 3).
+
+    """
     return np.stack([letterboxed(each)[0] for each in colors])

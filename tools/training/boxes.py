@@ -32,7 +32,15 @@ class Cells:
 
     @classmethod
     def of(cls, height_px: int, width_px: int) -> Cells:
-        """Return the cells for pictures of a size, whose sides are multiples of the strides."""
+        """
+        Lay out the cells for pictures of a size.
+
+        Parameters
+        ----------
+        height_px, width_px
+            The size, in multiples of the largest stride.
+
+        """
         centres, strides, sizes = [], [], []
         for stride, limits in zip(STRIDES, _SIZES_PX):
             x, y = np.meshgrid(np.arange(width_px // stride), np.arange(height_px // stride))
@@ -49,12 +57,21 @@ class Cells:
 
 def decoded(xp: Any, raw: Any, cells: Cells) -> Any:
     """
-    Return the boxes that outputs mean, (..., n, 4): centre x, y, width and height in pixels.
+    Decode the boxes that the outputs of the network mean.
 
-    Args:
-        xp: numpy or jax.numpy.
-        raw: (..., n, 4) the first four outputs of each cell.
-        cells: where the cells are.
+    Parameters
+    ----------
+    xp
+        numpy or jax.numpy.
+    raw
+        The first four outputs of each cell (..., n, 4).
+    cells
+        Where the cells are.
+
+    Returns
+    -------
+    Any
+        Boxes (..., n, 4): centre x, y, width and height in pixels.
 
     """
     strides = cells.strides_px[:, None]
@@ -65,13 +82,19 @@ def decoded(xp: Any, raw: Any, cells: Cells) -> Any:
 
 def assignment(boxes: Array, cells: Cells) -> NDArray[np.int32]:
     """
-    Return which box each cell learns, (n,), or -1.
+    Assign to each cell the box that it learns: the smallest one of its sizes with a near centre.
 
-    A cell learns the smallest box of its sizes whose centre is near.
+    Parameters
+    ----------
+    boxes
+        (m, 4) x1, y1, x2, y2 in pixels.
+    cells
+        The cells.
 
-    Args:
-        boxes: (m, 4) x1, y1, x2, y2 in pixels.
-        cells: the cells.
+    Returns
+    -------
+    NDArray
+        The number of the box (n,), or -1.
 
     """
     if len(boxes) == 0:
@@ -91,7 +114,22 @@ def assignment(boxes: Array, cells: Cells) -> NDArray[np.int32]:
 
 
 def covered(boxes: Array, cells: Cells) -> NDArray[np.bool_]:
-    """Whether the centre of each cell, (n,), is in or near one of some boxes (m, 4)."""
+    """
+    Select the cells whose centres are in a box, or less than a stride from one.
+
+    Parameters
+    ----------
+    boxes
+        (m, 4) x1, y1, x2, y2 in pixels.
+    cells
+        The cells.
+
+    Returns
+    -------
+    NDArray
+        Whether each cell is (n,).
+
+    """
     x, y = cells.centres_px[:, :1], cells.centres_px[:, 1:]
     margin = cells.strides_px[:, None]
     inside = (
@@ -104,7 +142,20 @@ def covered(boxes: Array, cells: Cells) -> NDArray[np.bool_]:
 
 
 def iou(a: Array, b: Array) -> Array:
-    """Return the intersection over union of boxes (n, 4) with boxes (m, 4): (n, m)."""
+    """
+    Compute the intersection over union of each box with each of some others.
+
+    Parameters
+    ----------
+    a, b
+        Boxes (n, 4) and (m, 4): x1, y1, x2, y2.
+
+    Returns
+    -------
+    Array
+        (n, m), from 0 to 1.
+
+    """
     low = np.maximum(a[:, None, :2], b[None, :, :2])
     high = np.minimum(a[:, None, 2:], b[None, :, 2:])
     shared = np.maximum(high - low, 0.0).prod(axis=2)
@@ -116,16 +167,24 @@ def suppressed(
     boxes: Array, scores: Array, least_score: float, most_iou: float, most: int = 300
 ) -> tuple[Array, NDArray[np.int64], Array]:
     """
-    Return the boxes that stay after non-maximum suppression of each class, best first.
+    Select the boxes that stay after non-maximum suppression of each class, best first.
 
-    Args:
-        boxes: (n, 4) x1, y1, x2, y2.
-        scores: (n, classes).
-        least_score: what is below counts as nothing.
-        most_iou: how much boxes of one class may overlap.
-        most: how many boxes are considered.
+    Parameters
+    ----------
+    boxes
+        (n, 4) x1, y1, x2, y2.
+    scores
+        (n, classes).
+    least_score
+        What is below counts as nothing.
+    most_iou
+        How much boxes of one class may overlap.
+    most
+        How many of the best boxes are considered.
 
-    Returns:
+    Returns
+    -------
+    Array, NDArray, Array
         Boxes (m, 4), classes (m,) and scores (m,).
 
     """
@@ -142,7 +201,20 @@ def suppressed(
 
 
 def corners(boxes: Sequence[Any] | Array) -> Array:
-    """Return x1, y1, x2, y2 of boxes (..., 4) given by centre, width and height."""
+    """
+    Convert boxes from centre and size to corners.
+
+    Parameters
+    ----------
+    boxes
+        (..., 4) centre x, y, width and height.
+
+    Returns
+    -------
+    Array
+        (..., 4) x1, y1, x2, y2.
+
+    """
     boxes = np.asarray(boxes, dtype=np.float32)
     half = boxes[..., 2:] / 2
     return np.concatenate([boxes[..., :2] - half, boxes[..., :2] + half], axis=-1)

@@ -51,7 +51,24 @@ def main() -> None:
 
 
 def write_card(card: Path, part: str, text: str) -> None:
-    """Replace the results of a part in a model card, between its comments."""
+    """
+    Replace the results of a part in a model card, between its comments.
+
+    Parameters
+    ----------
+    card
+        The file of the model card.
+    part
+        The part of the pictures, such as `test`.
+    text
+        The new results, in Markdown.
+
+    Raises
+    ------
+    SystemExit
+        The card has no comments for this part.
+
+    """
     mark, end = f'<!-- results: {part} -->\n', '<!-- end -->'
     before, found, rest = card.read_text(encoding='utf-8').partition(mark)
     if not found or end not in rest:
@@ -126,7 +143,17 @@ class Evaluation:
 
 
 def detected(path: Path, shards: Sequence[pictures.Shard]) -> Evaluation:
-    """Run a model on all pictures."""
+    """
+    Run a model on all pictures.
+
+    Parameters
+    ----------
+    path
+        The ONNX file of the model.
+    shards
+        The pictures, one at least.
+
+    """
     session = _session(path)
     name = session.get_inputs()[0].name
     truth: list[Labels] = []

@@ -56,7 +56,17 @@ class Footprint:
     height_m: float
 
     def is_near(self, x_m: float, y_m: float, margin_m: float) -> bool:
-        """Whether a point of the ground is in the rectangle or within a margin of it."""
+        """
+        Whether a point of the ground is in the rectangle or within a margin of it.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point.
+        margin_m
+            By how much the rectangle is extended on each side.
+
+        """
         return (
             abs(x_m - self.x_m) < self.half_x_m + margin_m
             and abs(y_m - self.y_m) < self.half_y_m + margin_m
@@ -71,20 +81,60 @@ class Home:
     footprints: tuple[Footprint, ...]
 
     def bounds_m(self, x_m: float, y_m: float) -> tuple[float, float, float, float]:
-        """Return least and greatest x and y of the room at a point; outside, of the first one."""
+        """
+        Compute the bounding box of the room at a point; outside of all, that of the first room.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point.
+
+        Returns
+        -------
+        float, float, float, float
+            Least and greatest x, least and greatest y, in m.
+
+        """
         room = self.scene.room_at(x_m, y_m) or self.scene.rooms[0]
         xs, ys = zip(*room.outline_m)
         return min(xs), max(xs), min(ys), max(ys)
 
 
 def band(generator: np.random.Generator, split: str) -> float:
-    """Return a number from 0 to 1, from bands of which every other one is held out."""
+    """
+    Draw a number from 0 to 1, from bands of which every other one is held out.
+
+    Parameters
+    ----------
+    generator
+        The source of random numbers.
+    split
+        `held_out` for the bands that are; otherwise those of training.
+
+    """
     number = 2 * int(generator.integers(_BANDS // 2)) + (split == HELD_OUT)
     return float((number + generator.uniform(0.05, 0.95)) / _BANDS)
 
 
 def surface_colour(generator: np.random.Generator, split: str, vivid: float = 0.25) -> Rgb:
-    """Return the colour of a wall, a floor or furniture; the part `vivid` of them is bright."""
+    """
+    Draw the colour of a wall, a floor or furniture.
+
+    Parameters
+    ----------
+    generator
+        The source of random numbers.
+    split
+        `training` or `held_out`: the hues differ.
+    vivid
+        The share of highly saturated colours, 0 to 1.
+
+    Returns
+    -------
+    float, float, float
+        Red, green and blue, 0 to 1.
+
+    """
     saturation = generator.uniform(0.4, 0.9) if generator.random() < vivid else 0.0
     saturation = saturation or generator.beta(1.2, 3.0)
     value = generator.uniform(0.15, 1.0) ** 0.6
@@ -92,7 +142,22 @@ def surface_colour(generator: np.random.Generator, split: str, vivid: float = 0.
 
 
 def thing_colour(kind: str, generator: np.random.Generator) -> tuple[str | None, Rgb]:
-    """Return a colour of a thing of a class: half of them as named colours, half varied."""
+    """
+    Draw the colour of a thing: in half of all cases exactly a named colour, else a variation.
+
+    Parameters
+    ----------
+    kind
+        The class of the thing.
+    generator
+        The source of random numbers.
+
+    Returns
+    -------
+    str, (float, float, float)
+        The name of the colour, and red, green and blue, 0 to 1.
+
+    """
     names = _COLOURS_OF.get(kind, tuple(COLOURS))
     name = str(generator.choice(names))
     rgb = np.array(COLOURS[name])
@@ -105,17 +170,29 @@ def random_home(generator: np.random.Generator, split: str = TRAINING, things: i
     """
     Make a room with furniture, things and perhaps people.
 
-    Args:
-        generator: all randomness.
-        split: `training` or `held_out`.
-        things: how many graspable things the home has.
+    Parameters
+    ----------
+    generator
+        All randomness.
+    split
+        `training` or `held_out`.
+    things
+        How many graspable things the home has.
 
     """
     return _Builder(generator, split).home(things)
 
 
 def home_of(scene: Scene) -> Home:
-    """Return a scene as it is, of which nobody knows more than what it says."""
+    """
+    Make a home of a scene as it is; its footprints are those of the furniture.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+
+    """
     footprints = []
     for thing in scene.things:
         if thing.kind not in KINDS:

@@ -59,7 +59,15 @@ class _Initial:
 
 
 def initial_weights(seed: int) -> tuple[Weights, Statistics]:
-    """Return random weights (He et al., 2015), and statistics to begin with."""
+    """
+    Draw random weights (He et al., 2015), and return them with initial statistics.
+
+    Parameters
+    ----------
+    seed
+        Of the random numbers.
+
+    """
     ops = _Initial(seed)
     network(ops, 3)
     return ops.weights, ops.statistics
@@ -99,15 +107,22 @@ def outputs(
     weights: Weights, statistics: Statistics, batch: Any, is_training: bool = False
 ) -> tuple[list[Any], Statistics]:
     """
-    Run the network.
+    Run the network on a batch.
 
-    Args:
-        weights: what was trained.
-        statistics: of what comes out of the convolutions.
-        batch: (n, height, width, 3) pictures, 0 to 1; sides are multiples of 32.
-        is_training: whether to normalise by the batch instead of by the statistics.
+    Parameters
+    ----------
+    weights
+        What was trained.
+    statistics
+        The mean and variance of what comes out of the convolutions.
+    batch
+        Pictures (n, height, width, 3), 0 to 1; sides are multiples of 32.
+    is_training
+        Whether to normalise by the batch instead of by the statistics.
 
-    Returns:
+    Returns
+    -------
+    list, Statistics
         For each stride (n, height / stride, width / stride, OUTPUTS), and the statistics of the
         batch when training.
 

@@ -36,12 +36,21 @@ class Seen:
 
 def labels_of(owners: NDArray[np.int32], seen: Mapping[int, Seen], pinhole: Pinhole) -> Labels:
     """
-    Return the labels of a picture.
+    Compute the labels of a picture from the things that its pixels show.
 
-    Args:
-        owners: (height, width), for each pixel the number of the thing that it shows, or -1.
-        seen: the things that get a label, by their number in `owners`.
-        pinhole: the camera.
+    Parameters
+    ----------
+    owners
+        (height, width), for each pixel the number of the thing that it shows, or -1.
+    seen
+        The things that get a label, by their number in `owners`.
+    pinhole
+        The camera.
+
+    Returns
+    -------
+    Labels
+        (n, 8), a row for each thing of which at least one pixel is visible.
 
     """
     rows = []
@@ -64,7 +73,22 @@ def labels_of(owners: NDArray[np.int32], seen: Mapping[int, Seen], pinhole: Pinh
 
 
 def silhouette_area_px(seen: Seen, pinhole: Pinhole) -> float:
-    """Return how many pixels a thing would cover that nothing hides, beyond the borders too."""
+    """
+    Compute the area that a thing would cover if nothing hid it, beyond the borders too.
+
+    Parameters
+    ----------
+    seen
+        The thing and its pose in the optical frame.
+    pinhole
+        The camera.
+
+    Returns
+    -------
+    float
+        The number of pixels, at least 1.
+
+    """
     outlines = [_projected(points, seen, pinhole) for points in _convex_pieces(seen.thing)]
     corners = np.concatenate(outlines)
     low, high = corners.min(axis=0), corners.max(axis=0)

@@ -15,7 +15,20 @@ _BOX_WEIGHT = 2.0
 
 
 def flat(outputs: list[Any]) -> Any:
-    """Return the outputs of all strides as one tensor, (n, cells, outputs)."""
+    """
+    Concatenate the outputs of all strides.
+
+    Parameters
+    ----------
+    outputs
+        For each stride (n, height, width, outputs).
+
+    Returns
+    -------
+    Any
+        (n, cells, outputs).
+
+    """
     return jnp.concatenate(
         [each.reshape(each.shape[0], -1, each.shape[-1]) for each in outputs], axis=1
     )
@@ -23,17 +36,23 @@ def flat(outputs: list[Any]) -> Any:
 
 def loss(outputs: Any, cells: Cells, boxes: Any, classes: Any, weights: Any) -> Any:
     """
-    Return the quality focal loss of scores and the generalised IoU loss of boxes.
+    Compute the quality focal loss of scores and the generalised IoU loss of boxes, as one number.
 
     Scores learn how well the box fits (Li et al., 2020, Generalized Focal Loss); boxes learn by
     the generalised intersection over union (Rezatofighi et al., 2019).
 
-    Args:
-        outputs: (n, cells, 4 + classes) of the network.
-        cells: where its cells are.
-        boxes: (n, cells, 4) x1, y1, x2, y2 that cells should say.
-        classes: (n, cells) -1 where nothing is.
-        weights: (n, cells) 0 where nothing can be learned.
+    Parameters
+    ----------
+    outputs
+        (n, cells, 4 + classes) of the network; scores are logits.
+    cells
+        Where its cells are.
+    boxes
+        (n, cells, 4) x1, y1, x2, y2 in pixels that cells should predict.
+    classes
+        (n, cells), -1 where nothing is.
+    weights
+        (n, cells), 0 where nothing can be learned.
 
     """
     predicted = decoded(jnp, outputs[..., :4], cells)

@@ -26,7 +26,20 @@ class Counted:
     pixels: float = 30.0
 
     def of(self, labels: Labels) -> NDArray[np.bool_]:
-        """Whether each of some things must be found."""
+        """
+        Select the things that must be found.
+
+        Parameters
+        ----------
+        labels
+            The labels (n, 8) of a picture.
+
+        Returns
+        -------
+        NDArray
+            Whether each must be found (n,).
+
+        """
         distance_m = labels[:, DISTANCE]
         return np.asarray(
             (distance_m >= self.nearest_m)
@@ -57,18 +70,25 @@ def quality(
     score: float = 0.4,
 ) -> Quality:
     """
-    Return how well a class is detected.
+    Compute how well a class is detected.
 
     Detections take things in the order of their scores, each the counted one that it fits best.
     The average precision is the area below the curve of precision, made to fall, over recall.
 
-    Args:
-        truth: for each picture what is visible.
-        detections: for each picture what was detected.
-        kind: the number of the class.
-        counted: which things must be found.
-        least_iou: how well boxes must fit.
-        score: that above which precision and recall are computed.
+    Parameters
+    ----------
+    truth
+        For each picture what is visible.
+    detections
+        For each picture what was detected.
+    kind
+        The number of the class.
+    counted
+        Which things must be found.
+    least_iou
+        How well boxes must fit.
+    score
+        That above which precision and recall are computed.
 
     """
     scores: list[float] = []
@@ -126,5 +146,13 @@ def _summary(
 
 
 def mean_average_precision(qualities: Sequence[Quality]) -> float:
-    """Return the mean over the classes of which there are things."""
+    """
+    Average the average precision over the classes of which there are things.
+
+    Parameters
+    ----------
+    qualities
+        One for each class.
+
+    """
     return float(np.nanmean([each.average_precision for each in qualities]))

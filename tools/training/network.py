@@ -30,20 +30,84 @@ class Operations(Protocol):
     """What the network is made of; tensors are whatever an implementation uses."""
 
     def conv(self, name: str, x: Any, channels: int, size: int = 3, stride: int = 1) -> Any:
-        """Convolve, normalise and rectify."""
+        """
+        Convolve, normalise and rectify.
+
+        Parameters
+        ----------
+        name
+            The name of the layer, which its weights have.
+        x
+            The input.
+        channels
+            How many channels the output has.
+        size
+            The edge of the kernel in pixels.
+        stride
+            The output is so many times as small as the input, across and down.
+
+        """
 
     def linear(self, name: str, x: Any, channels: int) -> Any:
-        """Convolve 1x1 with a bias."""
+        """
+        Convolve 1x1 with a bias.
+
+        Parameters
+        ----------
+        name
+            The name of the layer, which its weights have.
+        x
+            The input.
+        channels
+            How many channels the output has.
+
+        """
 
     def add(self, name: str, a: Any, b: Any) -> Any:
-        """Add two tensors of one shape."""
+        """
+        Add two tensors of one shape.
+
+        Parameters
+        ----------
+        name
+            The name of the layer.
+        a, b
+            The tensors.
+
+        """
 
     def double(self, name: str, x: Any) -> Any:
-        """Double width and height, by repeating values."""
+        """
+        Double width and height, by repeating values.
+
+        Parameters
+        ----------
+        name
+            The name of the layer.
+        x
+            The input.
+
+        """
 
 
 def network(ops: Operations, x: Any) -> list[Any]:
-    """Return for each stride the outputs of all cells: x, y, log width, log height, scores."""
+    """
+    Build the network, or run it, from a set of operations.
+
+    Parameters
+    ----------
+    ops
+        The operations.
+    x
+        The input in terms of these operations: pictures of 3 channels, 0 to 1.
+
+    Returns
+    -------
+    list
+        For each stride the outputs of all cells: x, y, log width, log height, and the logit of the
+        score of each class.
+
+    """
     s4 = _stage(ops, 's4', ops.conv('stem', x, 16, 3, 2), 32, 1)
     s8 = _stage(ops, 's8', s4, 64, 1)
     s16 = _stage(ops, 's16', s8, 80, 2)

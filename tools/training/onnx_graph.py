@@ -38,14 +38,23 @@ Array = NDArray[Any]
 
 def model_of(weights: Weights, statistics: Statistics, metadata: dict[str, str]) -> Any:
     """
-    Return the ONNX model, whose output is that of YOLOv8: [1, 4 + classes, cells].
+    Build the ONNX model, whose output is that of YOLOv8: [1, 4 + classes, cells].
 
     Boxes are centre x, y, width and height in pixels of the input, scores 0 to 1.
 
-    Args:
-        weights: what was trained.
-        statistics: of what comes out of the convolutions.
-        metadata: what the file says of itself besides `names`, `imgsz`, `stride` and `task`.
+    Parameters
+    ----------
+    weights
+        What was trained.
+    statistics
+        The mean and variance of what comes out of the convolutions.
+    metadata
+        What the file says of itself besides `names`, `imgsz`, `stride` and `task`.
+
+    Returns
+    -------
+    Any
+        The checked `onnx.ModelProto`.
 
     """
     graph = _Graph(weights, statistics)

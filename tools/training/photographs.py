@@ -58,7 +58,22 @@ class LabelPainter(GlPainter):
     """Draws colours, and which geom each pixel shows."""
 
     def geoms(self, data: mujoco.MjData, camera: int) -> NDArray[np.int32]:
-        """Return the geom of each pixel, (height, width); -1 where there is none."""
+        """
+        Render the geom that each pixel shows.
+
+        Parameters
+        ----------
+        data
+            The state, with bodies and cameras placed (`mj_kinematics`, `mj_camlight`).
+        camera
+            The id of the camera in the model.
+
+        Returns
+        -------
+        NDArray
+            Ids of geoms (height, width), -1 where there is none.
+
+        """
         self._camera.fixedcamid = camera
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
         mujoco.mjv_updateScene(
@@ -83,7 +98,28 @@ class Photographer:
     """
     Takes pictures of a home, from somewhere else each time.
 
-    If it `rearranges`, things, their colours and the light are others in each picture, too.
+    Call `close` before another one is made.
+
+    Parameters
+    ----------
+    description
+        The robot whose camera is used.
+    home
+        The home.
+    split
+        `training` or `held_out`: the directions of the light differ.
+    generator
+        All randomness.
+    method
+        How OpenGL runs without a window: `egl` or `osmesa`.
+    rearranges
+        Whether things, their colours and the light are others in each picture, too.
+
+    Raises
+    ------
+    SimulationError
+        OpenGL cannot be used.
+
     """
 
     def __init__(
@@ -118,7 +154,15 @@ class Photographer:
         self._painter.close()
 
     def take(self, renderer: int) -> Photograph:
-        """Take a picture."""
+        """
+        Take a picture.
+
+        Parameters
+        ----------
+        renderer
+            What draws its colours: `GL` or `RAYS`.
+
+        """
         if self._rearranges:
             focus_m = self._face(self._arrange())
             self._colour()

@@ -39,12 +39,30 @@ class Shard:
 
 
 def is_there(folder: Path, number: int) -> bool:
-    """Whether a shard was written to its end."""
+    """
+    Whether a shard was written to its end.
+
+    Parameters
+    ----------
+    folder, number
+        The folder of the part, and the number of the shard.
+
+    """
     return (folder / _LABELS.format(number)).exists()
 
 
 def write(folder: Path, number: int, shard: Shard) -> None:
-    """Write a shard; one that was begun and not ended does not count."""
+    """
+    Write a shard; one that was begun and not ended does not count.
+
+    Parameters
+    ----------
+    folder, number
+        The folder of the part, which is made if it is missing, and the number of the shard.
+    shard
+        The pictures and what they show.
+
+    """
     folder.mkdir(parents=True, exist_ok=True)
     np.save(folder / _PICTURES.format(number), shard.colors)
     rows = [np.empty((0, COLUMNS), np.float32), *shard.labels]
@@ -59,7 +77,15 @@ def write(folder: Path, number: int, shard: Shard) -> None:
 
 
 def read(folder: Path, number: int) -> Shard:
-    """Return a shard; its pictures stay in the file until they are used."""
+    """
+    Read a shard; its pictures stay in the file until they are used.
+
+    Parameters
+    ----------
+    folder, number
+        The folder of the part, and the number of the shard.
+
+    """
     colors = np.load(folder / _PICTURES.format(number), mmap_mode='r')
     with np.load(folder / _LABELS.format(number)) as stored:
         ends = np.cumsum(stored['counts'])
@@ -68,13 +94,34 @@ def read(folder: Path, number: int) -> Shard:
 
 
 def shards(folder: Path) -> Iterator[Shard]:
-    """Yield all shards of a folder that are complete, in order."""
+    """
+    Yield all shards of a folder that are complete, in order.
+
+    Parameters
+    ----------
+    folder
+        The folder of the part.
+
+    Yields
+    ------
+    Shard
+        Its pictures stay in the file until they are used.
+
+    """
     pattern = _LABELS.format(0).replace('000', '*')
     for path in sorted(folder.glob(pattern)):
         yield read(folder, int(path.stem.split('_')[1]))
 
 
 def numbers(folder: Path) -> Sequence[int]:
-    """Return the numbers of the shards of a folder that are complete."""
+    """
+    Return the numbers of the shards of a folder that are complete, in order.
+
+    Parameters
+    ----------
+    folder
+        The folder of the part.
+
+    """
     pattern = _LABELS.format(0).replace('000', '*')
     return sorted(int(path.stem.split('_')[1]) for path in folder.glob(pattern))

@@ -74,7 +74,15 @@ def _arguments() -> argparse.Namespace:
 
 
 def make_optimizer(steps: int) -> optax.GradientTransformation:
-    """Return AdamW (Loshchilov and Hutter, 2019), whose rate falls in the last steps."""
+    """
+    Make AdamW (Loshchilov and Hutter, 2019), whose learning rate falls in the last steps.
+
+    Parameters
+    ----------
+    steps
+        How many steps the whole training has.
+
+    """
     decay = max(1, int(DECAY_SHARE * steps))
     rate = optax.join_schedules(
         [
@@ -96,7 +104,17 @@ def _is_weight(weights: Weights) -> dict[str, bool]:
 
 
 def start(optimizer: optax.GradientTransformation, seed: int) -> State:
-    """Return the state before the first step."""
+    """
+    Return the state before the first step.
+
+    Parameters
+    ----------
+    optimizer
+        The optimizer, whose state is part of it.
+    seed
+        Of the random weights.
+
+    """
     weights, statistics = initial_weights(seed)
     return {
         'weights': weights,
@@ -109,7 +127,17 @@ def start(optimizer: optax.GradientTransformation, seed: int) -> State:
 
 
 def save(path: Path, state: State) -> None:
-    """Write a checkpoint; the one before stays until this one is complete."""
+    """
+    Write a checkpoint; the one before stays until this one is complete.
+
+    Parameters
+    ----------
+    path
+        The file, with the suffix .npz.
+    state
+        The state of the training.
+
+    """
     arrays = {
         f'{part}:{name}': np.asarray(value)
         for part in _STORED
@@ -124,7 +152,19 @@ def save(path: Path, state: State) -> None:
 
 
 def load(path: Path, optimizer: optax.GradientTransformation, seed: int) -> State:
-    """Return the state of a checkpoint, or that before the first step if there is none."""
+    """
+    Load the state of a checkpoint, or return that before the first step if there is none.
+
+    Parameters
+    ----------
+    path
+        The file of the checkpoint.
+    optimizer
+        The optimizer, of the same structure as that of the checkpoint.
+    seed
+        Of the random weights, if there is no checkpoint.
+
+    """
     state = start(optimizer, seed)
     if not path.exists():
         return state
@@ -140,7 +180,23 @@ def load(path: Path, optimizer: optax.GradientTransformation, seed: int) -> Stat
 
 
 class Training:
-    """A training, its pictures and its files."""
+    """
+    A training, its pictures and its files.
+
+    Parameters
+    ----------
+    data
+        The folder with the parts `training` and `validation` of the pictures.
+    folder
+        Where checkpoints, the best weights and the progress are written.
+    state
+        Where to go on, as from `load`.
+    optimizer
+        The optimizer.
+    seed
+        Of the batches.
+
+    """
 
     def __init__(
         self,
@@ -158,7 +214,15 @@ class Training:
         self._best = _best_of(folder / 'progress.csv')
 
     def run(self, steps: int) -> None:
-        """Train until so many steps are done in all."""
+        """
+        Train until so many steps are done in all, with checkpoints and evaluations meanwhile.
+
+        Parameters
+        ----------
+        steps
+            The number of steps, those of earlier runs included.
+
+        """
         saved_s = time.monotonic()
         with ThreadPoolExecutor(1) as loader:
             following = loader.submit(self._batch, self.state['step'])
@@ -176,7 +240,15 @@ class Training:
                     saved_s = time.monotonic()
 
     def advance(self, batch: Batch) -> Any:
-        """Do one step; return its loss."""
+        """
+        Do one step of training; return its loss.
+
+        Parameters
+        ----------
+        batch
+            The pictures and targets of the step.
+
+        """
         parts = {name: value for name, value in self.state.items() if name != 'step'}
         done = self.state['step'] + 1
         average = min(AVERAGE, done / (done + 10.0))
@@ -214,7 +286,22 @@ def _best_of(path: Path) -> float:
 
 
 def make_step(optimizer: optax.GradientTransformation) -> Any:
-    """Return the function that does a step: parts of the state and a batch to both anew."""
+    """
+    Compile the function that does one step of training.
+
+    Parameters
+    ----------
+    optimizer
+        The optimizer.
+
+    Returns
+    -------
+    Callable
+        Takes the parts of a `State` but `step`, then the pictures, boxes, classes and weights of a
+        `Batch`, and the share of the old averages that stays. It returns the new parts and the
+        loss.
+
+    """
 
     def mistake(
         weights: Weights, statistics: Statistics, shown: Any, targets: tuple[Any, Any, Any]
@@ -253,7 +340,17 @@ def _mixed(old: Mapping[str, Any], new: Mapping[str, Any], share: Any) -> dict[s
 def mean_precision(
     weights: Weights, statistics: Statistics, validation: list[pictures.Shard]
 ) -> float:
-    """Return the mean average precision at an IoU of 0.5 on some pictures."""
+    """
+    Compute the mean average precision at an IoU of 0.5 on some pictures.
+
+    Parameters
+    ----------
+    weights, statistics
+        Those of the network.
+    validation
+        The pictures and what they show.
+
+    """
     truth, found = [], []
     for shard in validation:
         found += detections(weights, statistics, shard)
@@ -275,7 +372,22 @@ _inferred = jax.jit(_inference)
 def detections(
     weights: Weights, statistics: Statistics, shard: pictures.Shard
 ) -> list[Detections]:
-    """Return what the network detects in the pictures of a shard."""
+    """
+    Detect things in the pictures of a shard.
+
+    Parameters
+    ----------
+    weights, statistics
+        Those of the network.
+    shard
+        The pictures (n, 240, 320, 3).
+
+    Returns
+    -------
+    list of Detections
+        For each picture, with boxes in its pixels.
+
+    """
     cells, found = Cells.of(HEIGHT_PX, WIDTH_PX), []
     rows = letterboxed(shard.colors[0])[1]
     for first in range(0, len(shard.colors), _AT_ONCE):

@@ -120,7 +120,7 @@ class EventHandler(BaseEventHandler):
                 [] if entities is None else [entities]
             )
         else:
-            self.__entities = entities
+            self.__entities = list(entities)  # they are looked at before they are visited
 
     @property
     def entities(self) -> Iterable[LaunchDescriptionEntity]:

@@ -70,6 +70,13 @@ def test_handler_registered_by_a_handler(run: Run) -> None:
     assert _texts(result) == ['first', 'late']
 
 
+def test_entities_may_come_from_a_generator(run: Run) -> None:
+    """They are looked at before they are visited, and visited at each event."""
+    handler = EventHandler(matcher=_is_ping, entities=(LogInfo(msg=each) for each in 'ab'))
+    result = run(RegisterEventHandler(handler), EmitEvent(event=Ping()), EmitEvent(event=Ping()))
+    assert _texts(result) == ['a', 'b', 'a', 'b']
+
+
 def test_unregistered_handler(run: Run) -> None:
     """A handler that was removed is asked no more."""
     handler = EventHandler(matcher=_is_ping, entities=[LogInfo(msg='no')])

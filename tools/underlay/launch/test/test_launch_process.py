@@ -143,6 +143,8 @@ def test_execute_local(run: Run) -> None:
     """A description of a program can be executed by itself."""
     description = Executable(cmd=['echo'], arguments=['x'])
     assert '] x\n' in run(ExecuteLocal(process_description=description, output='screen')).text
+    with pytest.raises(TypeError, match="'arguments' must be a list of words"):
+        Executable(cmd=['echo'], arguments='x')
 
 
 def test_process_starts_after_the_walk(run: Run) -> None:

@@ -24,48 +24,111 @@ class Outcome(NamedTuple):
 
 
 class TestResult(unittest.TextTestResult):
-    """Notes how each test went, and how long it took."""
+    """
+    Records how each test went, and how long it took.
+
+    Parameters
+    ----------
+    *args, **kwargs
+        As for `unittest.TextTestResult`.
+
+    """
 
     __test__ = False
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
-        """Create a result without tests."""
         super().__init__(*args, **kwargs)
         self.outcomes: list[Outcome] = []
         self._started_s = 0.0
 
     def startTest(self, test: unittest.TestCase) -> None:  # noqa: N802
-        """Note when a test begins."""
+        """
+        Note when a test begins.
+
+        Parameters
+        ----------
+        test
+            As for `unittest.TestResult.startTest`.
+
+        """
         self._started_s = time.monotonic()
         super().startTest(test)
 
     def addSuccess(self, test: unittest.TestCase) -> None:  # noqa: N802
-        """Note a test that passed."""
+        """
+        Note a test that passed.
+
+        Parameters
+        ----------
+        test
+            As for `unittest.TestResult.addSuccess`.
+
+        """
         super().addSuccess(test)
         self._note(test, PASSED)
 
     def addFailure(self, test: unittest.TestCase, err: Any) -> None:  # noqa: N802
-        """Note a test in which an assertion failed."""
+        """
+        Note a test in which an assertion failed.
+
+        Parameters
+        ----------
+        test, err
+            As for `unittest.TestResult.addFailure`.
+
+        """
         super().addFailure(test, err)
         self._note(test, FAILED, self.failures[-1][1])
 
     def addError(self, test: unittest.TestCase, err: Any) -> None:  # noqa: N802
-        """Note a test that raised an exception."""
+        """
+        Note a test that raised an exception.
+
+        Parameters
+        ----------
+        test, err
+            As for `unittest.TestResult.addError`.
+
+        """
         super().addError(test, err)
         self._note(test, ERROR, self.errors[-1][1])
 
     def addSkip(self, test: unittest.TestCase, reason: str) -> None:  # noqa: N802
-        """Note a test that was left out."""
+        """
+        Note a test that was left out.
+
+        Parameters
+        ----------
+        test, reason
+            As for `unittest.TestResult.addSkip`.
+
+        """
         super().addSkip(test, reason)
         self._note(test, SKIPPED, reason)
 
     def addExpectedFailure(self, test: unittest.TestCase, err: Any) -> None:  # noqa: N802
-        """Note a test that failed as it should."""
+        """
+        Note a test that failed as it should.
+
+        Parameters
+        ----------
+        test, err
+            As for `unittest.TestResult.addExpectedFailure`.
+
+        """
         super().addExpectedFailure(test, err)
         self._note(test, PASSED)
 
     def addUnexpectedSuccess(self, test: unittest.TestCase) -> None:  # noqa: N802
-        """Note a test that should have failed."""
+        """
+        Note a test that should have failed.
+
+        Parameters
+        ----------
+        test
+            As for `unittest.TestResult.addUnexpectedSuccess`.
+
+        """
         super().addUnexpectedSuccess(test)
         self._note(test, FAILED, 'the test passed, but was expected to fail')
 
@@ -75,7 +138,15 @@ class TestResult(unittest.TextTestResult):
         subtest: unittest.TestCase,
         err: Optional[Any],
     ) -> None:
-        """Note a part of a test if it failed."""
+        """
+        Note a part of a test if it failed.
+
+        Parameters
+        ----------
+        test, subtest, err
+            As for `unittest.TestResult.addSubTest`.
+
+        """
         super().addSubTest(test, subtest, err)
         if err is not None:
             is_failure = issubclass(err[0], AssertionError)
@@ -83,7 +154,15 @@ class TestResult(unittest.TextTestResult):
             self._note(test, FAILED if is_failure else ERROR, text)
 
     def add_launch_failure(self, run_name: str, message: str) -> None:
-        """Note that not a test failed, but the launch."""
+        """
+        Note that not a test failed, but the launch.
+
+        Parameters
+        ----------
+        run_name, message
+            The name of the run, and what went wrong.
+
+        """
         self.outcomes.append(Outcome('launch', run_name, ERROR, message, 0.0))
 
     def wasSuccessful(self) -> bool:  # noqa: N802

@@ -14,7 +14,23 @@ __all__ = ['LaunchTestRunner']
 
 
 class LaunchTestRunner:
-    """Launches one description after the other, and runs the tests on each."""
+    """
+    Launches one description after the other, and runs the tests on each.
+
+    Parameters
+    ----------
+    test_runs
+        What to run.
+    launch_file_arguments
+        The arguments of the launch descriptions (`name:=value`).
+    debug
+        Whether the launch logs more.
+    verbosity
+        How much is told about the tests, as for unittest.
+    stream
+        Where that is told; None is the standard error output.
+
+    """
 
     def __init__(
         self,
@@ -24,15 +40,6 @@ class LaunchTestRunner:
         verbosity: int = 1,
         stream: Optional[TextIO] = None,
     ) -> None:
-        """
-        Create a runner.
-
-        :param test_runs: what to run
-        :param launch_file_arguments: the arguments of the launch descriptions (`name:=value`)
-        :param debug: whether the launch tells more
-        :param verbosity: how much is told about the tests, as for unittest
-        :param stream: where that is told; the standard error output if it is None
-        """
         self._test_runs = list(test_runs)
         self._arguments = list(launch_file_arguments)
         self._options: dict[str, Any] = {

@@ -119,10 +119,10 @@ class RotateToGoalCritic(Critic):
             return np.zeros(len(rollouts), np.float32)
         p = self._parameters.current
         speed = np.hypot(rollouts.velocities[:, 0], rollouts.velocities[:, 1])
-        last = rollouts.yaw.shape[1] - 1
+        at = -1
         if p.lookahead_time >= 0.0:
-            last = min(round(p.lookahead_time / state.period_s), last)
-        turn = np.float32(state.goal.yaw) - rollouts.yaw[:, last]
+            at = int(np.abs(rollouts.times_s - p.lookahead_time).argmin())
+        turn = np.float32(state.goal.yaw) - rollouts.yaw[:, at]
         scores = np.abs(np.remainder(turn + np.float32(math.pi), 2 * math.pi) - math.pi)
         scores = scores.astype(np.float32)
         if self._is_turning:

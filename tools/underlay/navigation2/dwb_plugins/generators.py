@@ -78,6 +78,8 @@ class Rollouts:
     y: Floats
     yaw: Floats
     """(S, T) in rad, not wrapped."""
+    times_s: Floats
+    """(T,) from now, in s."""
 
     def __len__(self) -> int:
         return len(self.velocities)
@@ -212,7 +214,7 @@ class StandardTrajectoryGenerator:
         cos, sin = np.cos(middle), np.sin(middle)
         x = np.float32(pose.x) + np.cumsum(vx * cos - vy * sin, axis=1)
         y = np.float32(pose.y) + np.cumsum(vx * sin + vy * cos, axis=1)
-        return Rollouts(velocities, x, y, yaw)
+        return Rollouts(velocities, x, y, yaw, times)
 
     def _count(self, velocities: Floats) -> int:
         p = self._parameters.current

@@ -44,6 +44,7 @@ class ManagerWatch:
         self._client = node.create_client(Trigger, f'{name}/is_active')
         self._future: Any = None
         self._asked_s = -ASK_S
+        self._is_due = True
 
     @property
     def is_there(self) -> bool:
@@ -62,13 +63,13 @@ class ManagerWatch:
         """
         if self._future is not None:
             self._take(now_s)
-        elif now_s - self._asked_s >= ASK_S:
-            self._asked_s = now_s
+        elif self._is_due or now_s - self._asked_s >= ASK_S:
+            self._asked_s, self._is_due = now_s, False
             self._ask()
 
     def hurry(self) -> None:
-        """Ask soon, since something has been changed."""
-        self._asked_s = 0.0
+        """Ask anew after an answer that is awaited, since something has been changed."""
+        self._is_due = True
 
     def close(self) -> None:
         """Ask no longer."""

@@ -5,8 +5,11 @@ from dataclasses import dataclass, fields, replace
 import heapq
 import math
 import time
+from types import SimpleNamespace
 
 import cv2
+from dwb_critics.motion import RotateToGoalCritic
+from dwb_plugins.generators import Rollouts
 from nav2_controller.control import ControlState, NoValidControl, SpeedLimit, Velocity
 from nav2_controller.plugins import CONTROLLERS, PluginContext
 from nav2_controller.surroundings import Surroundings
@@ -627,3 +630,25 @@ def test_tracker_makes_sparse_paths_dense_and_cuts_them_at_the_costmap():
     assert not whole
     assert plan[0, 0] == pytest.approx(1.0)
     assert 2.9 < plan[-1, 0] < 3.0
+
+
+@pytest.mark.parametrize(
+    ('lookahead_s', 'at_rad'), [(-1.0, 0.8), (0.0, 0.2), (0.5, 0.2), (1.1, 0.4), (9.0, 0.8)]
+)
+def test_dwb_heading_at_a_time_of_the_trajectory(lookahead_s, at_rad):
+    """RotateToGoal takes the yaw of the point that is nearest in time, or the last one."""
+    source = PlainParameters({'RotateToGoal.lookahead_time': lookahead_s})
+    critic = RotateToGoalCritic(PluginContext(source, 'RotateToGoal', PERIOD, 1.5))
+    state = SimpleNamespace(
+        is_goal_in_plan=True,
+        goal_distance_m=0.0,
+        velocity=Velocity(0.5),
+        goal=Pose2D(0.0, 0.0, 0.0),
+    )
+    times_s = np.array([0.5, 1.0, 1.5, 2.0], np.float32)
+    still = np.zeros((1, 4), np.float32)
+    yaw = 0.4 * times_s[None, :]
+    rollouts = Rollouts(np.zeros((1, 3), np.float32), still, still, yaw, times_s)
+    scene = SimpleNamespace(state=state, rollouts=rollouts)
+    critic.begin(scene)
+    assert critic.scores(scene) == pytest.approx([at_rad], abs=1e-6)

@@ -9,7 +9,19 @@ __all__ = ['assign']
 
 
 def assign(widget: Any, **values: Any) -> None:
-    """Give a widget values, but not those that it has already."""
+    """
+    Set properties of a widget, skipping those that have the value already.
+
+    viser sends every assignment to all browsers, changed or not.
+
+    Parameters
+    ----------
+    widget
+        A viser widget.
+    **values
+        The new values, by the name of the property.
+
+    """
     for name, value in values.items():
         if getattr(widget, name) != value:
             setattr(widget, name, value)

@@ -29,10 +29,21 @@ REFUSED = 1008
 
 
 class Connections:
-    """Talks to all who have a small page open, in the thread of the page."""
+    """
+    The WebSocket connections of a small page, each with a session of its own.
+
+    They are served in the thread of the page.
+
+    Parameters
+    ----------
+    people
+        Gives each page a name, which its connections share.
+    begin
+        Creates the session of a connection from the name of its page.
+
+    """
 
     def __init__(self, people: People, begin: Callable[[str], Session]) -> None:
-        """Take what begins a session for a person."""
         self._people = people
         self._begin = begin
         self._talks: dict[asyncio.Task[None], asyncio.AbstractEventLoop] = {}
@@ -41,7 +52,19 @@ class Connections:
         self._is_over = False
 
     async def talk(self, connection: ServerConnection) -> None:
-        """Talk to one of them, until one of both ends it."""
+        """
+        Serve one connection until either side closes it.
+
+        Each message, in JSON, is answered with the state of the session. A page that is watched
+        but silent for too long loses control; a message that the session rejects closes the
+        connection.
+
+        Parameters
+        ----------
+        connection
+            The connection that a page has just opened.
+
+        """
         if self._is_over:
             return
         task = asyncio.ensure_future(self._serve(connection))

@@ -23,6 +23,20 @@ class DriveSession(Session):
 
     What the page asks for is numbered by presses. A press that has ended, for whatever reason,
     moves nothing any more.
+
+    Parameters
+    ----------
+    link
+        The link to the robot, with its emergency stop and who is in control.
+    person
+        Who has the page open, as others are told.
+    limits
+        The speeds at full deflection of the stick.
+    say
+        Publishes a velocity of the base.
+    count_listeners
+        Returns the number of subscribers of that velocity, which the page shows.
+
     """
 
     def __init__(
@@ -33,7 +47,6 @@ class DriveSession(Session):
         say: Callable[[Velocity], None],
         count_listeners: Callable[[], int],
     ) -> None:
-        """Begin without driving."""
         super().__init__(link, person)
         self._limits = limits
         self._say = say
@@ -113,7 +126,15 @@ class DriveSession(Session):
 
 
 def stalled(silent_s: float) -> str:
-    """Say why a robot was stopped that a page drove from which nothing came for a while."""
+    """
+    Explain to a person why the robot was stopped: the page that drove it stalled.
+
+    Parameters
+    ----------
+    silent_s
+        For how long nothing came from the page, in s.
+
+    """
     return (
         f'The robot was stopped: this page stalled for {silent_s:.1f} s. '
         'This computer, or the network, is too busy.'

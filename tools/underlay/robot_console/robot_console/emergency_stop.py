@@ -19,10 +19,30 @@ class EmergencyStop:
     """Whether anybody has said anything yet."""
 
     def say(self, pressed: bool, by: str) -> None:
-        """Take note of what somebody says with this console."""
+        """
+        Record that somebody presses or releases the emergency stop with this console.
+
+        Parameters
+        ----------
+        pressed
+            Whether it is pressed from now on.
+        by
+            The name of the person.
+
+        """
         self.pressed, self.by, self.heard = pressed, by, True
 
     def hear(self, pressed: bool) -> None:
-        """Take note of what was published, by this console or by others."""
+        """
+        Update the state of the emergency stop from the topic, whoever has published there.
+
+        An echo of what this console said itself keeps the name of the person.
+
+        Parameters
+        ----------
+        pressed
+            Whether the message says that it is pressed.
+
+        """
         if pressed != self.pressed or not self.heard:
             self.say(pressed, '')

@@ -14,7 +14,20 @@ __all__ = ['fields_of', 'message_class']
 
 @cache
 def message_class(type_name: str) -> Any:
-    """Return the class of a type such as `std_msgs/msg/String`, or raise PathError."""
+    """
+    Import the class of a message type.
+
+    Parameters
+    ----------
+    type_name
+        Such as `std_msgs/msg/String`.
+
+    Raises
+    ------
+    PathError
+        The type is not installed, or cannot be imported.
+
+    """
     from ros2cli.messages.lookup import get_message, UnknownType
 
     try:
@@ -25,6 +38,24 @@ def message_class(type_name: str) -> Any:
 
 @cache
 def fields_of(type_name: str) -> Mapping[str, str]:
-    """Return the fields of a type of messages with their types."""
+    """
+    Get the fields of a message type.
+
+    Parameters
+    ----------
+    type_name
+        Such as `std_msgs/msg/String`.
+
+    Returns
+    -------
+    Mapping
+        The types of the fields as IDL writes them, such as `sequence<double>`, by name.
+
+    Raises
+    ------
+    PathError
+        As for `message_class`.
+
+    """
     fields: Mapping[str, str] = message_class(type_name).get_fields_and_field_types()
     return fields

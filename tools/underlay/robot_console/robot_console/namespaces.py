@@ -23,7 +23,25 @@ class Namespace(Text):
     """The namespace of a robot."""
 
     def read(self, value: Any) -> str:
-        """Return the value, or raise ValueError."""
+        """
+        Validate a namespace that a file or a widget gives.
+
+        Parameters
+        ----------
+        value
+            Anything that becomes a text; None stands for no namespace.
+
+        Returns
+        -------
+        str
+            The namespace without slashes at its ends.
+
+        Raises
+        ------
+        ValueError
+            It is no valid namespace; the text goes on after the name of the property.
+
+        """
         text = super().read(value)
         if not VALID.fullmatch(text):
             raise ValueError(f"must be like 'robot1', and not '{text}'")
@@ -34,12 +52,37 @@ NAMESPACE = Namespace('Namespace', '', 'The robot; it is put before the names of
 
 
 def below(namespace: str, topic: str) -> str:
-    """Return a topic in a namespace; those that begin with a slash stay as they are."""
+    """
+    Put a relative topic name into the namespace of a robot.
+
+    Parameters
+    ----------
+    namespace
+        Without slashes at its ends; '' leaves the name as it is.
+    topic
+        The name; an absolute one, with a leading slash, stays as it is.
+
+    """
     if topic.startswith('/') or not namespace:
         return topic
     return f'/{namespace}/{topic}'
 
 
 def topic_of_robot(node: Node, namespace: str, topic: str) -> str:
-    """Return the full name of a topic of a robot, or raise ValueError if it is no name."""
+    """
+    Resolve the topic name of a robot to a fully qualified one.
+
+    Parameters
+    ----------
+    node
+        The node whose remappings apply, and whose namespace if there is no other.
+    namespace, topic
+        As for `below`.
+
+    Raises
+    ------
+    ValueError
+        It is no valid topic name; the text is a sentence.
+
+    """
     return full_topic_name(node, below(namespace, topic))

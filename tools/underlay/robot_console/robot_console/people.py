@@ -12,13 +12,27 @@ class People:
     """Names such as `browser 2 (127.0.0.1)`, one for all connections of a page."""
 
     def __init__(self) -> None:
-        """Begin with nobody."""
         self._names: dict[str, str] = {}
         self._connections: Counter[str] = Counter()
         self._count = 0
 
     def arrive(self, key: str, address: str) -> str:
-        """Return the name of a page that connects, known by a key that it made up."""
+        """
+        Register a connection of a page, and name the page.
+
+        Parameters
+        ----------
+        key
+            The identifier that the page made up, the same for all of its connections.
+        address
+            The IP address of the browser.
+
+        Returns
+        -------
+        str
+            The name; a page that is connected already keeps its own.
+
+        """
         self._connections[key] += 1
         if key not in self._names:
             self._count += 1
@@ -26,7 +40,15 @@ class People:
         return self._names[key]
 
     def leave(self, key: str) -> None:
-        """Forget a page with its last connection."""
+        """
+        Unregister a connection of a page; the name is forgotten with the last one.
+
+        Parameters
+        ----------
+        key
+            The identifier, as for `arrive`.
+
+        """
         self._connections[key] -= 1
         if not self._connections[key]:
             del self._connections[key], self._names[key]

@@ -18,17 +18,37 @@ STALE_S = 3.0
 
 
 class RealTimeFactor:
-    """Hears what a simulator says on the topic `real_time_factor`."""
+    """
+    Subscribes to the real-time factor that a simulator publishes on `real_time_factor`.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes; the topic is relative to its namespace.
+
+    """
 
     def __init__(self, node: Node) -> None:
-        """Begin to listen."""
         self._node = node
         self._heard: tuple[float, float] | None = None
         newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._subscription = node.create_subscription(Float64, TOPIC, self._hear, newest)
 
     def factor(self, now_s: float) -> float | None:
-        """Return seconds of the world in a real one, None if nobody has said so lately."""
+        """
+        Get the current real-time factor.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.monotonic`.
+
+        Returns
+        -------
+        float or None
+            Simulated seconds per real second; None if nothing has come for 3 s.
+
+        """
         if self._heard is None or now_s - self._heard[0] > STALE_S:
             return None
         return self._heard[1]

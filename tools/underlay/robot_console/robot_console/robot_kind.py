@@ -10,7 +10,22 @@ KINDS = (AUTO, REAL, SIMULATED)
 
 
 def robot_kind(told: str, clock_publishers: int) -> str:
-    """Return what a robot is; without being told, nothing is called real."""
+    """
+    Decide whether a robot is called real or simulated.
+
+    Parameters
+    ----------
+    told
+        One of `KINDS`; anything but `AUTO` is what the user says, and returned as it is.
+    clock_publishers
+        How many publish `/clock`, as simulators do.
+
+    Returns
+    -------
+    str
+        `REAL`, `SIMULATED` or `UNKNOWN`; `AUTO` never leads to `REAL`.
+
+    """
     if told != AUTO:
         return told
     return SIMULATED if clock_publishers else UNKNOWN

@@ -34,11 +34,30 @@ class RobotLink:
     The emergency stop of a robot, its answer, and the heartbeat of the console for it.
 
     What is published goes out at once, from the thread that asks for it. The link stays as long
-    as the node, so that a stop is heard also by those who join late.
+    as the node, so that a stop is heard also by those who join late. Nothing is published at the
+    start, since a false would release a stop.
+
+    Parameters
+    ----------
+    node
+        The node that publishes and subscribes.
+    namespace
+        The namespace of the robot without slashes at its ends; '' for that of the node.
+
+    Attributes
+    ----------
+    control
+        Who is in control of the robot.
+    stop
+        What is known of the emergency stop.
+    people
+        The names of those who have a small page of the robot open.
+    stop_topic, state_topic
+        The topics of the emergency stop (Bool) and of the robot's answer (String).
+
     """
 
     def __init__(self, node: Node, namespace: str) -> None:
-        """Begin to listen; nothing is said yet, since a false would release a stop."""
         self.control = Control()
         self.stop = EmergencyStop()
         self.people = People()
@@ -57,12 +76,33 @@ class RobotLink:
         node.create_subscription(String, self.state_topic, self._hear_answer, LATCHED)
 
     def say_stop(self, pressed: bool, by: str) -> None:
-        """Press or release the emergency stop."""
+        """
+        Publish that the emergency stop is pressed or released.
+
+        Parameters
+        ----------
+        pressed
+            True to press it.
+        by
+            The name of the person who does.
+
+        """
         self.stop.say(pressed, by)
         self._stop_publisher.publish(Bool(data=pressed))
 
     def beat(self, in_control: bool) -> None:
-        """Give the robot a sign of life; those that follow too soon are left out."""
+        """
+        Publish a heartbeat of the console.
+
+        While somebody is in control, those that follow within 0.08 s are left out.
+
+        Parameters
+        ----------
+        in_control
+            Whether somebody is in control; False tells the robot that control was given back on
+            purpose.
+
+        """
         now_s = time.monotonic()
         if not in_control or now_s - self._beat_s >= BEAT_PERIOD_S:
             self._beat_s = now_s
@@ -79,7 +119,17 @@ _LINKS: WeakKeyDictionary[Page, dict[str, RobotLink]] = WeakKeyDictionary()
 
 
 def link_of(context: Context, namespace: str) -> RobotLink:
-    """Return the link to the robot of a namespace, which all panels of a page share."""
+    """
+    Get the link to a robot, which all panels of a page share; it is created on first use.
+
+    Parameters
+    ----------
+    context
+        The context of the panel, with its page and its node.
+    namespace
+        The namespace of the robot; slashes at its ends do not matter.
+
+    """
     links = _LINKS.setdefault(context.page, {})
     name = namespace.strip('/')
     if name not in links:

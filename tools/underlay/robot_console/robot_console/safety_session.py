@@ -30,10 +30,21 @@ class Facts:
 
 
 class SafetySession(Session):
-    """Presses the emergency stop and releases it, takes control and gives it back."""
+    """
+    Presses the emergency stop and releases it, takes control and gives it back.
+
+    Parameters
+    ----------
+    link
+        The link to the robot.
+    person
+        Who has the page open, as others are told.
+    facts
+        Returns what is known of the robot at the moment.
+
+    """
 
     def __init__(self, link: RobotLink, person: str, facts: Callable[[], Facts]) -> None:
-        """Take what returns what is known of the robot."""
         super().__init__(link, person)
         self._facts = facts
 

@@ -19,10 +19,19 @@ TIMEOUT_S = 1.5
 
 
 class Samples:
-    """Hears some topics until each has had a message, or for a short while."""
+    """
+    Gets one message from each of some topics, with a timeout.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    full_name
+        Resolves a topic name, or raises ValueError.
+
+    """
 
     def __init__(self, node: Node, full_name: Callable[[str], str]) -> None:
-        """Ask for nothing yet."""
         self._listener = TopicListener(node, full_name, lambda topic, kind: None, self._take)
         self._topics: frozenset[str] = frozenset()
         self._messages: dict[str, Any] = {}
@@ -30,7 +39,20 @@ class Samples:
         self._end_s = 0.0
 
     def ask(self, topics: Collection[str], done: Done) -> None:
-        """Have something done with the messages; a request from before is forgotten."""
+        """
+        Request a message from each of some topics; a request from before is dropped.
+
+        Call `update` until the answer has come.
+
+        Parameters
+        ----------
+        topics
+            The names, which the constructor's `full_name` resolves.
+        done
+            Called by `update` with the messages by topic; those that did not come within 1.5 s are
+            missing.
+
+        """
         self._listener.close()
         self._topics, self._done = frozenset(topics), done
         self._messages = {}

@@ -30,17 +30,41 @@ class _Call:
 
 
 class ServiceCalls:
-    """Calls services; `update` sees to it that each call ends with an answer or a reason."""
+    """
+    Calls services without blocking; `update` ends each call with a response or a reason.
+
+    Parameters
+    ----------
+    node
+        The node that has the clients. It is used in its own thread only.
+
+    """
 
     def __init__(self, node: Node) -> None:
-        """Call nothing yet."""
         self._node = node
         self._calls: list[_Call] = []
 
     def call(
         self, kind: Any, name: str, request: Any, answer: Answer, timeout_s: float = 5.0
     ) -> None:
-        """Call a service of a class as soon as it connects."""
+        """
+        Call a service as soon as its client has connected.
+
+        Parameters
+        ----------
+        kind
+            The class of the service.
+        name
+            The name of the service.
+        request
+            An instance of the request class of `kind`.
+        answer
+            Called once, with the response, or with None and a sentence on why there is none: at
+            once for an invalid name, otherwise by `update`.
+        timeout_s
+            How long to wait for the connection and the response together, in s.
+
+        """
         try:
             client = self._node.create_client(kind, name)
         except Exception as error:  # rclpy has no one exception for bad names

@@ -18,10 +18,17 @@ class Session:
 
     A page sends what it wants, as `{'do': ...}`, and gets the state of things as an answer. What
     it may do are the methods that `actions` names. All is done in the thread of the page.
+
+    Parameters
+    ----------
+    link
+        The link to the robot that the page is about.
+    person
+        Who has the page open, as others are told.
+
     """
 
     def __init__(self, link: RobotLink, person: str) -> None:
-        """Begin for a person."""
         self.link = link
         self.person = person
         self._farewells = 0
@@ -40,7 +47,25 @@ class Session:
         return self.link.control.holds(self)
 
     def take(self, message: Any) -> dict[str, Any]:
-        """Do what a page wants, and return the state of things; or raise ValueError."""
+        """
+        Run the action that the page asks for, then publish the heartbeat if it is due.
+
+        Parameters
+        ----------
+        message
+            The decoded JSON, such as `{'do': 'beat'}`; the whole mapping is passed to the action.
+
+        Returns
+        -------
+        dict
+            The state that the page is to show, which can be written as JSON.
+
+        Raises
+        ------
+        ValueError
+            There is no such action, or it rejects what the message contains.
+
+        """
         do = message.get('do') if isinstance(message, dict) else None
         action = self.actions.get(do) if isinstance(do, str) else None
         if action is None:

@@ -29,14 +29,47 @@ class Talks(Protocol):
     """What talks to those who have a small page open."""
 
     async def talk(self, connection: ServerConnection) -> None:
-        """Talk to one of them, in the thread of the page."""
+        """
+        Serve a connection of the page until it is closed, in the thread of the page.
+
+        Parameters
+        ----------
+        connection
+            The WebSocket connection that a browser has opened.
+
+        """
 
     def end(self) -> None:
         """End all talks, from another thread."""
 
 
 class SmallPage:
-    """The page of a robot, among the widgets and at a path of its own."""
+    """
+    The HTML page of a panel, embedded among the widgets as a frame, with a path of its own.
+
+    Parameters
+    ----------
+    context
+        The context of the panel.
+    name
+        The name of the page: that of its HTML file, and the first part of its path.
+    namespace
+        The namespace of the robot, the rest of the path; '' if there is one robot.
+    settings
+        What the page knows when it is loaded, as for `page_text`.
+    connections
+        What serves the WebSocket connections of the page; it is ended together with the page.
+    order
+        Where the frame is among the widgets; None for after those that are there.
+    package
+        The package that has the HTML file.
+
+    Raises
+    ------
+    ValueError
+        There is such a page for this robot already.
+
+    """
 
     def __init__(
         self,
@@ -48,7 +81,6 @@ class SmallPage:
         order: float | None = None,
         package: str = 'robot_console',
     ) -> None:
-        """Add it, or raise ValueError if there is one already."""
         self._context = context
         self._connections = connections
         self._path = f'/{name}/{namespace}' if namespace else f'/{name}'
@@ -71,7 +103,19 @@ class SmallPage:
 
 
 def page_text(name: str, settings: dict[str, Any], package: str = 'robot_console') -> str:
-    """Return the text of a page, with what all have in common and its settings put in."""
+    """
+    Read the HTML of a small page, with shared styles and scripts and its settings filled in.
+
+    Parameters
+    ----------
+    name
+        The name of the file in the folder `web`, without `.html`.
+    settings
+        What the scripts of the page find as `settings`; it must be possible to write it as JSON.
+    package
+        The package that has the file.
+
+    """
     folder = files('robot_console') / 'web'
     text = (files(package) / 'web' / f'{name}.html').read_text(encoding='utf-8')
     for part in COMMON:

@@ -31,10 +31,28 @@ class SpeedLimits:
 
     def velocity(self, stick: Any, share: Any) -> Velocity:
         """
-        Return the velocity for a stick, or raise ValueError.
+        Scale the deflection of a stick to a velocity of the base.
 
-        The stick has three numbers from -1 to 1: forward, to the left, and turn to the left. The
-        shares from 0 to 1 are those of the limits that the person wants: of moving, of turning.
+        Numbers beyond their range are clamped.
+
+        Parameters
+        ----------
+        stick
+            Three numbers from -1 to 1: forward, to the left, and turning to the left.
+        share
+            Two numbers from 0 to 1: the share of the limits of moving, and of the limit of
+            turning, that the person has chosen.
+
+        Returns
+        -------
+        Velocity
+            In m/s and rad/s, in the frame of the base.
+
+        Raises
+        ------
+        ValueError
+            An argument is no list of so many finite numbers.
+
         """
         forward, left, turn = _numbers(stick, 3, -1.0)
         move_share, turn_share = _numbers(share, 2, 0.0)

@@ -23,25 +23,47 @@ DEPTH = 200
 
 class TopicListener:
     """
-    Hears topics as soon as they are there; their messages wait until `take_all` is called.
+    Subscribes to topics as soon as their types are known; `take_all` passes on their messages.
 
     Times are those at which a message came to this machine.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    full_name
+        Resolves a topic name; a ValueError that it raises becomes the reason of that topic.
+    found
+        Called with a topic and the name of its type when it is subscribed.
+    take
+        Called with a topic, a message, and the time at which it came (`time.time`, in s).
+
     """
 
     def __init__(
         self, node: Node, full_name: Callable[[str], str], found: FoundType, take: Take
     ) -> None:
-        """
-        Take what makes a full name of a topic, and what gets its type and its messages.
-
-        `full_name` raises ValueError for what is no name; that is then the reason of the topic.
-        """
         self._node, self._full_name = node, full_name
         self._found, self._take = found, take
         self._heard: dict[str, PolledTopic] = {}
 
     def listen(self, topics: Collection[str]) -> dict[str, str]:
-        """Hear these topics only; return why nothing comes on some of them."""
+        """
+        Subscribe to these topics only.
+
+        Call it again now and then: topics that nobody published before are subscribed then.
+
+        Parameters
+        ----------
+        topics
+            The names, which the constructor's `full_name` resolves.
+
+        Returns
+        -------
+        dict
+            By topic, a sentence on why nothing comes; topics without trouble are missing.
+
+        """
         for topic in set(self._heard).difference(topics):
             self._heard.pop(topic).close()
         missing = [topic for topic in topics if topic not in self._heard]

@@ -39,7 +39,7 @@ def test_name(tmp_path: Path) -> None:
     assert bag_folder(folder, '', NOW) == str(tmp_path / '2026-11-21_19-05-12_2')
 
 
-@pytest.mark.parametrize('name', ['../x', 'a/b', '.', '..', 'x\0y'])
+@pytest.mark.parametrize('name', ['../x', 'a/b', '.', '..', '.x', 'x\0y'])
 def test_name_outside(tmp_path: Path, name: str) -> None:
     """No name leads out of the folder."""
     with pytest.raises(ValueError, match='no slashes'):

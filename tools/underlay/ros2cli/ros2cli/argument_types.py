@@ -7,7 +7,25 @@ import argparse
 
 
 def positive_int(text: str) -> int:
-    """Return a whole number above zero, or say why a text is none."""
+    """
+    Parse a positive integer of the command line.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Returns
+    -------
+    int
+        One or more.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is no such number.
+
+    """
     try:
         value = int(text)
     except ValueError:
@@ -18,7 +36,25 @@ def positive_int(text: str) -> int:
 
 
 def positive_number(text: str) -> float:
-    """Return a finite number above zero, or say why a text is none."""
+    """
+    Parse a finite positive number of the command line.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Returns
+    -------
+    float
+        More than zero.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is no such number.
+
+    """
     try:
         value = float(text)
     except ValueError:
@@ -29,14 +65,50 @@ def positive_number(text: str) -> float:
 
 
 def whole_number(text: str) -> int:
-    """Return a whole number that is not negative, or say why a text is none."""
+    """
+    Parse a non-negative integer of the command line, written in digits only.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Returns
+    -------
+    int
+        Zero or more.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is no such number.
+
+    """
     if not (text.isascii() and text.isdigit()):
         raise argparse.ArgumentTypeError(f'{text!r} is not a whole number')
     return int(text)
 
 
 def node_name(text: str) -> str:
-    """Return a node's name without its namespace, or say why a text is none."""
+    """
+    Check the name of a node, without its namespace, on the command line.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Returns
+    -------
+    str
+        The text itself.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is not a valid name.
+
+    """
     if not (text.isascii() and text.isidentifier()):
         raise argparse.ArgumentTypeError(
             f'{text!r} is no name of a node: letters, digits and underscores, no digit first'

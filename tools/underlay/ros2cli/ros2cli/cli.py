@@ -34,7 +34,15 @@ def run() -> NoReturn:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one `ros2` command and return its exit status."""
+    """
+    Run one `ros2` command and return its exit status.
+
+    Parameters
+    ----------
+    argv
+        The words after `ros2`; those of this process if None.
+
+    """
     words = list(sys.argv[1:] if argv is None else argv)
     open_standard_streams()
     if COMPLETION_VARIABLE in os.environ:
@@ -64,7 +72,22 @@ def _run_command(argv: list[str]) -> int | str | None:
 def create_parser(
     argv: Sequence[str], parser_class: type[argparse.ArgumentParser] = Parser
 ) -> argparse.ArgumentParser:
-    """Return the root parser, complete for the command that `argv` names."""
+    """
+    Build the root parser, complete for the command that is called.
+
+    Parameters
+    ----------
+    argv
+        The words after `ros2`, which name the command.
+    parser_class
+        The class of the parser and of all its subparsers.
+
+    Raises
+    ------
+    SystemExit
+        There is no such command or verb.
+
+    """
     parser = parser_class(
         prog='ros2',
         description='ros2 is an extensible command-line tool for ROS 2.',

@@ -18,13 +18,13 @@ from typing import Any
 
 def defer(*names: str, **ready: Any) -> None:
     """
-    Put top-level modules into place that are executed later; those that are loaded stay.
+    Install top-level modules that are executed on first use; those that are loaded stay.
 
     Parameters
     ----------
-    names
+    *names
         The modules.
-    ready
+    **ready
         Functions which somebody imports by name, and which the modules are not needed for.
 
     """
@@ -65,7 +65,20 @@ def _execute(module: ModuleType) -> None:
 
 
 def defer_found(spec: ModuleSpec | None) -> ModuleType | None:
-    """Put a module into place that is not executed yet; do nothing if it is loaded."""
+    """
+    Install a module that is executed on first use.
+
+    Parameters
+    ----------
+    spec
+        How to load the module; None if there is none.
+
+    Returns
+    -------
+    ModuleType or None
+        The module; None without a spec, or if the module is loaded already.
+
+    """
     if spec is None or spec.name in sys.modules:
         return None
     module = module_from_spec(spec)

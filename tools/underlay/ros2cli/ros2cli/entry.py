@@ -10,12 +10,23 @@ if TYPE_CHECKING:
 
 
 class Entry:
-    """Where the class of a command or verb is defined, and what it does, without importing it."""
+    """
+    A row of the static tables of commands and verbs, which does not import the class it names.
+
+    Parameters
+    ----------
+    target
+        Where the class of the command or verb is, as `module:Class`.
+    summary
+        What it does, for the help.
+    hidden
+        Whether the help leaves it out.
+
+    """
 
     __slots__ = ('hidden', 'summary', 'target')
 
     def __init__(self, target: str, summary: str, hidden: bool = False) -> None:
-        """Keep what a list of commands shows."""
         self.target = target
         self.summary = summary
         self.hidden = hidden

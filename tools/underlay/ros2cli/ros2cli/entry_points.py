@@ -7,12 +7,42 @@ from ros2cli.entry import Entry
 
 
 def find_entry(group: str, name: str) -> Entry | None:
-    """Return the entry point `name` of a group, or None if nobody offers it."""
+    """
+    Find the entry point of a command or verb in other installed distributions.
+
+    Parameters
+    ----------
+    group
+        The group of entry points, such as `ros2bag.verb`.
+    name
+        The name of the command or verb.
+
+    Returns
+    -------
+    Entry or None
+        Its class, without a summary; None if nobody offers it.
+
+    """
     return entries_of_group(group, name).get(name)
 
 
 def entries_of_group(group: str, name: str | None = None) -> dict[str, Entry]:
-    """Return the entry points of a group by name; the scan is paid for only when called."""
+    """
+    Read the entry points of a group from all installed distributions, which takes time.
+
+    Parameters
+    ----------
+    group
+        The group of entry points, such as `ros2bag.verb`.
+    name
+        The only name to look for; all if None.
+
+    Returns
+    -------
+    dict of str to Entry
+        The classes by name, without summaries.
+
+    """
     from importlib.metadata import entry_points
 
     found = entry_points(group=group) if name is None else entry_points(group=group, name=name)

@@ -14,7 +14,23 @@ TERMINATION_STATUS = 15  # the number of SIGTERM
 
 
 def run_to_status(call: Callable[[], int | str | None]) -> int:
-    """Call a command and translate its result, or its exception, to an exit status."""
+    """
+    Call a command and translate its result, or its exception, to an exit status.
+
+    Errors that a user can put right (RuntimeError), signals, closed pipes and full disks are
+    handled; other exceptions are passed on.
+
+    Parameters
+    ----------
+    call
+        The command; it returns a status, an error message or None.
+
+    Returns
+    -------
+    int
+        The exit status of the process.
+
+    """
     try:
         status = _call_or_exit(call)
         _flush()
@@ -68,7 +84,15 @@ def _call_or_exit(call: Callable[[], int | str | None]) -> int:
 
 
 def is_external_shutdown(error: BaseException) -> bool:
-    """Tell if rclpy ended the work because of SIGTERM; rclpy is not imported for that."""
+    """
+    Whether an exception is that of rclpy for SIGTERM; this does not import rclpy.
+
+    Parameters
+    ----------
+    error
+        Any exception.
+
+    """
     executors = sys.modules.get('rclpy.executors')
     return executors is not None and isinstance(error, executors.ExternalShutdownException)
 

@@ -21,12 +21,30 @@ def extension_points() -> dict[str, Table]:
 
 
 def extensions(group: str, own: Table) -> dict[str, Entry]:
-    """Return the extensions of a group, sorted; what has been there first keeps its name."""
+    """
+    Return the extensions of a group of entry points, sorted by name.
+
+    Parameters
+    ----------
+    group
+        The name of the group.
+    own
+        The entries of the static table, which win over entry points of the same name.
+
+    """
     return dict(sorted({**entries_of_group(group), **own}.items()))
 
 
 def why_not(entry: Entry) -> str:
-    """Return why an extension cannot be used, or ''."""
+    """
+    Return why an extension cannot be imported or created, or ''.
+
+    Parameters
+    ----------
+    entry
+        The extension.
+
+    """
     try:
         entry.create()
     except Exception as error:

@@ -8,14 +8,34 @@ from collections.abc import Iterable
 
 
 def add_types_argument(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the choice of types behind the names; `what` is singular."""
+    """
+    Add the option to show types behind names.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        What has the names, in the singular, such as `topic`.
+
+    """
     parser.add_argument(
         '-t', '--show-types', action='store_true', help=f'Additionally show the {what} type'
     )
 
 
 def add_count_argument(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the choice of a mere count; `what` is plural."""
+    """
+    Add the option to show a count only.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        What is counted, in the plural, such as `topics`.
+
+    """
     parser.add_argument(
         '-c',
         f'--count-{what}',
@@ -25,14 +45,32 @@ def add_count_argument(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def add_all_nodes_argument(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of hidden nodes."""
+    """
+    Add the option to show hidden nodes as well.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
     )
 
 
 def add_hidden_argument(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the choice of hidden names, for a verb whose command has it too; `what` is plural."""
+    """
+    Add the option to consider hidden names, for a verb whose command has it too.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        What has the names, in the plural, such as `topics`.
+
+    """
     parser.add_argument(
         f'--include-hidden-{what}',
         action='store_true',
@@ -42,13 +80,33 @@ def add_hidden_argument(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def print_names(names: list[str], *, only_count: bool) -> None:
-    """Print one name a line, or how many there are."""
+    """
+    Print names, one per line, or how many there are.
+
+    Parameters
+    ----------
+    names
+        The lines.
+    only_count
+        Whether to print the count.
+
+    """
     for line in [str(len(names))] if only_count else names:
         print(line)
 
 
 def with_types(names_and_types: Iterable[tuple[str, list[str]]], *, show_types: bool) -> list[str]:
-    """Return names, each with its types behind it if these are wanted."""
+    """
+    Format names, with their types in brackets if they are wanted.
+
+    Parameters
+    ----------
+    names_and_types
+        The names and types, as the graph returns them.
+    show_types
+        Whether to add the types.
+
+    """
     return [
         f'{name} [{", ".join(types)}]' if show_types else name for name, types in names_and_types
     ]

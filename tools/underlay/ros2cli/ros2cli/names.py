@@ -10,7 +10,27 @@ NAME = re.compile(r'(/[A-Za-z_][A-Za-z0-9_]*)+')
 
 
 def absolute(name: str, kind: str = 'topic') -> str:
-    """Return a name with the leading slash that users leave out, if it is one."""
+    """
+    Check a name of the graph, and add the leading slash that users leave out.
+
+    Parameters
+    ----------
+    name
+        The name that the user has written.
+    kind
+        What has the name, for the error message.
+
+    Returns
+    -------
+    str
+        The full name.
+
+    Raises
+    ------
+    RuntimeError
+        It is not a valid name.
+
+    """
     full_name = name if name.startswith('/') else f'/{name}'
     if not NAME.fullmatch(full_name):
         raise RuntimeError(
@@ -26,7 +46,17 @@ def _article(noun: str) -> str:
 
 
 def closest(name: str, known: Iterable[str]) -> str:
-    """Return a question that names the known name which is meant, or '' if none is close."""
+    """
+    Return a question that names the known name which is probably meant, or ''.
+
+    Parameters
+    ----------
+    name
+        The name that was not found.
+    known
+        The names that there are.
+
+    """
     from ros2cli.suggest import did_you_mean
 
     names = list(known)
@@ -35,5 +65,13 @@ def closest(name: str, known: Iterable[str]) -> str:
 
 
 def is_hidden(name: str) -> bool:
-    """Tell if a part of a name starts with an underscore."""
+    """
+    Whether a part of a name starts with an underscore.
+
+    Parameters
+    ----------
+    name
+        The name of a node, topic or service.
+
+    """
     return any(part.startswith('_') for part in name.split('/'))

@@ -21,7 +21,22 @@ Options = Mapping[str, argparse.Action]
 
 
 def options_first(words: Sequence[str], options: Options) -> list[str]:
-    """Return the options with their values, then `--` and all other words, if there are any."""
+    """
+    Move the options of a command line, with their values, before its other words.
+
+    Parameters
+    ----------
+    words
+        The words that one parser gets.
+    options
+        The options of this parser, by option string such as `-r` or `--rate`.
+
+    Returns
+    -------
+    list of str
+        The options, then `--` and all other words, if there are any.
+
+    """
     chosen: list[str] = []
     others: list[str] = []
     left = deque(words)

@@ -22,16 +22,38 @@ YAML_EXAMPLE = '"{data: [1, 2]}"'
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser in which options may stand anywhere, numbers may be negative, and errors help."""
+    """
+    A parser in which options may stand anywhere, numbers may be negative, and errors help.
+
+    Parameters
+    ----------
+    **options
+        Those of an argparse parser; descriptions are printed as they are by default.
+
+    """
 
     def __init__(self, **options: Any) -> None:
-        """Set the options of an argparse parser, with descriptions printed as they are."""
         super().__init__(**{'formatter_class': HelpFormatter, **options})
 
     def parse_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> argparse.Namespace:
-        """Return what the words mean; those that mean nothing are an error, with advice."""
+        """
+        Parse a command line; words that are not recognized are an error with advice.
+
+        Parameters
+        ----------
+        args : Sequence[str] | None
+            The words; those of this process if None.
+        namespace
+            What the result is added to; a new one if None.
+
+        Raises
+        ------
+        SystemExit
+            The command line is wrong, or asks for help.
+
+        """
         found, rest = self.parse_known_args(args, namespace)
         if rest:
             advice = found._parser_of_rest.advice(rest)
@@ -41,7 +63,26 @@ class Parser(argparse.ArgumentParser):
     def parse_known_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> tuple[argparse.Namespace, list[str]]:
-        """Return what the words mean, and the rest with the innermost parser that leaves it."""
+        """
+        Parse a command line as far as its words are recognized.
+
+        Parameters
+        ----------
+        args, namespace
+            As for `parse_args`.
+
+        Returns
+        -------
+        tuple of argparse.Namespace and list of str
+            The result, and the words that are left; `_parser_of_rest` is the innermost parser of
+            these.
+
+        Raises
+        ------
+        SystemExit
+            The command line is wrong, or asks for help.
+
+        """
         words = sys.argv[1:] if args is None else list(args)
         if self._takes_any_order():
             words = options_first(words, self._option_string_actions)
@@ -51,14 +92,30 @@ class Parser(argparse.ArgumentParser):
         return found, rest
 
     def advice(self, words: list[str]) -> str:
-        """Return what was probably meant by words that this parser does not know, or ''."""
+        """
+        Return what was probably meant by words that this parser does not recognize, or ''.
+
+        Parameters
+        ----------
+        words
+            The words, at least one.
+
+        """
         if any(word.endswith(('}', ']')) for word in words):
             return f'A value with spaces needs quotes, as in {YAML_EXAMPLE}'
         option = words[0].partition('=')[0]
         return did_you_mean(option, self._option_string_actions) if option[:2] == '--' else ''
 
     def print_help(self, file: Any = None) -> None:
-        """Print the help like any other output; argparse hides that it cannot be written."""
+        """
+        Print the help like any other output; argparse hides that it cannot be written.
+
+        Parameters
+        ----------
+        file
+            Where to print it; stdout if None.
+
+        """
         print(self.format_help(), end='', file=file or sys.stdout)
 
     def _takes_any_order(self) -> bool:
@@ -73,10 +130,17 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
 
     argparse makes one for each argument, and would import shutil, with all its compression
     libraries, to find the width out.
+
+    Parameters
+    ----------
+    prog
+        The name of the program.
+    **options
+        Those of an argparse formatter.
+
     """
 
     def __init__(self, prog: str, **options: Any) -> None:
-        """Set the options of an argparse formatter."""
         super().__init__(prog, **{'width': terminal_width() - MARGIN, **options})
 
 

@@ -11,10 +11,19 @@ PATIENCE_S = 2.0
 
 
 class Patience:
-    """Says once on stderr what a command waits for, when it has been waiting for a while."""
+    """
+    Tells once, on stderr, what a command waits for, when it has been waiting for 2 s.
+
+    Parameters
+    ----------
+    what
+        What is waited for, as in "Still waiting for ...".
+    hint
+        Called then; returns what may help, or ''.
+
+    """
 
     def __init__(self, what: str, hint: Callable[[], str] = str) -> None:
-        """Start the wait; `hint()` returns what may help, or ''."""
         self._what = what
         self._hint = hint
         self._end = time.monotonic() + PATIENCE_S

@@ -62,8 +62,19 @@ def end(status: int) -> NoReturn:
     """
     End the process with a status, without taking the interpreter apart.
 
-    What is to happen at the end does: functions of atexit are called, and output is written. If
-    threads are still at work, or the output cannot be written, the interpreter ends as usual.
+    Functions of atexit are called, and output is written. If threads are still at work, or the
+    output cannot be written, the interpreter ends as usual.
+
+    Parameters
+    ----------
+    status
+        The exit status.
+
+    Raises
+    ------
+    SystemExit
+        The interpreter is to end as usual.
+
     """
     import atexit
 

@@ -29,7 +29,30 @@ def add_lazy_subparsers(
     """
     Add a subparser for the chosen entry, which is imported and adds its arguments.
 
-    If none is chosen, as for help, there is a subparser an entry, without arguments.
+    If none is chosen, as for help, there is a subparser per entry, without arguments.
+
+    Parameters
+    ----------
+    parser
+        The parser that gets the subparsers.
+    cli_name
+        The command line up to here, such as `ros2 bag`.
+    entries
+        The static table of commands or verbs.
+    group
+        The group of entry points to look at for a name that is not in the table.
+    kind
+        What the entries are called in the help: `command` or `verb`.
+    dest
+        The attribute of the parsed command line that gets the instance of the chosen entry.
+    argv
+        The words after `cli_name`; the first one that is no option chooses the entry.
+
+    Raises
+    ------
+    SystemExit
+        There is no entry of this name.
+
     """
     name, rest = _split(argv or ())
     entries = _with_extension(entries, group, name)
@@ -59,7 +82,26 @@ def add_subparsers_on_demand(
     required: bool = True,
     argv: Sequence[str] | None = None,
 ) -> None:
-    """Add a subparser for each entry point of a group, for commands of other packages."""
+    """
+    Add a subparser for each entry point of a group, for commands of other packages.
+
+    Parameters
+    ----------
+    parser, cli_name, dest, argv
+        As for `add_lazy_subparsers`; without `argv` no subparser gets its arguments.
+    group_name
+        The group of entry points, such as `ros2bag.verb`.
+    hide_extensions
+        The names that the help leaves out.
+    required
+        Accepted for compatibility; it has no effect.
+
+    Raises
+    ------
+    SystemExit
+        There is no entry point of this name.
+
+    """
     hidden = hide_extensions or ()
     entries = {
         name: Entry(entry.target, entry.summary, hidden=name in hidden)

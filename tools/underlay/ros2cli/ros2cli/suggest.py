@@ -7,13 +7,33 @@ from collections.abc import Iterable
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a question that names the closest known name, or '' if none is close."""
+    """
+    Return a question that names the closest known name, or '' if none is close.
+
+    Parameters
+    ----------
+    name
+        The name that was not found.
+    known
+        The names that there are.
+
+    """
     found = closest_name(name, known)
     return f'Did you mean {found!r}?' if found else ''
 
 
 def closest_name(name: str, known: Iterable[str]) -> str:
-    """Return the closest known name, or '' if none is close."""
+    """
+    Return the closest known name, or '' if none is close.
+
+    Parameters
+    ----------
+    name
+        The name that was not found.
+    known
+        The names that there are.
+
+    """
     from difflib import get_close_matches
 
     matches = get_close_matches(name, list(known), n=1)

@@ -202,6 +202,23 @@ def test_reindex_equals_what_the_recorder_wrote(tmp_path: Path) -> None:
     assert path.read_text() == before
 
 
+def test_reindex_keeps_what_only_the_metadata_has(tmp_path: Path) -> None:
+    """What the user has added to it is in none of the files."""
+    write_bag(tmp_path / 'bag', custom_data={'place': 'kitchen'})
+    write_metadata(str(tmp_path / 'bag'))
+    assert BagReader(str(tmp_path / 'bag')).metadata.custom_data == {'place': 'kitchen'}
+
+
+def test_metadata_that_is_no_text_is_a_sentence(tmp_path: Path) -> None:
+    """And is made anew."""
+    write_bag(tmp_path / 'bag')
+    (tmp_path / 'bag' / 'metadata.yaml').write_bytes(b'\xff\xfe')
+    with pytest.raises(BagError, match='cannot be read'):
+        BagReader(str(tmp_path / 'bag'))
+    write_metadata(str(tmp_path / 'bag'))
+    assert BagReader(str(tmp_path / 'bag')).metadata.span.message_count == 21
+
+
 def test_running_recording_is_left_alone(tmp_path: Path) -> None:
     """What is still being written is not touched."""
     writer = start_bag(tmp_path / 'bag', topic('/ticks'))

@@ -218,7 +218,8 @@ def test_names_of_the_graph(complete: Complete) -> None:
     assert complete('ros2 topic echo /jo') == ['/joint_commands ']
     assert complete('ros2 topic echo /robot1/_') == ['/robot1/_secret ']
     assert complete('ros2 node info /ta') == ['/talker ']
-    assert complete('ros2 topic pub /joint_commands ') == ['sensor_msgs/msg/JointState ']
+    for name in ('/joint_commands', 'joint_commands'):
+        assert complete(f'ros2 topic pub {name} ') == ['sensor_msgs/msg/JointState ']
 
 
 def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -231,6 +232,7 @@ def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     assert memory.recall('/a/b') is None
     memory.remember('/a/b', ['rate_hz'])
     assert memory.recall('/a/b') == ['rate_hz']
+    assert memory.recall('/a_b') is None
     neighbours = 2
     assert memory.recall('/a/b') is None
     neighbours = 1

@@ -523,6 +523,10 @@ def test_namespaces_without_effect(
         (['a c', 'b c', 'b a'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a c', 'b c'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a b', 'b a'], ["ERROR: on '/tf', the frames go round in a circle: a, b"]),
+        (
+            ['map odom', 'a b', 'b a', 'b c'],
+            ["ERROR: on '/tf', the frames go round in a circle: a, b, c"],
+        ),
         ([], []),
     ],
 )

@@ -289,6 +289,8 @@ def test_number_out_of_range_is_refused() -> None:
     """A number of more than 64 bits is a sentence."""
     with pytest.raises(RuntimeError, match='is too large'):
         parse_value(str(2**63))
+    with pytest.raises(RuntimeError, match='is too large'):
+        parse_value(f'[1.5, {10**400}]')
 
 
 def test_nesting_and_back() -> None:

@@ -25,6 +25,16 @@ def test_report_of_steady_events() -> None:
     )
 
 
+def test_a_clock_that_jumps_back_leaves_nothing_to_report() -> None:
+    """What was measured before is forgotten, as the simulation was reset."""
+    meter = RateMeter(window=10)
+    for now_s in (1.0, 1.5, 0.0):
+        meter.add(now_s)
+    assert meter.report() == ''
+    meter.add(0.5)
+    assert meter.report().startswith('average rate: 2.000')
+
+
 def test_spread_of_uneven_events() -> None:
     """The standard deviation is that of the periods."""
     meter = RateMeter(window=10)

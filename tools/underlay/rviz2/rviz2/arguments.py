@@ -10,7 +10,24 @@ __all__ = ['parse']
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Return what the arguments mean; unclear ones end the program with a sentence."""
+    """
+    Parse the command line of rviz2.
+
+    Options of RViz that mean nothing in a browser are accepted and ignored. Invalid arguments and
+    `--help` end the program, as `argparse` does.
+
+    Parameters
+    ----------
+    words
+        The arguments without the name of the program, and without those for ROS.
+
+    Returns
+    -------
+    argparse.Namespace
+        `display_config` is the path of a .rviz file and `fixed_frame` the name of a frame, each
+        None if not given.
+
+    """
     parser = argparse.ArgumentParser(
         prog='rviz2',
         allow_abbrev=False,

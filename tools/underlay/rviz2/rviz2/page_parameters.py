@@ -15,13 +15,37 @@ __all__ = ['page_settings', 'unknown_parameters']
 
 
 def page_settings(node: Node) -> PageSettings:
-    """Declare the parameters and return what they say, or raise ValueError."""
+    """
+    Declare the parameters `host`, `port` and `token`, and read the settings of the page from them.
+
+    Parameters
+    ----------
+    node
+        The node that declares them, read-only. A `port` of 0 stands for the first free one.
+
+    Raises
+    ------
+    ValueError
+        The host is no IP address, the port is outside 1 to 65535, or the token is `none` on an
+        address that other machines reach.
+    rclpy.exceptions.ParameterException
+        A parameter has been overridden with a value of another type.
+
+    """
     values = {name: _declare(node, name, *about) for name, about in PARAMETERS.items()}
     return PageSettings(values['host'], values['port'] or None, values['token'])
 
 
 def unknown_parameters(node: Node) -> list[str]:
-    """Return a sentence for each parameter that is given, but that nobody has declared."""
+    """
+    Format a warning for each parameter override that the node has not declared.
+
+    Parameters
+    ----------
+    node
+        The node, once it has declared all its parameters.
+
+    """
     from robot_state_publisher.unknown_parameters import unknown_parameters
 
     given = getattr(node, '_parameter_overrides', {})  # rclpy has no public way to ask for them

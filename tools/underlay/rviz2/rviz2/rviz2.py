@@ -22,7 +22,20 @@ Job = tuple[argparse.Namespace, Configuration, str]
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run the program."""
+    """
+    Run rviz2 until a signal stops it, and exit with its status.
+
+    Parameters
+    ----------
+    args : Sequence[str] | None
+        The command line with the program's name; by default that of the process.
+
+    Raises
+    ------
+    SystemExit
+        Always: status 1 if the .rviz file cannot be read or the page cannot be served.
+
+    """
     sys.exit(run(_job, _show, args))
 
 

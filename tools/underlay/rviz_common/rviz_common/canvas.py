@@ -31,14 +31,21 @@ class Thing:
 
 class Canvas:
     """
-    What is below a path of the scene.
+    Scene nodes below one path, which are updated in place as they are drawn again.
 
     What is put again under its name is changed, and not made anew: a browser shows what is new at
     the origin before it is where it belongs.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    root
+        The path of the scene below which all nodes are.
+
     """
 
     def __init__(self, scene: SceneApi, root: str) -> None:
-        """Begin with nothing."""
         self._scene = scene
         self._root = root
         self._things: dict[str, Thing] = {}
@@ -53,7 +60,26 @@ class Canvas:
             self._things.pop(name).handle.remove()
 
     def put(self, kind: str, name: str, **look: Any) -> Any:
-        """Add or change something; what it looks like is what `scene.add_KIND` takes."""
+        """
+        Add a node to the scene, or update the one of this name.
+
+        A node of another kind, or with other arguments than before, is made anew.
+
+        Parameters
+        ----------
+        kind
+            What to add, as in `scene.add_KIND` of viser, such as `mesh_simple` or `point_cloud`.
+        name
+            The name of the node, below the root of the canvas.
+        **look
+            The keyword arguments of `scene.add_KIND`.
+
+        Returns
+        -------
+        Any
+            The handle that viser has for the node.
+
+        """
         self._seen.add(name)
         thing = self._things.get(name)
         if thing is not None and thing.kind == kind and thing.look.keys() == look.keys():

@@ -51,9 +51,29 @@ class Context:
         return self.server.gui
 
     def on_input(self, widget: Any, take: Callable[[Any], None]) -> None:
-        """Pass on the value that a person gives to a widget; not those that a program sets."""
+        """
+        Call a function in the thread of the node with each value that a user gives to a widget.
+
+        Parameters
+        ----------
+        widget
+            A widget of viser that has a value.
+        take
+            Receives the value. Values that a program sets are not passed on.
+
+        """
         on_input(self.queue.post, widget, take)
 
     def on_click(self, button: Any, do: Callable[[], None]) -> None:
-        """Do something when a button is pressed."""
+        """
+        Call a function in the thread of the node whenever a button is pressed.
+
+        Parameters
+        ----------
+        button
+            A button of viser.
+        do
+            Called without arguments.
+
+        """
         on_click(self.queue.post, button, do)

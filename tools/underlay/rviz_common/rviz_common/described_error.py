@@ -7,7 +7,15 @@ __all__ = ['described_error']
 
 
 def described_error(error: Exception) -> str:
-    """Return an error with the file and the line where it was raised."""
+    """
+    Format an error with the file and line where it was raised, and its type.
+
+    Parameters
+    ----------
+    error
+        The error; without a traceback, the file and line are left out.
+
+    """
     trace = error.__traceback__
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next

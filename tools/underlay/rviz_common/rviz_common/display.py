@@ -21,6 +21,27 @@ class Display:
 
     A display draws below `root`, a path of the scene which it has for itself. It is started when
     it is enabled, and stopped when it is disabled; `update` is called for each frame in between.
+    Nothing is drawn before `start`.
+
+    Parameters
+    ----------
+    context
+        What it draws with: the node, the page, and the transforms.
+    root
+        The path of the scene below which it draws.
+    given
+        Its entry of the .rviz file, None for a new display. Values that cannot be used become a
+        warning in the status, and the defaults hold.
+
+    Attributes
+    ----------
+    name
+        The name shown to the user, which can be changed.
+    values
+        The properties, with `Enabled` as the first.
+    status
+        What the display reports of itself.
+
     """
 
     CLASS: ClassVar[str]
@@ -32,7 +53,6 @@ class Display:
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the properties that a file gives; nothing is shown yet."""
         self.context = context
         self.root = root
         self.name = self._first_name = name_of(given, self.CLASS)
@@ -66,11 +86,29 @@ class Display:
         """Draw the next frame."""
 
     def on_change(self, path: str) -> None:
-        """Follow a property that has been changed while it is shown: begin anew, by default."""
+        """
+        Apply a property that has been changed while the display runs; by default restart it.
+
+        Parameters
+        ----------
+        path
+            The path of the property, such as `Shape/Color`.
+
+        """
         self.stop()
         self.start()
 
 
 def name_of(given: Mapping[str, Any] | None, class_name: str) -> str:
-    """Return the name that a file gives to an entry, or that of its class."""
+    """
+    Find the name of an entry of a .rviz file.
+
+    Parameters
+    ----------
+    given
+        The entry, None for a new one.
+    class_name
+        Its class, such as `rviz_default_plugins/Grid`, whose last part is the default name.
+
+    """
     return str((given or {}).get('Name') or class_name.partition('/')[2])

@@ -19,11 +19,19 @@ STATIC = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 class FrameListener(TransformListener):
     """
-    Fills a buffer with all that has come whenever `take_all` is called.
+    Transform listener that is polled: it fills a buffer whenever `take_all` is called.
 
     For an executor to wake for each message takes longer than to take the transforms out of it.
     While it rests, it hears static transforms only: those that move come some 100 times a second,
     and who listens again knows them all a moment later.
+
+    Parameters
+    ----------
+    buffer
+        Receives the transforms.
+    node
+        Subscribes `/tf` and `/tf_static`.
+
     """
 
     def __init__(self, buffer: Buffer, node: Node) -> None:

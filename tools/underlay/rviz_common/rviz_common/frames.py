@@ -29,23 +29,60 @@ class FrameError(LookupError):
 
 
 class Frames:
-    """Poses of frames, from the transforms of a buffer."""
+    """
+    Look up the poses of frames in the transforms of a buffer.
+
+    Parameters
+    ----------
+    buffer
+        The transforms.
+    fixed_frame
+        The name of the frame that does not move on the screen; it can be changed at any time.
+
+    """
 
     def __init__(self, buffer: Buffer, fixed_frame: str = 'map') -> None:
-        """Take transforms from a buffer."""
         self.buffer = buffer
         self.fixed_frame = fixed_frame
 
     def pose(self, frame: str, stamp_ns: int = 0) -> Pose:
         """
-        Return where a frame is in the fixed frame at a time, or raise FrameError.
+        Look up the pose of a frame in the fixed frame.
 
-        Time 0 is the latest one at which it is known.
+        Parameters
+        ----------
+        frame
+            The name of the frame, or `FIXED_FRAME`; a leading slash is dropped.
+        stamp_ns
+            The time in ns; 0 for the latest at which the pose is known.
+
+        Raises
+        ------
+        FrameError
+            No transform connects the frames at that time.
+
         """
         return self.between(self.fixed_frame, frame, stamp_ns)
 
     def between(self, target: str, source: str, stamp_ns: int = 0) -> Pose:
-        """Return where a frame is in another one at a time, or raise FrameError."""
+        """
+        Look up the pose of one frame in another.
+
+        Parameters
+        ----------
+        target
+            The frame in which the pose is expressed.
+        source
+            The frame whose pose it is.
+        stamp_ns
+            The time in ns; 0 for the latest at which the pose is known.
+
+        Raises
+        ------
+        FrameError
+            No transform connects the frames at that time.
+
+        """
         target, source = self._named(target), self._named(source)
         if target == source:
             return Pose()
@@ -61,9 +98,22 @@ class Frames:
 
     def find(self, target: str, source: str) -> Pose | None:
         """
-        Return where a frame is in another one at the latest time, or None.
+        Look up the latest pose of one frame in another, without a reason if it is unknown.
 
-        Without a reason, as reasons take long to find: ask `between` for it, and not too often.
+        Use it in each frame that is drawn: a reason takes long to find. `reason` gives it.
+
+        Parameters
+        ----------
+        target
+            The frame in which the pose is expressed.
+        source
+            The frame whose pose it is.
+
+        Returns
+        -------
+        Pose | None
+            None if no transform connects the frames.
+
         """
         target, source = self._named(target), self._named(source)
         if target == source:
@@ -79,7 +129,24 @@ class Frames:
             return None
 
     def reason(self, target: str, source: str) -> str:
-        """Return why it is not known where a frame is in another one; '' if it is known."""
+        """
+        Explain why no transform connects two frames.
+
+        It takes too long to be called for each frame that is drawn.
+
+        Parameters
+        ----------
+        target
+            The frame in which a pose is wanted.
+        source
+            The frame whose pose is wanted.
+
+        Returns
+        -------
+        str
+            The error message of tf, '' if the pose is known.
+
+        """
         try:
             self.between(target, source)
         except FrameError as error:

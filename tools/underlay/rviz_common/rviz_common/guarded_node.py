@@ -36,14 +36,49 @@ class GuardedNode(Node):
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Callable[..., Any], *args: Any, **more: Any
     ) -> Any:
-        """Subscribe a topic."""
+        """
+        Create a subscription whose callback may fail: the error is logged, at most every 10 s.
+
+        Parameters
+        ----------
+        msg_type, topic
+            As for `rclpy.node.Node.create_subscription`.
+        callback
+            Receives the message. One that does not accept a single argument also gets the message
+            info: a `received_timestamp` in ns of the system clock, and a `source_timestamp` of 0.
+        *args, **more
+            The other arguments of `rclpy.node.Node.create_subscription`.
+
+        Returns
+        -------
+        Any
+            The subscription.
+
+        """
         guarded = self._guarded(_with_info(callback), f"A message of '{topic}'")
         return super().create_subscription(msg_type, topic, guarded, *args, **more)
 
     def create_timer(
         self, timer_period_sec: float, callback: Callable[[], Any], *args: Any, **more: Any
     ) -> Any:
-        """Have something done again and again."""
+        """
+        Create a timer whose callback may fail: the error is logged, at most every 10 s.
+
+        Parameters
+        ----------
+        timer_period_sec
+            The period, in s.
+        callback
+            Called without arguments.
+        *args, **more
+            The other arguments of `rclpy.node.Node.create_timer`.
+
+        Returns
+        -------
+        Any
+            The timer.
+
+        """
         guarded = self._guarded(callback, 'What is to be done regularly')
         return super().create_timer(timer_period_sec, guarded, *args, **more)
 

@@ -43,7 +43,7 @@ class HistoryDisplay(TopicDisplay):
     Each stays in the fixed frame where its own frame was at the time of its stamp; it waits until
     that is known. A message that is overtaken by a newer one of its frame is given up: what tf
     did not know of its time when it came, such as the first seconds, it never will. `draw` is
-    called once for each.
+    called once for each, and again for those that are shown when a property changes.
     """
 
     PATIENCE: ClassVar[int] = 10
@@ -81,7 +81,26 @@ class HistoryDisplay(TopicDisplay):
         self._remove_old()
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw a message, or raise ValueError; its frame has the pose."""
+        """
+        Draw one message.
+
+        It is called once for each message that is shown, and again after a change of a property.
+
+        Parameters
+        ----------
+        canvas
+            Where to draw; its origin is that of the message's frame.
+        message
+            The message.
+        pose
+            The pose of its frame in the fixed frame at its stamp.
+
+        Raises
+        ------
+        ValueError
+            The message cannot be drawn; the reason goes into the status.
+
+        """
         raise NotImplementedError
 
     def keep(self) -> int:
@@ -93,7 +112,15 @@ class HistoryDisplay(TopicDisplay):
         return 0.0
 
     def take(self, message: Any) -> None:
-        """Let a message wait for its transform."""
+        """
+        Queue a message until its transform is known.
+
+        Parameters
+        ----------
+        message
+            A message with a header. If too many wait, the oldest is dropped.
+
+        """
         self._waiting.append(Waiting(message, self._now_ns()))
         while len(self._waiting) > max(self.PATIENCE, self.keep()):
             self._waiting.popleft()

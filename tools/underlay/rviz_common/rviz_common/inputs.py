@@ -17,17 +17,53 @@ Post = Callable[[Callable[[], None]], None]
 
 
 def on_input(post: Post, widget: Any, take: Callable[[Any], None]) -> None:
-    """Pass on the value that a person gives to a widget; not those that a program sets."""
+    """
+    Call a function in another thread with each value that a user gives to a widget.
+
+    Parameters
+    ----------
+    post
+        Runs a callable in the right thread, such as `WorkQueue.post`.
+    widget
+        A widget of viser that has a value.
+    take
+        Receives the value. Values that a program sets are not passed on.
+
+    """
     widget.on_update(_passing_on(post, take))
 
 
 def on_choice(post: Post, group: Any, take: Callable[[str], None]) -> None:
-    """Pass on the label of the button of a group that is pressed."""
+    """
+    Call a function in another thread with the label of each button that is pressed in a group.
+
+    Parameters
+    ----------
+    post
+        Runs a callable in the right thread, such as `WorkQueue.post`.
+    group
+        A button group of viser.
+    take
+        Receives the label of the button.
+
+    """
     group.on_click(_passing_on(post, take))
 
 
 def on_click(post: Post, button: Any, do: Callable[[], None]) -> None:
-    """Do something when a button is pressed."""
+    """
+    Call a function in another thread whenever a button is pressed.
+
+    Parameters
+    ----------
+    post
+        Runs a callable in the right thread, such as `WorkQueue.post`.
+    button
+        A button of viser.
+    do
+        Called without arguments.
+
+    """
     button.on_click(lambda event: post(do))
 
 

@@ -44,15 +44,49 @@ class MessageDisplay(TopicDisplay):
         self._follow(message.header)
 
     def show(self, message: Any) -> None:
-        """Draw a message, or raise ValueError with the reason why it cannot be drawn."""
+        """
+        Draw a message below `root`, in the frame of the message.
+
+        Parameters
+        ----------
+        message
+            The newest message of the topic.
+
+        Raises
+        ------
+        ValueError
+            The message cannot be drawn; the reason goes into the status.
+
+        """
         raise NotImplementedError
 
     def placed(self, pose: Pose) -> Pose:
-        """Return the pose of what is drawn, where that of the message's frame is given."""
+        """
+        Compute the pose of `root` from that of the message's frame; by default they are equal.
+
+        Parameters
+        ----------
+        pose
+            The latest pose of the message's frame in the fixed frame.
+
+        Returns
+        -------
+        Pose
+            The pose of `root` in the fixed frame.
+
+        """
         return pose
 
     def take(self, message: Any) -> None:
-        """Keep the newest message."""
+        """
+        Keep a message as the newest, to be shown in the next frame.
+
+        Parameters
+        ----------
+        message
+            The message, with a header.
+
+        """
         self._newest = message
 
     def redraw(self) -> None:

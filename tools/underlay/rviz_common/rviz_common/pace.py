@@ -9,10 +9,17 @@ __all__ = ['Pace']
 
 
 class Pace:
-    """Tells when it is time to do something again."""
+    """
+    Rate limiter for work that is not done in each frame.
+
+    Parameters
+    ----------
+    period_s
+        The least time between two runs, in s of a monotonic clock.
+
+    """
 
     def __init__(self, period_s: float = 0.5) -> None:
-        """Take how long to wait in between."""
         self._period_s = period_s
         self._next_s = 0.0
 

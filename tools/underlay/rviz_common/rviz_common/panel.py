@@ -24,6 +24,21 @@ class Panel:
 
     `start` is called once, where the widgets that it adds get into the panel; `update` is called
     for each frame.
+
+    Parameters
+    ----------
+    context
+        What it works with: the node, the page, and the transforms.
+    given
+        Its entry of the .rviz file, None for a panel that no file lists.
+
+    Attributes
+    ----------
+    name
+        The title of its tab.
+    values
+        The properties.
+
     """
 
     CLASS: ClassVar[str]
@@ -35,14 +50,21 @@ class Panel:
     """Whether it is not in a tab; it then removes its widgets itself when it is closed."""
 
     def __init__(self, context: Context, given: Mapping[str, Any] | None = None) -> None:
-        """Take the properties that a file gives."""
         self.context = context
         self.name = name_of(given, self.CLASS)
         self.values = Values(self.PROPERTIES, given)
 
     @classmethod
     def is_wanted(cls, node: Node) -> bool:
-        """Whether a panel on demand is to appear, as there is something that it is for."""
+        """
+        Whether a panel on demand is to appear, since what it is for is there; by default False.
+
+        Parameters
+        ----------
+        node
+            The node through which to look, every 2 s until it is.
+
+        """
         return False
 
     @property

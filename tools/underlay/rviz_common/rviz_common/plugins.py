@@ -17,12 +17,47 @@ PANELS_ON_DEMAND = 'rviz_common.panels_on_demand'
 
 
 def plugin_names(group: str) -> list[str]:
-    """Return the names of the classes of a group, such as `rviz_default_plugins/Grid`."""
+    """
+    List the classes that installed packages offer in a group of plugins, sorted.
+
+    Parameters
+    ----------
+    group
+        The group of entry points, such as `DISPLAYS`.
+
+    Returns
+    -------
+    list[str]
+        Names as in .rviz files, such as `rviz_default_plugins/Grid`.
+
+    """
     return sorted(_plugins(group))
 
 
 def load_plugin(group: str, name: str) -> Any:
-    """Return the class of a name, or raise LookupError."""
+    """
+    Import the class of a plugin.
+
+    Parameters
+    ----------
+    group
+        The group of entry points, such as `DISPLAYS`.
+    name
+        The name of the class as in .rviz files, such as `rviz_default_plugins/Grid`.
+
+    Returns
+    -------
+    Any
+        The class.
+
+    Raises
+    ------
+    LookupError
+        No installed package offers it.
+    ImportError
+        The module of the class cannot be imported.
+
+    """
     try:
         return _plugins(group)[name].load()
     except KeyError:

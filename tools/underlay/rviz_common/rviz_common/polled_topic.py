@@ -27,19 +27,38 @@ class WaitingGroup(ReentrantCallbackGroup):
     """
 
     def can_execute(self, entity: Any) -> bool:
-        """Tell the executor not to wait for them."""
+        """
+        Whether the executor may wait for an entity: never.
+
+        Parameters
+        ----------
+        entity
+            The subscription that the executor asks about.
+
+        """
         return False
 
 
 class PolledTopic:
     """
-    A topic whose messages wait until they are taken; those beyond the depth are lost.
+    A subscription whose messages wait until they are taken; those beyond the depth are lost.
 
     For an executor to wake for each message takes longer than to take several at once.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    kind
+        The class of the messages.
+    topic
+        The topic.
+    qos
+        The quality of service, whose depth says how many messages can wait.
+
     """
 
     def __init__(self, node: Node, kind: type, topic: str, qos: QoSProfile) -> None:
-        """Subscribe a topic."""
         self.topic = topic
         self._node, self._kind, self._qos = node, kind, qos
         self._subscription: Any = None
@@ -83,12 +102,28 @@ class PolledTopic:
 
 
 def rest_all(node: Node) -> None:
-    """Let all polled topics of a node rest."""
+    """
+    Unsubscribe all polled topics of a node until `resume_all`.
+
+    Parameters
+    ----------
+    node
+        The node.
+
+    """
     for topic in list(_topics.get(node, ())):
         topic.rest()
 
 
 def resume_all(node: Node) -> None:
-    """Let all polled topics of a node be heard again."""
+    """
+    Subscribe all polled topics of a node again, after `rest_all`.
+
+    Parameters
+    ----------
+    node
+        The node.
+
+    """
     for topic in list(_topics.get(node, ())):
         topic.resume()

@@ -20,15 +20,34 @@ class Statuses:
     """Sentences about a display by subject (`Topic`, `Transform`), the newest of each."""
 
     def __init__(self) -> None:
-        """Begin without sentences."""
         self._sentences: dict[str, tuple[Level, str]] = {}
 
     def say(self, subject: str, level: Level, sentence: str) -> None:
-        """Replace what is said about a subject."""
+        """
+        Set the message about a subject, in place of the one before.
+
+        Parameters
+        ----------
+        subject
+            What it is about, such as `Topic` or `Transform`.
+        level
+            How bad it is.
+        sentence
+            The message for the user.
+
+        """
         self._sentences[subject] = level, sentence
 
     def forget(self, subject: str) -> None:
-        """Say no longer anything about a subject."""
+        """
+        Remove the message about a subject, if there is one.
+
+        Parameters
+        ----------
+        subject
+            What it is about.
+
+        """
         self._sentences.pop(subject, None)
 
     def clear(self) -> None:

@@ -20,8 +20,23 @@ class Tool:
     """
     Something that the pointer does on the ground, which is the plane z = 0 of the fixed frame.
 
-    At most one tool is in use. Its methods come in the thread of the node, and points are in the
-    fixed frame.
+    At most one tool is in use. Its methods are called in the thread of the node, and points are in
+    the fixed frame.
+
+    Parameters
+    ----------
+    context
+        What it works with: the node, the page, and the transforms.
+    root
+        The path of the scene below which it draws.
+    given
+        Its entry of the .rviz file, None for the defaults.
+
+    Attributes
+    ----------
+    values
+        The properties.
+
     """
 
     CLASS: ClassVar[str]
@@ -37,7 +52,6 @@ class Tool:
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the properties that a file gives; it draws below `root`, a path of the scene."""
         self.context = context
         self.root = root
         self.values = Values(self.PROPERTIES, given)
@@ -58,7 +72,15 @@ class Tool:
         """End what has been begun."""
 
     def on_change(self, path: str) -> None:
-        """Follow a property that has been changed: begin anew, by default."""
+        """
+        Apply a property that has been changed; by default close the tool and begin again.
+
+        Parameters
+        ----------
+        path
+            The path of the property, such as `Topic/Value`.
+
+        """
         self.close()
         self.begin()
 
@@ -69,9 +91,37 @@ class Tool:
         """Be in use no longer."""
 
     def click(self, point: Point) -> bool:
-        """Take a click; return whether the tool is done."""
+        """
+        Handle a click on the ground.
+
+        Parameters
+        ----------
+        point
+            Where, in m in the fixed frame.
+
+        Returns
+        -------
+        bool
+            Whether the tool is done, and to be laid down.
+
+        """
         return False
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
-        """Take a drag, which goes on until it is over; return whether the tool is done."""
+        """
+        Handle a drag over the ground, of which each movement is a call.
+
+        Parameters
+        ----------
+        start, end
+            Where the drag has begun, and where the pointer is now, in m in the fixed frame.
+        is_over
+            Whether the button has been released.
+
+        Returns
+        -------
+        bool
+            Whether the tool is done, and to be laid down.
+
+        """
         return False

@@ -61,18 +61,42 @@ class TopicDisplay(Display):
         self.status.clear()
 
     def on_change(self, path: str) -> None:
-        """Begin anew with another topic, and draw what there is again otherwise."""
+        """
+        Subscribe anew after a change of a topic or its quality of service; redraw after any other.
+
+        Parameters
+        ----------
+        path
+            The path of the property that has been changed.
+
+        """
         if path.partition('/')[0].endswith('Topic'):
             super().on_change(path)
         else:
             self.redraw()
 
     def message_type(self, topic: str) -> type:
-        """Return the type of the messages of the topic."""
+        """
+        Find the class of the messages of a topic; by default `MESSAGE`.
+
+        Parameters
+        ----------
+        topic
+            The topic.
+
+        """
         return self.MESSAGE
 
     def take(self, message: Any) -> None:
-        """Keep a message that has come for the next frame."""
+        """
+        Keep a message for the next frame.
+
+        Parameters
+        ----------
+        message
+            A message that has just come on the topic.
+
+        """
         raise NotImplementedError
 
     def redraw(self) -> None:
@@ -88,9 +112,26 @@ class TopicDisplay(Display):
         **options: Any,
     ) -> bool:
         """
-        Have messages taken until the display stops; say it if that cannot be.
+        Subscribe a topic until the display stops; an error is reported in the status.
 
-        Options are those of `Node.create_subscription`, such as `raw`.
+        Parameters
+        ----------
+        kind
+            The class of the messages.
+        topic
+            The topic.
+        take
+            Called with each message, in the thread of the node.
+        path
+            Where the properties with the quality of service are; also the subject in the status.
+        **options
+            Options of `Node.create_subscription`, such as `raw`.
+
+        Returns
+        -------
+        bool
+            Whether the topic could be subscribed.
+
         """
         try:
             subscription = self.context.node.create_subscription(
@@ -109,7 +150,15 @@ class TopicDisplay(Display):
         self.status.say('Topic', Level.OK, f'{self.received} messages have come on {topic}.')
 
     def say_left_out(self, reason: object) -> None:
-        """Say that a message cannot be shown."""
+        """
+        Report in the status that a message cannot be shown.
+
+        Parameters
+        ----------
+        reason
+            Why not: the error, or its text.
+
+        """
         topic = self.values['Topic/Value']
         self.status.say('Message', Level.ERROR, f'A message of {topic} is left out: {reason}')
 

@@ -18,13 +18,20 @@ LONGEST_SHOWN = 60
 
 def full_topic_name(node: Node, name: str) -> str:
     """
-    Return the full name of a topic, with namespaces and remappings of a node.
+    Resolve the full name of a topic, with namespaces and remappings of a node.
+
+    Parameters
+    ----------
+    node
+        The node whose namespace and remappings apply.
+    name
+        The name as a user, a file or a browser gives it.
 
     Raises
     ------
     ValueError
-        with a sentence, if the text is no name of a topic. What rclpy raises for those depends on
-        what is wrong, and has the line of a C file or several lines.
+        The text is no name of a topic. What rclpy raises for those depends on what is wrong, and
+        has the line of a C file or several lines.
 
     """
     try:
@@ -38,5 +45,13 @@ def full_topic_name(node: Node, name: str) -> str:
 
 
 def is_full_topic_name(name: str) -> bool:
-    """Whether nodes can subscribe a topic that the graph lists: other DDS programs may not ask."""
+    """
+    Whether ROS nodes can subscribe a name: the graph also lists topics of other DDS programs.
+
+    Parameters
+    ----------
+    name
+        The name of the topic, as the graph has it.
+
+    """
     return FULL_NAME.fullmatch(name) is not None

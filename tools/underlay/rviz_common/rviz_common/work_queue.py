@@ -12,15 +12,30 @@ Work = Callable[[], None]
 
 
 class WorkQueue:
-    """Takes work from any thread, which one thread does in the order of its coming."""
+    """
+    Thread-safe queue of work, which one thread does in the order of its arrival.
+
+    Parameters
+    ----------
+    on_post
+        Called after each `post`, in the thread of the caller, to wake the one that works.
+
+    """
 
     def __init__(self, on_post: Work = lambda: None) -> None:
-        """Take what wakes the thread that does the work."""
         self._waiting: queue.SimpleQueue[Work] = queue.SimpleQueue()
         self._on_post = on_post
 
     def post(self, work: Work) -> None:
-        """Have something done soon."""
+        """
+        Queue work; any thread may call it.
+
+        Parameters
+        ----------
+        work
+            Called without arguments by the thread that calls `run`.
+
+        """
         self._waiting.put(work)
         self._on_post()
 

@@ -13,7 +13,19 @@ __all__ = ['follow']
 
 
 def follow(display: Display, node: Any, frame: str) -> None:
-    """Move a node of the scene to where a frame is; hide it, with the reason, if nobody knows."""
+    """
+    Move a node of the scene to a frame; hide it if no transform leads there.
+
+    Parameters
+    ----------
+    display
+        The display that draws, whose status says why the node is hidden.
+    node
+        The handle of viser for the node.
+    frame
+        The name of the frame, or `FIXED_FRAME`.
+
+    """
     try:
         pose: Pose = display.context.frames.pose(frame)
     except FrameError as error:

@@ -29,7 +29,20 @@ class GridSize:
         return 2 * (self.cells + 1) * (self.layers + 1) + across
 
     def within(self, limit: int) -> GridSize:
-        """Return the largest grid of such cells that has fewer lines than a limit."""
+        """
+        Find a grid with as many cells as possible, but no more lines than a limit.
+
+        Parameters
+        ----------
+        limit
+            The largest number of lines; at most an eighth of it are layers.
+
+        Returns
+        -------
+        GridSize
+            The grid, with cells of the same size.
+
+        """
         layers = min(self.layers, limit // 8)
         fitting, too_many = 1, self.cells + 1
         while too_many - fitting > 1:
@@ -42,7 +55,22 @@ class GridSize:
 
 
 def lines(size: GridSize, plane: str) -> NDArray[np.float32]:
-    """Return beginnings and ends, in an array of N x 2 x 3, about the origin."""
+    """
+    Compute the lines of a grid around the origin.
+
+    Parameters
+    ----------
+    size
+        The size of the grid.
+    plane
+        The plane that it is in: `XY`, `XZ` or `YZ`.
+
+    Returns
+    -------
+    NDArray[np.float32]
+        The ends of N lines (N, 2, 3), in m.
+
+    """
     first, second, across = AXES[plane]
     steps = _steps(size.cells, size.cell_m)
     heights = _steps(size.layers, size.cell_m)
@@ -58,9 +86,22 @@ def lines(size: GridSize, plane: str) -> NDArray[np.float32]:
 
 def in_pieces(whole: NDArray[np.float32], count: int) -> NDArray[np.float32]:
     """
-    Cut each of N lines into as many pieces of the same length; N x 2 x 3 become N count x 2 x 3.
+    Cut each line into pieces of the same length.
 
     A browser finds the depth of a line wrong that begins behind the viewer: short ones stay right.
+
+    Parameters
+    ----------
+    whole
+        The ends of N lines (N, 2, 3).
+    count
+        The number of pieces of each.
+
+    Returns
+    -------
+    NDArray[np.float32]
+        The ends of the pieces (N count, 2, 3).
+
     """
     shares = np.linspace(0.0, 1.0, count + 1, dtype=np.float32)[:, None]
     points = whole[:, None, 0] + shares * (whole[:, None, 1] - whole[:, None, 0])

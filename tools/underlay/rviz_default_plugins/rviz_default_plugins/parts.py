@@ -17,37 +17,94 @@ AXES = Flag('Show Axes', False)
 
 class Parts:
     """
-    The settings of named parts of something, below one name of a file.
+    Settings of named parts, such as the links of a robot, below one name of a file.
 
     A part that the file does not name is shown if all are to be shown.
+
+    Parameters
+    ----------
+    given
+        The section of the file, by the name of the part; values that cannot be used are ignored.
+
+    Attributes
+    ----------
+    all_shown
+        Whether a part is shown that the file does not name.
+
     """
 
     def __init__(self, given: Mapping[str, Any] | None) -> None:
-        """Take what the file has; what cannot be used counts as not given."""
         self._given: dict[str, Any] = dict(given) if isinstance(given, Mapping) else {}
         self.all_shown = True
 
     def show_all(self, are_shown: bool) -> None:
-        """Show all parts, or none of them, whatever has been said of each."""
+        """
+        Show all parts, or none of them, whatever has been set for each.
+
+        Parameters
+        ----------
+        are_shown
+            Whether all are shown.
+
+        """
         self.all_shown = are_shown
         for settings in self._given.values():
             if isinstance(settings, dict):
                 settings['Value'] = are_shown
 
     def is_shown(self, name: str) -> bool:
-        """Tell if a part is to be shown."""
+        """
+        Whether a part is to be shown.
+
+        Parameters
+        ----------
+        name
+            The name of the part.
+
+        """
         return bool(self._setting(name, SHOWN, self.all_shown))
 
     def alpha(self, name: str) -> float:
-        """Return how opaque a part is to be."""
+        """
+        Look up the opacity of a part, from 0 to 1.
+
+        Parameters
+        ----------
+        name
+            The name of the part.
+
+        """
         return float(self._setting(name, ALPHA, ALPHA.default))
 
     def has_axes(self, name: str) -> bool:
-        """Tell if a part is to be shown with its axes."""
+        """
+        Whether a part is to be shown with its axes.
+
+        Parameters
+        ----------
+        name
+            The name of the part.
+
+        """
         return bool(self._setting(name, AXES, AXES.default))
 
     def put_into(self, written: dict[str, Any], name: str) -> dict[str, Any]:
-        """Return what a file is to have, with the parts below a name."""
+        """
+        Merge the settings of the parts into what a file is to have.
+
+        Parameters
+        ----------
+        written
+            The entry of the file.
+        name
+            The section of the parts, such as `Links`; without it the entry stays as it is.
+
+        Returns
+        -------
+        dict[str, Any]
+            The entry with the settings.
+
+        """
         parts = {part: each for part, each in self._given.items() if isinstance(each, dict)}
         section = written.get(name)
         return {**written, name: {**section, **parts}} if isinstance(section, dict) else written

@@ -45,7 +45,7 @@ class Executable:
         The whole environment of the process; without one it inherits that of the launch.
     additional_env
         What is added to its environment.
-    arguments
+    arguments : Optional[Iterable[SomeSubstitutionsType]]
         More arguments, which come after those of `cmd`.
 
     Raises
@@ -66,8 +66,10 @@ class Executable:
         additional_env: Optional[SomeVariables] = None,
         arguments: Optional[Iterable[SomeSubstitutionsType]] = None,
     ) -> None:
-        words = [*list_like('cmd', cmd, 'words'), *(arguments or ())]
+        words = list_like('cmd', cmd, 'words')
+        more = list_like('arguments', () if arguments is None else arguments, 'words')
         self.__cmd = [text_like('cmd', word) for word in words]
+        self.__cmd += [text_like('arguments', word) for word in more]
         self.__prefix = optional_text_like('prefix', prefix)
         self.__name = optional_text_like('name', name)
         self.__cwd = optional_text_like('cwd', cwd)

@@ -96,7 +96,7 @@ def instantiate_substitution(name: str, arguments: Iterable[Any]) -> Substitutio
     ----------
     name
         The name.
-    arguments
+    arguments : Iterable[Any]
         Its arguments, each as a list of substitutions.
 
     Raises

@@ -12,8 +12,15 @@ _WAIT = "trap 'exit 0' INT TERM; while :; do read -r _ || exit 0; done"
 
 
 class KeepAliveProc(ExecuteProcess):
-    """Keeps a launch going, whatever its other processes do, until it is shut down."""
+    """
+    Keeps a launch going, whatever its other processes do, until it is shut down.
+
+    Parameters
+    ----------
+    **kwargs
+        Those of `ExecuteProcess`, but for `cmd`.
+
+    """
 
     def __init__(self, **kwargs: Any) -> None:
-        """Create the action; the arguments are those of ExecuteProcess, but for `cmd`."""
         super().__init__(cmd=['sh', '-c', _WAIT], **{'name': 'keep_alive', **kwargs})

@@ -22,7 +22,21 @@ class Condition(NamedTuple):
 
 
 def condition(level: int, message: str, hardware: str, values: list[tuple[str, str]]) -> Condition:
-    """Return what a part says, shortened; a level that does not exist counts as an error."""
+    """
+    Convert a diagnostic status to a `Condition`, with long texts shortened.
+
+    Parameters
+    ----------
+    level
+        The level of diagnostic_msgs, from `OK` to `STALE`; any other counts as `ERROR`.
+    message
+        What the part says.
+    hardware
+        The hardware id.
+    values
+        Pairs of key and value; only the first 200 are kept.
+
+    """
     if level not in (OK, WARN, ERROR, STALE):
         message = f'{message} (it says level {level}, which does not exist)'.strip()
         level = ERROR

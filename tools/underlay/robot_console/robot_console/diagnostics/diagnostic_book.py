@@ -34,20 +34,44 @@ class _Part:
 
 class DiagnosticBook:
     """
-    What parts of a robot say about themselves, the worst first.
+    The newest diagnostic status of each part of a robot, the worst first.
 
     A part that says nothing for a while is stale. Times are seconds of a steady clock; those of
     changes are of the wall.
+
+    Parameters
+    ----------
+    stale_s
+        After how long without a status a part is stale, in s.
+
+    Attributes
+    ----------
+    left_out
+        How many statuses were dropped because there were too many parts.
+
     """
 
     def __init__(self, stale_s: float = 5.0) -> None:
-        """Take after how long a part is stale."""
         self._stale_s = stale_s
         self._parts: dict[str, _Part] = {}
         self.left_out = 0
 
     def take(self, name: str, said: Condition, now_s: float, wall_s: float) -> None:
-        """Take what a part says; there may be a thousand parts."""
+        """
+        Store the status of a part; that of a new one is dropped if there are 1000 parts already.
+
+        Parameters
+        ----------
+        name
+            The name of the part.
+        said
+            Its status.
+        now_s
+            When it came, of `time.monotonic`.
+        wall_s
+            The same moment of `time.time`, for the list of changes of the level.
+
+        """
         part = self._parts.get(name)
         if part is None:
             if len(self._parts) >= MOST_PARTS:
@@ -57,7 +81,20 @@ class DiagnosticBook:
         part.take(said, now_s, wall_s)
 
     def rows(self, now_s: float) -> list[tuple[str, int, str]]:
-        """Return name, level and message of all parts, the worst first."""
+        """
+        List all parts, the worst first: errors, stale ones, warnings, and those that are well.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.monotonic`.
+
+        Returns
+        -------
+        list of tuple
+            Name, level and message of each part; parts of the same level are sorted by name.
+
+        """
         rows = [
             (name, self._level(part, now_s), part.now.message)
             for name, part in self._parts.items()
@@ -65,7 +102,23 @@ class DiagnosticBook:
         return sorted(rows, key=lambda row: (RANK[row[1]], row[0]))
 
     def details(self, name: str, now_s: float) -> dict[str, Any] | None:
-        """Return all that is known of a part, as a page wants it."""
+        """
+        Get everything that is known of one part, for the page.
+
+        Parameters
+        ----------
+        name
+            The name of the part.
+        now_s
+            The time of `time.monotonic`.
+
+        Returns
+        -------
+        dict or None
+            The status with its age in s and the last changes of the level; None for an unknown
+            part.
+
+        """
         part = self._parts.get(name)
         if part is None:
             return None
@@ -81,7 +134,15 @@ class DiagnosticBook:
         }
 
     def forget_stale(self, now_s: float) -> None:
-        """Forget the parts that say nothing any longer."""
+        """
+        Remove the parts that are stale, and reset `left_out`.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.monotonic`.
+
+        """
         self._parts = {
             name: part for name, part in self._parts.items() if not self._is_stale(part, now_s)
         }

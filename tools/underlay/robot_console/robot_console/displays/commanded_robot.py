@@ -70,7 +70,15 @@ class CommandedRobot(RobotModel):
         super().stop()
 
     def on_change(self, path: str) -> None:
-        """Begin anew for other topics; draw what is known again for the rest."""
+        """
+        Apply a changed property: subscribe again for another command topic, redraw for others.
+
+        Parameters
+        ----------
+        path
+            The path of the property.
+
+        """
         if path == NAMESPACE.path or path.startswith(COMMANDS):
             self.stop()
             self.start()
@@ -78,7 +86,15 @@ class CommandedRobot(RobotModel):
             super().on_change(path)
 
     def topic_of(self, path: str) -> str:
-        """Return the topic that a property says, of the robot that the namespace says."""
+        """
+        Get the topic that a property names, in the namespace of the robot.
+
+        Parameters
+        ----------
+        path
+            The path of the property, without `/Value`.
+
+        """
         return below(self.values['Namespace'], super().topic_of(path))
 
     def look(self) -> Look:
@@ -90,7 +106,22 @@ class CommandedRobot(RobotModel):
         return replace(super().look(), color=color, margin_m=MARGIN_M)
 
     def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
-        """Return where the robot is, and where its joints were told to be."""
+        """
+        Get the pose of the root link, and a function that gives the commanded pose of each joint.
+
+        Parameters
+        ----------
+        model
+            The robot that is shown.
+
+        Returns
+        -------
+        tuple
+            The pose of the root in the fixed frame, None if it is unknown or nothing was commanded
+            in the last second; and what gives the pose of a joint's child link in the frame of the
+            parent link (m, quaternion w, x, y, z). Joints without a command are where tf says.
+
+        """
         if self._joints is None or self._joints.model is not model:
             self._joints = CommandedJoints(model)
         self._obey(self._joints)
@@ -101,7 +132,19 @@ class CommandedRobot(RobotModel):
         return root, lambda joint: told.get(joint.name) or measured(joint)
 
     def say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
-        """Say why the ghost is not shown."""
+        """
+        Report in the status of the display why the ghost, or a part of it, is not shown.
+
+        Parameters
+        ----------
+        model
+            The robot that is shown.
+        root
+            The pose of its root link in the fixed frame, None if it is not shown.
+        unknown
+            The joints whose pose is unknown.
+
+        """
         joints = self._joints
         if joints is None or not joints.is_told(time.time()):
             self.say('Transform', '')

@@ -17,10 +17,24 @@ VALID_S = 1.0
 
 
 class CommandedJoints:
-    """The commands of the last second, several of which may each be about some of the joints."""
+    """
+    The joint positions commanded in the last second, and the poses of the links they lead to.
+
+    Several commands may each be about some of the joints.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    Attributes
+    ----------
+    unknown
+        The joints of the last command that the robot does not have, sorted.
+
+    """
 
     def __init__(self, model: RobotModel) -> None:
-        """Take a robot that has not been told anything."""
         self.model = model
         self._mimics = model.mimics
         self._motions = {joint.name: joint_motion(joint) for joint in model.moving_joints}
@@ -33,7 +47,22 @@ class CommandedJoints:
         self.unknown: list[str] = []
 
     def take(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
-        """Take a command, or raise ValueError with the reason why it cannot be shown."""
+        """
+        Store a command; positions that are not finite are ignored.
+
+        Parameters
+        ----------
+        names, positions
+            The joints, and where they are to be, in rad or m.
+        now_s
+            When the command came, of `time.time`.
+
+        Raises
+        ------
+        ValueError
+            There are not as many positions as names; the text ends a sentence.
+
+        """
         if len(positions) != len(names):
             raise ValueError(f'it has {len(names)} names but {len(positions)} positions.')
         for name, position in zip(names, positions):
@@ -42,14 +71,34 @@ class CommandedJoints:
         self.unknown = sorted(set(names).difference(self._motions))
 
     def is_told(self, now_s: float) -> bool:
-        """Tell if there has been a command in the last second."""
+        """
+        Check whether a joint was commanded in the last second.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`.
+
+        """
         return any(now_s - at_s < VALID_S for _, at_s in self._told.values())
 
     def poses(self, now_s: float) -> dict[str, Pose]:
         """
-        Return where joints are in the frames of their parents; nothing a second after commands.
+        Compute the commanded forward kinematics, joint by joint.
 
-        Joints that were not told anything, and do not follow others that were, are left out.
+        Mimic joints follow. Fixed joints are included as long as anything was commanded.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`; commands older than a second do not count.
+
+        Returns
+        -------
+        dict
+            By joint, the pose of its child link in the frame of its parent link, in m and as a
+            quaternion w, x, y, z. Joints that were not commanded are missing.
+
         """
         told = {
             name: position

@@ -48,7 +48,20 @@ HEAD = (
 
 
 def table_html(groups: Iterable[RowGroup]) -> str:
-    """Return the table, or none without joints; those beyond 300 are left out, and counted."""
+    """
+    Render the joint table as HTML.
+
+    Parameters
+    ----------
+    groups
+        The rows by limb; those beyond 300 are counted instead of shown.
+
+    Returns
+    -------
+    str
+        The table; '' without joints.
+
+    """
     parts = []
     left = MAX_ROWS
     left_out = 0
@@ -65,7 +78,15 @@ def table_html(groups: Iterable[RowGroup]) -> str:
 
 
 def notes_html(notes: Iterable[tuple[str, bool]]) -> str:
-    """Return sentences, some of which are warnings."""
+    """
+    Render the notes above the joint table as HTML.
+
+    Parameters
+    ----------
+    notes : Iterable[tuple[str, bool]]
+        Sentences, each with whether it is a warning.
+
+    """
     lines = ''.join(
         f'<div class=w>⚠ {escape(text)}</div>' if is_warning else f'<div>{escape(text)}</div>'
         for text, is_warning in notes

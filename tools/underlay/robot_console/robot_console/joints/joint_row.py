@@ -46,7 +46,21 @@ class JointRow:
         return self.target - self.state.position
 
     def share(self, position: float | None) -> float | None:
-        """Return where a position is between the limits, from 0 to 1; beyond them, 0 or 1."""
+        """
+        Scale a position to the range of the joint.
+
+        Parameters
+        ----------
+        position
+            In rad or m; None if it is not known.
+
+        Returns
+        -------
+        float or None
+            0 at the lower limit and below, 1 at the upper one and above; None without a position
+            or without limits.
+
+        """
         if position is None or self.limits is None:
             return None
         span = self.limits.upper - self.limits.lower
@@ -54,7 +68,20 @@ class JointRow:
 
 
 def position_level(row: JointRow) -> Level:
-    """Return how close to its limits a joint is: within 5 % of its way, or beyond them."""
+    """
+    Rate how close a joint is to its position limits.
+
+    Parameters
+    ----------
+    row
+        The joint.
+
+    Returns
+    -------
+    Level
+        WARN within 5 % of the range from a limit, ERROR beyond the limits, otherwise OK.
+
+    """
     position, limits = row.state.position, row.limits
     if position is None or limits is None:
         return Level.OK
@@ -66,7 +93,22 @@ def position_level(row: JointRow) -> Level:
 
 
 def load_level(value: float | None, maximum: float | None) -> Level:
-    """Return how close to its maximum a velocity or an effort is: above 90 %, or beyond it."""
+    """
+    Rate how close a velocity or an effort is to its maximum.
+
+    Parameters
+    ----------
+    value
+        The measured value, of either sign; None if it is not known.
+    maximum
+        The greatest magnitude allowed, in the same unit; None if there is no limit.
+
+    Returns
+    -------
+    Level
+        WARN from 90 % of the maximum on, ERROR beyond it, otherwise OK.
+
+    """
     if value is None or maximum is None or abs(value) < NEAR * maximum:
         return Level.OK
     return Level.ERROR if abs(value) > maximum else Level.WARN

@@ -33,7 +33,6 @@ class JointStates:
     """
 
     def __init__(self) -> None:
-        """Begin without any."""
         self.received = 0
         self.last_s: float | None = None
         self.complaint = ''
@@ -48,7 +47,20 @@ class JointStates:
         efforts: Numbers,
         now_s: float,
     ) -> None:
-        """Take what a message says."""
+        """
+        Store a message; its content is only looked at when `states` is asked for.
+
+        Parameters
+        ----------
+        names
+            The joints.
+        positions, velocities, efforts
+            One number for each name (rad or m, per second, N m or N), or none at all. Lists of
+            another length are ignored, and `complaint` says so.
+        now_s
+            When the message came, of `time.time`.
+
+        """
         self.received += 1
         self.last_s = now_s
         if len(self._waiting) > MAX_JOINTS:

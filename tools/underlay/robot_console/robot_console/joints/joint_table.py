@@ -29,14 +29,21 @@ class JointTable:
     """Puts together what is measured, what is commanded, and what the description says."""
 
     def __init__(self) -> None:
-        """Begin without anything."""
         self.measured = JointStates()
         self.commanded = JointStates()
         self._model: RobotModel | None = None
         self._limbs: tuple[frozenset[str], list[Limb]] = frozenset(), []
 
     def describe(self, model: RobotModel) -> None:
-        """Take what a description says about the joints."""
+        """
+        Set the robot description, which gives limbs, kinds of joints and limits.
+
+        Parameters
+        ----------
+        model
+            The robot.
+
+        """
         self._model = model
         self._limbs = frozenset(), []
 
@@ -46,7 +53,21 @@ class JointTable:
         return self._model is not None
 
     def groups(self, now_s: float, search: str = '') -> list[RowGroup]:
-        """Return the joints whose name, or whose group's title, has what is searched."""
+        """
+        Build the rows of the table, grouped by limb.
+
+        Commanded positions older than a second are left out; measured states that old are marked
+        stale.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`.
+        search
+            Only joints are listed whose name, or whose limb's title, contains this text; upper and
+            lower case are the same, and so are spaces and underscores.
+
+        """
         measured, commanded = self.measured.states, self.commanded.states
         joints = {joint.name: joint for joint in self._model.joints} if self._model else {}
         wanted = search.strip().lower().replace(' ', '_')

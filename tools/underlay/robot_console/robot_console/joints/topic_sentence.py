@@ -11,22 +11,49 @@ LATE_S = 1.0
 
 
 class TopicWatch:
-    """Counts the messages of a topic, and says how many come, or why none do."""
+    """
+    The message rate of a joint topic in a sentence, or why nothing comes.
+
+    Parameters
+    ----------
+    topic
+        The fully qualified name of the topic.
+    states
+        What its messages are stored in, which counts them.
+
+    """
 
     def __init__(self, topic: str, states: JointStates) -> None:
-        """Take the full name of a topic, and what is said on it."""
         self.topic = topic
         self._states = states
         self._since: tuple[float, int] | None = None
         self._rate_hz = 0.0
 
     def is_late(self, now_s: float) -> bool:
-        """Tell if no message has come for a second."""
+        """
+        Check whether no message has come for a second.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`.
+
+        """
         last_s = self._states.last_s
         return last_s is None or now_s - last_s >= LATE_S
 
     def sentence(self, now_s: float, publishers: int) -> str:
-        """Return what there is to say."""
+        """
+        Describe the topic in a sentence: joints and messages a second, or since when it is silent.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`.
+        publishers
+            How many publishers the topic has; used only if it is silent.
+
+        """
         self._count(now_s)
         if not self.is_late(now_s):
             count = len(self._states.states)
@@ -45,7 +72,19 @@ class TopicWatch:
 
 
 def missing(topic: str, for_s: float | None, publishers: int) -> str:
-    """Say since when nothing comes, and who could be asked."""
+    """
+    Describe in a sentence a topic on which no messages come.
+
+    Parameters
+    ----------
+    topic
+        The name of the topic.
+    for_s
+        For how long it has been silent, in s; None if nothing has come yet.
+    publishers
+        How many publishers it has.
+
+    """
     what = 'Nothing has come yet' if for_s is None else f'Nothing for {for_s:.0f} s'
     if not publishers:
         return f'{topic}: {what}; nobody publishes it.'

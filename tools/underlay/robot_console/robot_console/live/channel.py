@@ -22,10 +22,25 @@ REFUSED = 1008
 
 class Channel:
     """
-    Tells all who look at a small page what is new, and does what they ask for.
+    The connections of a live panel: sends what is new, and runs the actions that pages ask for.
 
     A page connects while it is visible. What it asks for, `{'do': ...}`, is done in the thread
     of the node by the action of that name; one that raises ValueError has its reason sent back.
+
+    Parameters
+    ----------
+    queue
+        Work for the thread of the node.
+    greet
+        Sends the current state to a viewer that has just connected.
+    actions
+        What pages may ask for, by name: called with the viewer and the whole message.
+
+    Attributes
+    ----------
+    viewers
+        Those who are connected; for the thread of the node only.
+
     """
 
     def __init__(
@@ -34,7 +49,6 @@ class Channel:
         greet: Callable[[Viewer], None],
         actions: Mapping[str, Action],
     ) -> None:
-        """Take what tells somebody who comes how things are, and what may be asked for."""
         self.viewers: list[Viewer] = []
         self._queue = queue
         self._greet = greet
@@ -42,7 +56,15 @@ class Channel:
         self._is_over = False
 
     def tell(self, **values: Any) -> None:
-        """Tell all."""
+        """
+        Send values to all viewers, as one JSON object.
+
+        Parameters
+        ----------
+        **values
+            The members of the object.
+
+        """
         if self.viewers:
             text = json.dumps(values)
             for viewer in self.viewers:
@@ -56,7 +78,17 @@ class Channel:
         self.viewers.clear()
 
     async def talk(self, connection: ServerConnection) -> None:
-        """Talk to one of them, in the thread of the page."""
+        """
+        Serve one connection until it is closed, in the thread of the page.
+
+        A message that is too long, no JSON, or names no action closes it.
+
+        Parameters
+        ----------
+        connection
+            The connection that a browser has opened.
+
+        """
         if self._is_over:
             return
         viewer = Viewer(connection)

@@ -72,7 +72,15 @@ class LivePanel(Panel):
         """Begin what is done also while nobody looks; nobody comes before."""
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes how things are."""
+        """
+        Send the current state to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            The viewer.
+
+        """
 
     def refresh(self) -> None:
         """Tell what is new."""
@@ -81,5 +89,18 @@ class LivePanel(Panel):
         """End what has been begun."""
 
     def full_name(self, topic: str) -> str:
-        """Return the full name of a topic of the robot, or raise ValueError if it is no name."""
+        """
+        Resolve the topic name of a robot to a fully qualified one.
+
+        Parameters
+        ----------
+        topic
+            The name; a relative one is put into the namespace of the panel.
+
+        Raises
+        ------
+        ValueError
+            It is no valid topic name; the text is a sentence.
+
+        """
         return topic_of_robot(self.context.node, self.values['Namespace'], topic)

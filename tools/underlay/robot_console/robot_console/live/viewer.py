@@ -21,12 +21,18 @@ class Viewer:
     """
     Somebody who looks at a small page.
 
-    `tell` is for the thread of the node, all else for that of the page. What a browser does not
+    `tell` and `tell_text` are for the thread of the node, `close` is for any thread, and all else
+    for that of the page. What a browser does not
     read in time is dropped together with the connection; it gets all anew when it comes back.
+
+    Parameters
+    ----------
+    connection
+        The connection of the page; the viewer is constructed in the event loop that serves it.
+
     """
 
     def __init__(self, connection: ServerConnection) -> None:
-        """Take the connection, in the thread of the page."""
         self.wish: Any = None
         """What a panel remembers of this viewer: a topic, the name of a node."""
         self._connection = connection
@@ -36,11 +42,27 @@ class Viewer:
         self._news = asyncio.Event()
 
     def tell(self, **values: Any) -> None:
-        """Send something soon."""
+        """
+        Queue values to be sent as one JSON object.
+
+        Parameters
+        ----------
+        **values
+            The members of the object.
+
+        """
         self.tell_text(json.dumps(values))
 
     def tell_text(self, text: str) -> None:
-        """Send soon what is JSON already."""
+        """
+        Queue a text to be sent.
+
+        Parameters
+        ----------
+        text
+            A JSON object, encoded already.
+
+        """
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._put, text)
 

@@ -21,10 +21,19 @@ class Interruption(NamedTuple):
 
 
 class Interruptions:
-    """Collects errors, and tells of them now and then; the same one not again for a while."""
+    """
+    Collects errors of the log, and limits how often they pop up.
+
+    Parameters
+    ----------
+    period_s
+        The least time between two interruptions, in s.
+    silence_s
+        A text of a node is shown again only if it was not logged for so long, in s.
+
+    """
 
     def __init__(self, period_s: float = PERIOD_S, silence_s: float = 60.0) -> None:
-        """Interrupt at most once a period, and with the same text only after a silence."""
         self._period_s = period_s
         self._silence_s = silence_s
         self._waiting: list[LogLine] = []
@@ -32,7 +41,17 @@ class Interruptions:
         self._said_s: dict[tuple[str, str], float] = {}
 
     def add(self, line: LogLine, now_s: float) -> None:
-        """Take a line; those that are no errors do not matter."""
+        """
+        Queue a line of the log if it is an error that is due to be shown.
+
+        Parameters
+        ----------
+        line
+            The line; levels below ERROR are ignored.
+        now_s
+            The time of `time.monotonic`.
+
+        """
         if line.level < ERROR:
             return
         key = (line.node, line.text)
@@ -42,7 +61,21 @@ class Interruptions:
             self._waiting.append(line)
 
     def due(self, now_s: float) -> Interruption | None:
-        """Return what is to be shown now, if anything."""
+        """
+        Get the interruption that is to be shown now, which empties the queue.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.monotonic`.
+
+        Returns
+        -------
+        Interruption or None
+            The first error that waits, and how many others there are; None if none waits, or the
+            last interruption was too recent.
+
+        """
         if not self._waiting or now_s < self._next_s:
             return None
         first, count = self._waiting[0], len(self._waiting)

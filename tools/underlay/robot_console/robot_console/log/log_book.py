@@ -24,10 +24,28 @@ class LogLine(NamedTuple):
 
 
 class LogBook:
-    """Keeps the newest lines, and counts all of them."""
+    """
+    The newest lines of the log, with counts of all.
+
+    Parameters
+    ----------
+    kept
+        How many lines are kept.
+    namespace
+        Lines of nodes outside of this namespace are ignored; '' for none.
+
+    Attributes
+    ----------
+    count
+        How many lines have been added.
+    counts
+        The same by level.
+    nodes
+        The names of the loggers that have said something.
+
+    """
 
     def __init__(self, kept: int = 500, namespace: str = '') -> None:
-        """Keep so many lines of the nodes below a namespace."""
         self._lines: deque[LogLine] = deque(maxlen=kept)
         self._namespace = namespace.strip('/').replace('/', '.')
         self.count = 0
@@ -35,7 +53,21 @@ class LogBook:
         self.nodes: set[str] = set()
 
     def add(self, line: LogLine) -> LogLine | None:
-        """Take a line; return it as it is kept, or None if it is of another namespace."""
+        """
+        Add a line to the log.
+
+        Parameters
+        ----------
+        line
+            The line, with the name of the logger, such as `robot1.camera`, as its node.
+
+        Returns
+        -------
+        LogLine or None
+            The line as it is kept: the level rounded down to one of the five, a long text
+            shortened. None if it is of another namespace.
+
+        """
         if not self._is_ours(line.node):
             return None
         kept = line._replace(level=_level(line.level), text=_shortened(line.text))
@@ -46,12 +78,28 @@ class LogBook:
         return kept
 
     def since(self, count: int) -> list[LogLine]:
-        """Return what is kept of the lines that came after the first so many."""
+        """
+        Get the lines added after a count, as far as they are still kept.
+
+        Parameters
+        ----------
+        count
+            The value that `count` had; 0 for all.
+
+        """
         fresh = min(self.count - count, len(self._lines))
         return list(islice(self._lines, len(self._lines) - fresh, None))
 
     def news(self, count: int) -> dict[str, Any]:
-        """Return the lines after the first so many, and the counts, as a page wants them."""
+        """
+        Get the lines added after a count, with the counts by level and the nodes, for the page.
+
+        Parameters
+        ----------
+        count
+            As for `since`.
+
+        """
         return {
             'lines': self.since(count),
             'counts': dict(self.counts),

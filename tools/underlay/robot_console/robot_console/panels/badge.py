@@ -27,16 +27,33 @@ COLORS = {RECORDED: '#7048e8', MIXED: '#e8590c'}
 
 
 class Badge:
-    """Stands over the scene, and in the summary of the page, while a recording is played."""
+    """
+    A badge over the scene, and a note in the summary of the page, while a recording is played.
+
+    Parameters
+    ----------
+    context
+        The context of the panel.
+
+    """
 
     def __init__(self, context: Context) -> None:
-        """Show nothing yet."""
         self._context = context
         self._said = ('', '')
         self._html: Any = None
 
     def update(self, name: str, is_mixed: bool = False) -> None:
-        """Say what is played, '' if nothing is; to be called where widgets are in no tab."""
+        """
+        Show which recording is played; call it where widgets are added to no tab.
+
+        Parameters
+        ----------
+        name
+            The name of the recording; '' removes the badge.
+        is_mixed
+            Whether live nodes publish the same topics at the same time.
+
+        """
         said = name, MIXED if is_mixed else RECORDED
         if said == self._said:
             return

@@ -22,7 +22,24 @@ PERIOD_S = 4.0
 
 
 class BagChooser:
-    """Lists the recordings of a folder, which another thread reads."""
+    """
+    Widgets to choose a recording of a folder, which is read in a background thread.
+
+    Call `add_details` once before the first `update`.
+
+    Parameters
+    ----------
+    context
+        The context of the panel; the widgets are added where its GUI is at the moment.
+    folder
+        The path of the folder.
+    unfinished
+        Returns the path of the recording that is being made, which is not listed; '' if there is
+        none.
+    chosen
+        Called when another recording is chosen.
+
+    """
 
     def __init__(
         self,
@@ -31,12 +48,6 @@ class BagChooser:
         unfinished: Callable[[], str],
         chosen: Callable[[], None],
     ) -> None:
-        """
-        Add the widgets.
-
-        `unfinished` returns the recording that is being made; `chosen` is called when another one
-        is chosen.
-        """
         self._context = context
         self._shelf = Shelf(folder)
         self._unfinished = unfinished
@@ -69,7 +80,15 @@ class BagChooser:
             threading.Thread(target=self._look, daemon=True).start()
 
     def choose(self, path: str) -> None:
-        """Choose a new recording, as soon as it is seen."""
+        """
+        Choose a new recording as soon as it is found in the folder.
+
+        Parameters
+        ----------
+        path
+            The path of the recording.
+
+        """
         self._wanted = path
         self._pace.hurry()
 

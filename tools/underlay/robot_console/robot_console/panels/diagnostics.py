@@ -53,7 +53,15 @@ class Diagnostics(LivePanel):
         )
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes how things are."""
+        """
+        Send the parts and their levels to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            As for `LivePanel.greet`.
+
+        """
         self._told = self._state()
         viewer.tell(**self._told)
 

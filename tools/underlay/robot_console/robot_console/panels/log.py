@@ -57,7 +57,15 @@ class Log(LivePanel):
         )
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes what is kept."""
+        """
+        Send all lines that are kept to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            As for `LivePanel.greet`.
+
+        """
         self._tell_all()
         viewer.tell(fresh=True, **self._book.news(0))
 

@@ -19,7 +19,23 @@ __all__ = ['MemoryFolder']
 
 
 class MemoryFolder:
-    """Keeps the messages of the last seconds in a process of its own, as long as that is on."""
+    """
+    Widgets to save the messages of the last seconds, which a child process keeps in memory.
+
+    Parameters
+    ----------
+    context
+        The context of the panel.
+    folder
+        The path of the folder in which recordings are saved; created if need be.
+    namespace
+        The namespace of the robot whose topics are kept; '' for all topics.
+    limits
+        How much is kept: in s, and in MiB.
+    done
+        Called with the path of a recording that was saved.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +45,6 @@ class MemoryFolder:
         limits: tuple[float, float],
         done: Callable[[str], None],
     ) -> None:
-        """Add the widgets; the limits are seconds and MiB."""
         self._folder, self._namespace, self._done = folder, namespace, done
         self._seconds, self._max_mib = limits
         self._child: Child | None = None

@@ -39,7 +39,15 @@ class Parameters(LivePanel):
         self._ear: Any = None
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes which nodes there are."""
+        """
+        Send the list of nodes with parameters to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            As for `LivePanel.greet`.
+
+        """
         self._nodes = self._found()
         viewer.tell(nodes=self._nodes)
 

@@ -34,20 +34,31 @@ OF_ALL = ('/parameter_events', '/rosout')
 
 class PlayFolder:
     """
-    Plays a recording in a process of its own.
+    Widgets to play a recording, in a child process.
 
     What was recorded of commands is left out unless somebody wants it: a robot would obey.
+
+    Parameters
+    ----------
+    context
+        The context of the panel.
+    folder
+        The path of the folder with the recordings.
+    commands
+        Patterns of the topics that robots obey, as for `commands_among`.
+    unfinished
+        Returns the path of the recording that is being made, '' if there is none.
+
+    Attributes
+    ----------
+    chooser
+        The widgets that choose the recording.
+
     """
 
     def __init__(
         self, context: Context, folder: str, commands: str, unfinished: Callable[[], str]
     ) -> None:
-        """
-        Add the widgets.
-
-        `commands` are the patterns of names of topics that robots obey; `unfinished` returns the
-        recording that is being made.
-        """
         self._context, self._patterns = context, commands
         self._child: Child | None = None
         self._bag: Bag | None = None

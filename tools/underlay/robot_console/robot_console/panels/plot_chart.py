@@ -30,14 +30,19 @@ NO_CURVE = uplot.Series(label='', show=False)
 
 class PlotChart:
     """
-    Curves over the last seconds.
+    The viser widget that draws curves over the last seconds.
 
     The widget is another one whenever the number of curves or the scale changes: a browser takes
     curves and options of a widget one after the other, and uPlot fails where they do not match.
+
+    Parameters
+    ----------
+    server
+        The server of the page; the widget is added where its GUI is at the moment.
+
     """
 
     def __init__(self, server: ViserServer) -> None:
-        """Add the widget, without curves."""
         self._server = server
         self._place = server.gui.add_folder(None)
         self._count, self._is_zero = 0, True
@@ -45,7 +50,17 @@ class PlotChart:
         self._chart = self._new_chart(np.array([-1.0, 0.0]))
 
     def draw(self, window_s: float, curves: Sequence[Numbers]) -> None:
-        """Draw the curves; where they are not a number, they have a gap."""
+        """
+        Draw curves over a time window.
+
+        Parameters
+        ----------
+        window_s
+            The length of the window, in s; its right end is now.
+        curves
+            The values of each curve (800,), at the times of `slice_times`; NaN makes a gap.
+
+        """
         self._is_wider = not self._is_wider
         times = slice_times(window_s) * (WIDER if self._is_wider else 1.0)
         kind = len(curves), not any(np.nan_to_num(curve).any() for curve in curves)

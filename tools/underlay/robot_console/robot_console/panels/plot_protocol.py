@@ -18,13 +18,61 @@ class Plot(Protocol):
     context: Context
 
     def full_name(self, topic: str) -> str:
-        """Return the full name of a topic of the robot, or raise ValueError if it is no name."""
+        """
+        Resolve the topic name of a robot to a fully qualified one.
+
+        Parameters
+        ----------
+        topic
+            The name; a relative one is put into the namespace of the robot.
+
+        Raises
+        ------
+        ValueError
+            It is no valid topic name; the text is a sentence.
+
+        """
 
     def show(self, series: Iterable[Series]) -> None:
-        """Plot these series only."""
+        """
+        Replace the plotted series.
+
+        Parameters
+        ----------
+        series
+            The series, in the order of their colours; those that are plotted already keep their
+            values.
+
+        Raises
+        ------
+        PathError
+            They are too many.
+
+        """
 
     def add(self, text: str) -> None:
-        """Plot one more series, or raise PathError."""
+        """
+        Add a series to the plot.
+
+        Parameters
+        ----------
+        text
+            A path such as `joint_states.position[left_knee]`, or the difference `PATH - PATH`.
+
+        Raises
+        ------
+        PathError
+            The text is no series, or there are too many already.
+
+        """
 
     def remove(self, text: str) -> None:
-        """Plot a series no longer."""
+        """
+        Remove a series from the plot.
+
+        Parameters
+        ----------
+        text
+            The series as it is listed; an unknown one is ignored.
+
+        """

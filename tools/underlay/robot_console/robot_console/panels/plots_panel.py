@@ -73,21 +73,68 @@ class PlotsPanel(Panel):
         self._chooser.close()
 
     def full_name(self, topic: str) -> str:
-        """Return the full name of a topic of the robot, or raise ValueError if it is no name."""
+        """
+        Resolve the topic name of a robot to a fully qualified one.
+
+        Parameters
+        ----------
+        topic
+            As for `Plot.full_name`.
+
+        Raises
+        ------
+        ValueError
+            It is no valid topic name.
+
+        """
         return topic_of_robot(self.context.node, self.values['Namespace'], topic)
 
     def show(self, series: Any) -> None:
-        """Plot these series only."""
+        """
+        Replace the plotted series.
+
+        Parameters
+        ----------
+        series
+            As for `Plot.show`.
+
+        Raises
+        ------
+        PathError
+            They are too many.
+
+        """
         self._board.replace(series)
         self._follow()
 
     def add(self, text: str) -> None:
-        """Plot one more series, or raise PathError."""
+        """
+        Add a series to the plot.
+
+        Parameters
+        ----------
+        text
+            As for `Plot.add`.
+
+        Raises
+        ------
+        PathError
+            The text is no series, or there are too many already.
+
+        """
         self._board.add(text)
         self._follow()
 
     def remove(self, text: str) -> None:
-        """Plot a series no longer."""
+        """
+        Remove a series from the plot.
+
+        Parameters
+        ----------
+        text
+            As for `Plot.remove`.
+
+        """
         self._board.remove(text)
         self._follow()
 

@@ -20,17 +20,41 @@ IMU_TYPE = 'sensor_msgs/msg/Imu'
 
 
 class PresetButtons:
-    """A button for each preset, which looks at what the robot says at the moment."""
+    """
+    Buttons that plot series often wanted together, chosen by what the robot publishes now.
+
+    Parameters
+    ----------
+    plot
+        The plot whose series are replaced.
+    samples
+        Gets the messages from which joints are chosen; its `update` is called by its owner.
+    say
+        Shows a sentence to whoever presses a button; '' removes it.
+
+    Attributes
+    ----------
+    types
+        The types of the topics that there are, by name; to be set by the owner.
+
+    """
 
     def __init__(self, plot: Plot, samples: Samples, say: Callable[[str], None]) -> None:
-        """Add the buttons."""
         self._plot, self._samples, self._say = plot, samples, say
         self.types: Mapping[str, str] = {}
         buttons = plot.context.gui.add_button_group('Preset', (TRACKING, EFFORT, IMU))
         on_choice(plot.context.queue.post, buttons, self.choose)
 
     def choose(self, preset: str) -> None:
-        """Plot the series of a preset."""
+        """
+        Plot the series of a preset, if need be as soon as messages have come.
+
+        Parameters
+        ----------
+        preset
+            The label of the button.
+
+        """
         self._say('')
         if preset == IMU:
             self._show(self._imu())

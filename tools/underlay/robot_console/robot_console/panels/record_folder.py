@@ -24,7 +24,21 @@ RECORD, STOP = 'Record', 'Stop recording'
 
 
 class RecordFolder:
-    """Records all topics of a robot, or those that are chosen, in a process of its own."""
+    """
+    Widgets to record all topics of a robot, or chosen ones, in a child process.
+
+    Parameters
+    ----------
+    context
+        The context of the panel.
+    folder
+        The path of the folder in which recordings are made; created if need be.
+    namespace
+        The namespace of the robot whose topics are recorded; '' for all topics.
+    done
+        Called with the path of a recording when recording has ended, even if it failed.
+
+    """
 
     def __init__(
         self,
@@ -33,7 +47,6 @@ class RecordFolder:
         namespace: str,
         done: Callable[[str], None],
     ) -> None:
-        """Add the widgets; `done` is called when there is a new recording."""
         self._context, self._folder = context, folder
         self._namespace, self._done = namespace, done
         self._child: Child | None = None

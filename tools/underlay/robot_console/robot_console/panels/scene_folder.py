@@ -20,10 +20,23 @@ HINT = 'One file that any browser shows, also without a network.'
 
 
 class SceneFolder:
-    """Keeps the last seconds of the scene as long as that is on, and makes a file of them."""
+    """
+    Widgets to download the last seconds of the scene as one HTML file.
+
+    Parameters
+    ----------
+    context
+        The context of the panel.
+    seconds
+        How much of the scene is kept, in s.
+    max_page_mib
+        How large the file may be, in MiB; about twice as much is kept in memory.
+    is_on
+        Whether the scene is kept from the beginning.
+
+    """
 
     def __init__(self, context: Context, seconds: float, max_page_mib: float, is_on: bool) -> None:
-        """Add the widgets."""
         self._context = context
         self._seconds = seconds
         self._max_bytes = int(max_page_mib * MIB)

@@ -23,10 +23,17 @@ LOOK_S = 2.0
 
 
 class SeriesChooser:
-    """Widgets to choose presets and fields, and to write paths."""
+    """
+    Widgets to choose presets and fields of messages, and to type paths.
+
+    Parameters
+    ----------
+    plot
+        The plot that gets the series; the widgets are added to the GUI of its context.
+
+    """
 
     def __init__(self, plot: Plot) -> None:
-        """Add the widgets."""
         self._plot = plot
         self._node = plot.context.node
         self._look = Pace(LOOK_S)
@@ -56,11 +63,27 @@ class SeriesChooser:
         self._samples.close()
 
     def list_series(self, texts: Sequence[str]) -> None:
-        """Offer series to be removed."""
+        """
+        Update the list from which series can be removed.
+
+        Parameters
+        ----------
+        texts
+            The series that are plotted.
+
+        """
         _offer(self._listed, texts)
 
     def say(self, sentence: str) -> None:
-        """Say something to whoever chooses."""
+        """
+        Show a warning above the widgets.
+
+        Parameters
+        ----------
+        sentence
+            The warning; '' removes it.
+
+        """
         shown = f'<div class=plot-legend><p>⚠ {escape(sentence)}</p></div>' if sentence else ''
         self._said.content = shown
 

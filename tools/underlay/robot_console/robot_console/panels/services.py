@@ -50,7 +50,15 @@ class Services(LivePanel):
         self._rows: list[tuple[str, str, bool]] = []
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes which services there are."""
+        """
+        Send the list of services to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            As for `LivePanel.greet`.
+
+        """
         self._rows = self._found()
         viewer.tell(rows=self._rows)
 

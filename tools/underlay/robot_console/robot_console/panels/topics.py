@@ -48,7 +48,15 @@ class Topics(LivePanel):
         self._types: dict[str, list[str]] = {}
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes how things are."""
+        """
+        Send the list of topics, and known rates, to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            As for `LivePanel.greet`.
+
+        """
         self._types = types_of(self.context.node)
         self._told = self._state()
         viewer.tell(**self._told)

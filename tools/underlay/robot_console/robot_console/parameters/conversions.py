@@ -17,7 +17,15 @@ KINDS = {each.name: number for number, each in TYPES.items()}
 
 
 def value_text(value: ParameterValue) -> str:
-    """Return a value as somebody would type it."""
+    """
+    Format the value of a parameter as one would type it.
+
+    Parameters
+    ----------
+    value
+        The value; '' is returned if it is not set.
+
+    """
     plain = to_plain_value(value)
     if plain is None:
         return ''
@@ -29,7 +37,22 @@ def value_text(value: ParameterValue) -> str:
 
 
 def described(value: ParameterValue, descriptor: ParameterDescriptor | None) -> dict[str, Any]:
-    """Return a parameter as a page wants it."""
+    """
+    Describe a parameter for the page.
+
+    Parameters
+    ----------
+    value
+        Its value, which gives its type.
+    descriptor
+        Its description, limits and rules; None if the node has not told them.
+
+    Returns
+    -------
+    dict
+        The type as `kind`, the value as `text`, and what the descriptor says.
+
+    """
     told: dict[str, Any] = {'kind': type_name(value.type), 'text': value_text(value)}
     if descriptor is None:
         return told
@@ -47,7 +70,24 @@ def described(value: ParameterValue, descriptor: ParameterDescriptor | None) -> 
 def parameter_value(
     text: str, current: ParameterValue, descriptor: ParameterDescriptor
 ) -> ParameterValue:
-    """Return the value that a text stands for, of the type that there is; or raise ValueError."""
+    """
+    Parse a text that was typed as the new value of a parameter.
+
+    Parameters
+    ----------
+    text
+        What was typed; as YAML if the type of the parameter may change or is not set.
+    current
+        The value that the parameter has, whose type the new one keeps otherwise.
+    descriptor
+        Its description, with limits and whether it is read-only.
+
+    Raises
+    ------
+    ValueError
+        The parameter is read-only, or the text is no such value, or outside the limits.
+
+    """
     if descriptor.read_only:
         raise ValueError('It can only be set when the node is started.')
     kind = type_name(current.type)

@@ -11,5 +11,18 @@ ARRAY = ' array'
 
 
 def item_kind(kind: str) -> str:
-    """Return the type of the items of an array, or '' if it is no array."""
+    """
+    Get the type of the items of an array type.
+
+    Parameters
+    ----------
+    kind
+        The name of the type, such as `double array`.
+
+    Returns
+    -------
+    str
+        Such as `double`; '' if it is no array.
+
+    """
     return kind.removesuffix(ARRAY) if kind.endswith(ARRAY) else ''

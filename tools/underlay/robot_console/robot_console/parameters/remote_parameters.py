@@ -19,17 +19,36 @@ Tell = Callable[[str], None]
 
 
 class RemoteParameters:
-    """What is known of the parameters of a node; all that is asked for comes later."""
+    """
+    A cache of the parameters of a node, loaded and changed through its parameter services.
+
+    All calls return at once; their outcome comes with `ServiceCalls.update`.
+
+    Parameters
+    ----------
+    calls
+        What calls the services.
+    node_name
+        The fully qualified name of the node.
+
+    """
 
     def __init__(self, calls: ServiceCalls, node_name: str) -> None:
-        """Know nothing of a node yet."""
         self._calls = calls
         self._node_name = node_name
         self._values: dict[str, ParameterValue] = {}
         self._descriptors: dict[str, ParameterDescriptor] = {}
 
     def load(self, tell: Tell) -> None:
-        """Ask for all names, values and descriptions."""
+        """
+        Request all names, values and descriptors from the node.
+
+        Parameters
+        ----------
+        tell
+            Called with '' when they are known, otherwise with the reason why they are not.
+
+        """
 
         def take_names(response: Any, reason: str) -> None:
             if response is None:
@@ -40,7 +59,15 @@ class RemoteParameters:
         self._call(ListParameters, LIST_SERVICE, ListParameters.Request(), take_names)
 
     def take(self, name: str, value: ParameterValue) -> None:
-        """Take a value that the node has told of."""
+        """
+        Update a value that the node has announced.
+
+        Parameters
+        ----------
+        name, value
+            The parameter, and its new value.
+
+        """
         self._values[name] = value
 
     def told(self) -> dict[str, dict[str, Any]]:
@@ -48,15 +75,48 @@ class RemoteParameters:
         return {name: self.told_of(name) for name in sorted(self._values)}
 
     def told_of(self, name: str) -> dict[str, Any]:
-        """Return one parameter as a page wants it."""
+        """
+        Describe one parameter for the page, as `described` does.
+
+        Parameters
+        ----------
+        name
+            A parameter that is known.
+
+        """
         return described(self._values[name], self._descriptors.get(name))
 
     def knows(self, name: str) -> bool:
-        """Tell whether the node has a parameter."""
+        """
+        Check whether the node is known to have a parameter.
+
+        Parameters
+        ----------
+        name
+            The name of the parameter.
+
+        """
         return name in self._values
 
     def change(self, name: str, text: str, tell: Tell) -> None:
-        """Set a parameter, or raise ValueError if it cannot have such a value."""
+        """
+        Request that the node sets a parameter.
+
+        Parameters
+        ----------
+        name
+            A parameter that is known.
+        text
+            The new value, as it was typed.
+        tell
+            Called with '' when the node has set it, otherwise with the reason why it has not.
+
+        Raises
+        ------
+        ValueError
+            The parameter cannot have such a value; the node is not asked then.
+
+        """
         descriptor = self._descriptors.get(name) or ParameterDescriptor()
         value = parameter_value(text, self._values[name], descriptor)
 

@@ -33,7 +33,29 @@ class Limits(NamedTuple):
 
 
 def typed_value(kind: str, text: str, limits: Limits | None = None) -> Any:
-    """Return the plain value of a kind that a text stands for, or raise ValueError."""
+    """
+    Parse a text as a parameter value of a given type.
+
+    Parameters
+    ----------
+    kind
+        The name of the type, such as `double` or `string array`.
+    text
+        What was typed; arrays as a YAML list.
+    limits
+        Limits of numbers, each item of an array for itself; None for none.
+
+    Returns
+    -------
+    Any
+        A plain value, or a list of them; those of a byte array are `bytes` of length 1.
+
+    Raises
+    ------
+    ValueError
+        The text is no such value, or outside the limits; the text of the error is a sentence.
+
+    """
     item = item_kind(kind)
     if item:
         return [_checked(READERS[item](each), limits) for each in _items(text)]

@@ -19,10 +19,23 @@ MAX_DEPTH = 8
 
 def completions(type_name: str, schema: Schema, sample: Any = None) -> list[str]:
     """
-    Return what can come after `topic.`, such as `position[left_knee]`.
+    List the paths of all numbers in a message type, for a menu.
 
-    A message tells how long lists are and what is in them; without one, their first place is
-    there to show how it is written.
+    Parameters
+    ----------
+    type_name
+        The message type, such as `sensor_msgs/msg/JointState`.
+    schema
+        Returns the fields of a message type; what it raises is passed on.
+    sample
+        A message that tells how long lists are and how their elements are named. Without one, each
+        list is represented by its element 0.
+
+    Returns
+    -------
+    list of str
+        What can come after `topic.`, such as `position[left_knee]`; at most 500 paths.
+
     """
     return list(islice(_of_message(type_name, schema, sample, '', (), 0), MAX_PATHS))
 

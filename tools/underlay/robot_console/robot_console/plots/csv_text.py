@@ -15,7 +15,20 @@ Columns = Mapping[str, tuple[Numbers, Numbers]]
 
 
 def csv_text(columns: Columns) -> str:
-    """Return a line for each time at which there is a value, with a column for each series."""
+    """
+    Format the curves of a plot as CSV.
+
+    Parameters
+    ----------
+    columns
+        Times (n,) in s and values (n,), by the name of the series.
+
+    Returns
+    -------
+    str
+        A header, and a row for each time at which a series has a value; other cells are empty.
+
+    """
     rows: dict[float, dict[str, float]] = {}
     for name, (times, values) in columns.items():
         for time_s, value in zip(times.tolist(), values.tolist()):

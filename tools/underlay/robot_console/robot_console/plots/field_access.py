@@ -22,7 +22,17 @@ class FieldAccess:
     name: str
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
-        """Return a field."""
+        """
+        Get the field from a message.
+
+        Parameters
+        ----------
+        value
+            The message.
+        passed
+            Not used.
+
+        """
         return getattr(value, self.name)
 
 
@@ -33,7 +43,22 @@ class PlaceAccess:
     place: int
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
-        """Return the element at the place, or raise PathError."""
+        """
+        Get the element at the index.
+
+        Parameters
+        ----------
+        value
+            The list.
+        passed
+            Not used.
+
+        Raises
+        ------
+        PathError
+            The list is too short.
+
+        """
         try:
             return value[self.place]
         except IndexError:
@@ -48,7 +73,23 @@ class NameAccess:
     lists: tuple[tuple[int, str], ...]
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
-        """Return the element of a name, or raise PathError."""
+        """
+        Get the element that a parallel list of names gives this name.
+
+        Parameters
+        ----------
+        value
+            The list of elements.
+        passed
+            The values on the way to the list, the whole message first; some of them have the
+            names.
+
+        Raises
+        ------
+        PathError
+            There is no such name, or the list has no element for it.
+
+        """
         known: list[str] = []
         for depth, field in self.lists:
             names = getattr(passed[depth], field)
@@ -69,7 +110,22 @@ class OwnNameAccess:
     field: str
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
-        """Return the element of a name, or raise PathError."""
+        """
+        Get the element whose own name field has this name.
+
+        Parameters
+        ----------
+        value
+            The list of elements.
+        passed
+            Not used.
+
+        Raises
+        ------
+        PathError
+            No element has this name.
+
+        """
         for element in value:
             if getattr(element, self.field) == self.key:
                 return element

@@ -18,7 +18,20 @@ NAME_FIELDS = ('name', 'child_frame_id', 'key', 'id', 'class_id')
 
 
 def names_fields(fields: Mapping[str, str]) -> list[str]:
-    """Return the fields of a message that name the elements of the lists beside them."""
+    """
+    Find the fields of a message that list names for the elements of its other lists.
+
+    Parameters
+    ----------
+    fields
+        The types of the fields of the message, by name.
+
+    Returns
+    -------
+    list of str
+        Lists of texts whose name ends with `name` or `names`, such as `name` of a JointState.
+
+    """
     return [
         name
         for name, kind in fields.items()
@@ -27,5 +40,18 @@ def names_fields(fields: Mapping[str, str]) -> list[str]:
 
 
 def name_field(fields: Mapping[str, str]) -> str | None:
-    """Return the field of a message that names the message itself, if there is one."""
+    """
+    Find the field of a message that identifies it among others in a list.
+
+    Parameters
+    ----------
+    fields
+        The types of the fields of the message, by name.
+
+    Returns
+    -------
+    str or None
+        Such as `child_frame_id` of a transform; None if there is no such text.
+
+    """
     return next((name for name in NAME_FIELDS if is_text(fields.get(name, ''))), None)

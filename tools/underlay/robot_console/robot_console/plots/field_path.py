@@ -57,7 +57,21 @@ class FieldPath:
 
 
 def parse_path(text: str) -> FieldPath:
-    """Return the path that a text means, or raise PathError."""
+    """
+    Parse the path of a number in the messages of a topic.
+
+    Parameters
+    ----------
+    text
+        Such as `joint_states.position[left_knee]`; blanks around it do not matter.
+
+    Raises
+    ------
+    PathError
+        The text has no topic, no field, or a syntax error; whether the field exists is not
+        checked.
+
+    """
     text = text.strip()
     topic = TOPIC.match(text)
     if topic is None:

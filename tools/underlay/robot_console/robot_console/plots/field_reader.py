@@ -22,17 +22,46 @@ __all__ = ['FieldReader']
 
 
 class FieldReader:
-    """Reads the number that is at a path of messages of one type."""
+    """
+    Reads the number at a path out of messages of one type.
+
+    Parameters
+    ----------
+    path
+        Where the number is.
+    type_name
+        The type of the messages, such as `sensor_msgs/msg/JointState`.
+    schema
+        Returns the fields of a message type.
+
+    Raises
+    ------
+    PathError
+        The type has no number at that path.
+
+    """
 
     def __init__(self, path: FieldPath, type_name: str, schema: Schema) -> None:
-        """Look for the path in a type of messages, or raise PathError."""
         self.path = path
         walk = _Walk(path, type_name, schema)
         self._accesses = [walk.go(step) for step in path.steps]
         walk.check_end()
 
     def read(self, message: Any) -> float:
-        """Return the number, or raise PathError if this message does not have it."""
+        """
+        Read the number out of a message.
+
+        Parameters
+        ----------
+        message
+            A message of the reader's type.
+
+        Raises
+        ------
+        PathError
+            A list in this message lacks the element.
+
+        """
         value, passed = message, [message]
         for access in self._accesses:
             value = access.of(value, passed)

@@ -19,21 +19,58 @@ LIST = re.compile(r'sequence<(?P<sequence>.+?)(?:, *\d+)?>|(?P<array>.+)\[\d*\]'
 
 
 def element_type(kind: str) -> str | None:
-    """Return the type of the elements of a list, or None for what is no list."""
+    """
+    Get the element type of an array or a sequence type.
+
+    Parameters
+    ----------
+    kind
+        The type of a field, such as `sequence<double>` or `double[9]`.
+
+    Returns
+    -------
+    str or None
+        Such as `double`; None if the type is neither.
+
+    """
     found = LIST.fullmatch(kind)
     return None if found is None else found['sequence'] or found['array']
 
 
 def is_number(kind: str) -> bool:
-    """Tell if values of a type are numbers."""
+    """
+    Check whether a type is numeric; boolean and byte types count.
+
+    Parameters
+    ----------
+    kind
+        The type of a field.
+
+    """
     return kind in NUMBERS
 
 
 def is_text(kind: str) -> bool:
-    """Tell if values of a type are texts."""
-    return kind.startswith(('string', 'wstring'))
+    """
+    Check whether a type is a string type, and no array of strings.
+
+    Parameters
+    ----------
+    kind
+        The type of a field.
+
+    """
+    return kind.startswith(('string', 'wstring')) and element_type(kind) is None
 
 
 def is_message(kind: str) -> bool:
-    """Tell if values of a type have fields."""
+    """
+    Check whether a type is a message type, with fields of its own.
+
+    Parameters
+    ----------
+    kind
+        The type of a field.
+
+    """
     return '/' in kind and element_type(kind) is None

@@ -22,10 +22,17 @@ Columns = dict[str, tuple[Numbers, Numbers]]
 
 
 class PlotBoard:
-    """Series by what is written for them, which go on while what is seen of them may rest."""
+    """
+    The series of a plot with their values, which go on while the view may be frozen.
+
+    Parameters
+    ----------
+    window_s
+        How much of the past is shown, in s. It may be changed; 120 s are kept anyway.
+
+    """
 
     def __init__(self, window_s: float) -> None:
-        """Take how many seconds are seen."""
         self.window_s = window_s
         self._plotted: dict[str, Plotted] = {}
         self._types: dict[str, tuple[str, Schema]] = {}
@@ -47,11 +54,37 @@ class PlotBoard:
         return self._rest is not None
 
     def add(self, text: str) -> None:
-        """Add a series, or raise PathError."""
+        """
+        Add a series that is given as a text.
+
+        Parameters
+        ----------
+        text
+            As for `parse_series`.
+
+        Raises
+        ------
+        PathError
+            The text is no series, or there are 8 already.
+
+        """
         self.put(parse_series(text))
 
     def put(self, series: Series) -> None:
-        """Add a series that is not there yet, or raise PathError."""
+        """
+        Add a series, unless it is there already.
+
+        Parameters
+        ----------
+        series
+            The series.
+
+        Raises
+        ------
+        PathError
+            There are 8 series already.
+
+        """
         if str(series) in self._plotted:
             return
         if len(self._plotted) >= MAX_SERIES:
@@ -64,24 +97,69 @@ class PlotBoard:
             plotted.find_type(topic, type_name, schema)
 
     def remove(self, text: str) -> None:
-        """Remove a series."""
+        """
+        Remove a series with its values.
+
+        Parameters
+        ----------
+        text
+            The series as it is written; an unknown one is ignored.
+
+        """
         self._plotted.pop(text, None)
 
     def replace(self, series: Iterable[Series]) -> None:
-        """Have these series only; those that are there already go on."""
+        """
+        Replace all series; those that are there already keep their values.
+
+        Parameters
+        ----------
+        series
+            The series, in their new order.
+
+        Raises
+        ------
+        PathError
+            There are more than 8; the first 8 stay.
+
+        """
         before, self._plotted = self._plotted, {}
         for each in series:
             self.put(each)
             self._plotted[str(each)] = before.get(str(each), self._plotted[str(each)])
 
     def find_type(self, topic: str, type_name: str, schema: Schema) -> None:
-        """Take the type of a topic."""
+        """
+        Set the message type of a topic, also for series that are added later.
+
+        Parameters
+        ----------
+        topic
+            The topic, as paths name it.
+        type_name
+            Its message type.
+        schema
+            Returns the fields of a message type.
+
+        """
         self._types[topic] = type_name, schema
         for each in self.plotted:
             each.find_type(topic, type_name, schema)
 
     def take(self, topic: str, message: Any, time_s: float) -> None:
-        """Take a message of a topic."""
+        """
+        Add the values that a message has for the series.
+
+        Parameters
+        ----------
+        topic
+            The topic, as paths name it.
+        message
+            The message.
+        time_s
+            When it came, of `time.time`.
+
+        """
         for each in self.plotted:
             each.take(topic, message, time_s)
 
@@ -92,7 +170,15 @@ class PlotBoard:
             each.trace.clear()
 
     def rest(self, now_s: float) -> None:
-        """Have what is seen rest; what comes meanwhile is not lost."""
+        """
+        Freeze the view at a time; values that come meanwhile are stored.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`.
+
+        """
         kept = {
             text: (times.copy(), values.copy())
             for text, (times, values) in self._since(now_s - MAX_WINDOW_S).items()
@@ -104,12 +190,38 @@ class PlotBoard:
         self._rest = None
 
     def drawn(self, now_s: float) -> list[Numbers]:
-        """Return what is to be drawn of each series."""
+        """
+        Resample the series to the points that are drawn.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`; the right end of the plot unless it is frozen.
+
+        Returns
+        -------
+        list of Numbers
+            The values of each series (800,), as `thinned` gives them.
+
+        """
         at_s, columns = self._seen(now_s)
         return [thinned(*each, at_s, self.window_s) for each in columns.values()]
 
     def columns(self, now_s: float) -> Columns:
-        """Return times and values of what is seen."""
+        """
+        Get the values in the time window that is shown, for export.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.time`; the end of the window unless the plot is frozen.
+
+        Returns
+        -------
+        dict
+            Times (n,) in s of `time.time` and values (n,), by the text of the series.
+
+        """
         at_s, columns = self._seen(now_s)
         seen = {}
         for text, (times, values) in columns.items():

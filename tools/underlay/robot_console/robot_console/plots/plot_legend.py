@@ -36,7 +36,15 @@ EMPTY = (
 
 
 def legend_html(plotted: Iterable[Plotted]) -> str:
-    """Return a line for each series, with what prevents it from being plotted."""
+    """
+    Render the legend as HTML: colour, series, newest value and trouble of each.
+
+    Parameters
+    ----------
+    plotted
+        The series in the order of their colours, at most 8.
+
+    """
     lines = ''.join(_line(each, COLORS[index]) for index, each in enumerate(plotted))
     return f'<div class=plot-legend>{lines}</div>' if lines else EMPTY
 

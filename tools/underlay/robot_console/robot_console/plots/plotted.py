@@ -17,10 +17,26 @@ TOGETHER_S = 1.0
 
 
 class Plotted:
-    """A series with the values that it has had, and what prevents it from having some."""
+    """
+    A series with the values that it has had, and what prevents it from having some.
+
+    Parameters
+    ----------
+    series
+        The series; the types of its topics become known with `find_type`.
+    keep_s
+        How long values are kept, in s.
+
+    Attributes
+    ----------
+    trace
+        The values with their times.
+    trouble
+        A sentence on why there are no new values; '' if there are.
+
+    """
 
     def __init__(self, series: Series, keep_s: float) -> None:
-        """Take a series; the types of its topics are not known yet."""
         self.series = series
         self.trace = Trace(keep_s)
         self.trouble = ''
@@ -28,7 +44,19 @@ class Plotted:
         self._newest: list[tuple[float, float] | None] = [None] * len(series.paths)
 
     def find_type(self, topic: str, type_name: str, schema: Schema) -> None:
-        """Take the type of a topic; if it does not have what is plotted, that is the trouble."""
+        """
+        Set the message type of a topic; if it lacks the plotted field, `trouble` says so.
+
+        Parameters
+        ----------
+        topic
+            The topic, as paths name it; one that the series does not use is ignored.
+        type_name
+            Its message type.
+        schema
+            Returns the fields of a message type.
+
+        """
         for index, path in enumerate(self.series.paths):
             if path.topic == topic:
                 try:
@@ -37,7 +65,21 @@ class Plotted:
                     self.trouble = str(error)
 
     def take(self, topic: str, message: Any, time_s: float) -> None:
-        """Take a message of a topic."""
+        """
+        Add the value that a message completes.
+
+        The two numbers of a difference must have come less than 1 s apart.
+
+        Parameters
+        ----------
+        topic
+            The topic, as paths name it; one that the series does not use is ignored.
+        message
+            The message.
+        time_s
+            When it came, of `time.time`.
+
+        """
         has_news = False
         for index, reader in enumerate(self._readers):
             if reader is not None and reader.path.topic == topic:

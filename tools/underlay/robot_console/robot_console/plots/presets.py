@@ -17,7 +17,22 @@ def tracking_error(
     commanded: Mapping[str, float],
     measured: Mapping[str, float],
 ) -> list[str]:
-    """Return series of those joints that are farthest from where they were told to be."""
+    """
+    List series of the position error of the joints with the largest tracking errors.
+
+    Parameters
+    ----------
+    commands_topic, states_topic
+        The topics of commanded and of measured joint states.
+    commanded, measured
+        Positions by joint, in rad or m; joints that are in one of them only are left out.
+
+    Returns
+    -------
+    list of str
+        At most 6 series, in the order of `commanded`.
+
+    """
     errors = {name: commanded[name] - measured[name] for name in commanded if name in measured}
     return [
         f'{commands_topic}.position[{name}] - {states_topic}.position[{name}]'
@@ -26,12 +41,35 @@ def tracking_error(
 
 
 def effort(states_topic: str, efforts: Mapping[str, float]) -> list[str]:
-    """Return series of those joints that have most to do."""
+    """
+    List series of the joints with the largest efforts.
+
+    Parameters
+    ----------
+    states_topic
+        The topic of joint states.
+    efforts
+        Efforts by joint, in N m or N.
+
+    Returns
+    -------
+    list of str
+        At most 6 series, in the order of `efforts`.
+
+    """
     return [f'{states_topic}.effort[{name}]' for name in _largest(efforts)]
 
 
 def imu(topic: str) -> list[str]:
-    """Return the series of an inertial measurement unit: how it turns and accelerates."""
+    """
+    List the series of an IMU: its angular velocity and linear acceleration.
+
+    Parameters
+    ----------
+    topic
+        A topic of `sensor_msgs/msg/Imu`.
+
+    """
     return [
         f'{topic}.{field}.{axis}'
         for field in ('angular_velocity', 'linear_acceleration')

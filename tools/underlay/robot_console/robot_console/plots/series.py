@@ -24,12 +24,33 @@ class Series:
         return MINUS.join(map(str, self.paths))
 
     def value(self, newest: list[float]) -> float:
-        """Return the number to be plotted."""
+        """
+        Compute the value of the series from the numbers at its paths.
+
+        Parameters
+        ----------
+        newest
+            The newest number of each path, in their order.
+
+        """
         return newest[0] if len(newest) == 1 else newest[0] - newest[1]
 
 
 def parse_series(text: str) -> Series:
-    """Return the series that a text means, or raise PathError."""
+    """
+    Parse a series: a path, or the difference of two.
+
+    Parameters
+    ----------
+    text
+        Such as `PATH` or `PATH - PATH`, with a blank on each side of the minus.
+
+    Raises
+    ------
+    PathError
+        The text is neither.
+
+    """
     parts = text.split(MINUS)
     if len(parts) > 2:
         raise PathError(f"'{text}' has more than one minus; a series is a path, or PATH - PATH.")
@@ -37,7 +58,20 @@ def parse_series(text: str) -> Series:
 
 
 def parse_all(text: str) -> list[Series]:
-    """Return the series of a text that has semicolons between them, or raise PathError."""
+    """
+    Parse a list of series; duplicates count once.
+
+    Parameters
+    ----------
+    text
+        Series with semicolons between them; may be empty.
+
+    Raises
+    ------
+    PathError
+        A part is no series, or there are more than 8.
+
+    """
     series = list(dict.fromkeys(parse_series(part) for part in text.split(';') if part.strip()))
     if len(series) > MAX_SERIES:
         raise PathError(f'{len(series)} series are too many for a plot: {MAX_SERIES} at most.')

@@ -23,16 +23,44 @@ PAUSE_PERIODS = 4.0
 
 
 def slice_times(window_s: float) -> Numbers:
-    """Return the times of what is drawn, two in each slice, in seconds before now."""
+    """
+    Compute the times of the points that are drawn, two in each slice.
+
+    Parameters
+    ----------
+    window_s
+        The length of the time window, in s.
+
+    Returns
+    -------
+    Numbers
+        Times (800,) in s relative to now, from `-window_s` to 0.
+
+    """
     return np.linspace(-window_s, 0.0, 2 * SLICES, dtype=np.float64)
 
 
 def thinned(times: Numbers, values: Numbers, now_s: float, window_s: float) -> Numbers:
     """
-    Return a value for each of the times of the slices, or NaN where the curve has a gap.
+    Resample a trace to the times of the slices, keeping the extremes of each slice.
 
     A gap is where values were no numbers, and where none came for a second and much longer than
     it usually takes. Between other values, the curve goes straight on.
+
+    Parameters
+    ----------
+    times, values
+        The trace (n,), its times ascending, in s.
+    now_s
+        The time of the right end of the plot, of the same clock.
+    window_s
+        The length of the time window, in s.
+
+    Returns
+    -------
+    Numbers
+        Values (800,) for the times of `slice_times`; NaN where the curve has a gap.
+
     """
     finite = np.flatnonzero(np.isfinite(values))
     if len(finite) == 0:

@@ -16,22 +16,38 @@ MAX_CAPACITY = 1 << 17
 
 class Trace:
     """
-    The values of some last seconds; what is older is forgotten.
+    The values of the last seconds, with their times; older ones are forgotten.
 
     Two arrays are filled from the left. When they are full, what is still wanted moves back to
     their beginning, or into larger ones: so adding a value is quick, and no copy is needed to
     look at them.
+
+    Parameters
+    ----------
+    keep_s
+        For how long values are kept, in s; at high rates for less, but at least the last 65,536.
+
     """
 
     def __init__(self, keep_s: float) -> None:
-        """Begin without values."""
         self.keep_s = keep_s
         self._times = np.empty(FIRST_CAPACITY)
         self._values = np.empty(FIRST_CAPACITY)
         self._end = 0
 
     def add(self, time_s: float, value: float) -> None:
-        """Add a value; if time has jumped back, what was before is forgotten."""
+        """
+        Append a value.
+
+        Parameters
+        ----------
+        time_s
+            Its time, in s. If it is before the last one, by less than `keep_s`, it gets the time
+            of that; a longer jump back in time clears the trace first.
+        value
+            The number, which may be NaN.
+
+        """
         if self._end and time_s < self._times[self._end - 1]:
             if self._times[self._end - 1] - time_s < self.keep_s:
                 time_s = float(self._times[self._end - 1])
@@ -53,7 +69,20 @@ class Trace:
         return float(self._values[self._end - 1]) if self._end else None
 
     def since(self, first_s: float) -> tuple[Numbers, Numbers]:
-        """Return times and values from a time on, and the one before; they are not to be kept."""
+        """
+        Get the values from a time on, and the one before it.
+
+        Parameters
+        ----------
+        first_s
+            The time, in s.
+
+        Returns
+        -------
+        tuple
+            Times (n,) and values (n,), as views that the next `add` may overwrite.
+
+        """
         start = max(int(np.searchsorted(self._times[: self._end], first_s)) - 1, 0)
         seen = slice(start, self._end)
         return self._times[seen], self._values[seen]

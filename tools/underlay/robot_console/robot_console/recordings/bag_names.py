@@ -14,10 +14,27 @@ SEPARATOR = re.compile(r'[\s,]+')
 
 
 def bag_folder(folder: str, name: str, now: datetime) -> str:
-    """Return the folder of a new recording, or raise ValueError with the reason."""
+    """
+    Choose the path of a new recording; nothing is created.
+
+    Parameters
+    ----------
+    folder
+        The folder of all recordings.
+    name
+        The name that a person gave it; if blank, it is made from the time.
+    now
+        The time for such a name.
+
+    Raises
+    ------
+    ValueError
+        The name is no file name, or there is such a recording already; the text is a sentence.
+
+    """
     name = name.strip()
-    if name in ('.', '..') or '/' in name or '\0' in name:
-        raise ValueError(f"The name of a recording has no slashes, and is not '{name}'.")
+    if name.startswith('.') or '/' in name or '\0' in name:
+        raise ValueError('The name of a recording has no slashes, and no dot before it.')
     if not name:
         return _free(os.path.join(folder, now.strftime('%Y-%m-%d_%H-%M-%S')))
     path = os.path.join(folder, name)
@@ -27,12 +44,33 @@ def bag_folder(folder: str, name: str, now: datetime) -> str:
 
 
 def regex_of_robot(namespace: str) -> str:
-    """Return what finds the topics of the robot of a namespace, and what all robots share."""
+    """
+    Build the regular expression of the topics of one robot, and of those all robots share.
+
+    Parameters
+    ----------
+    namespace
+        The namespace of the robot without slashes at its ends.
+
+    Returns
+    -------
+    str
+        The expression; '' for no namespace, which stands for all topics.
+
+    """
     return f'^/({re.escape(namespace)}/.+|{SHARED})$' if namespace else ''
 
 
 def topics_in(text: str) -> list[str]:
-    """Return the topics that a person has named, each once."""
+    """
+    Split a text into the topics it lists, each once.
+
+    Parameters
+    ----------
+    text
+        Names with blanks, line breaks or commas between them.
+
+    """
     return list(dict.fromkeys(word for word in SEPARATOR.split(text) if word))
 
 

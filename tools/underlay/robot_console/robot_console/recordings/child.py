@@ -23,14 +23,26 @@ PROGRAM = re.compile(r'^[\w.]+: error: ')
 
 class Child:
     """
-    A program of `robot_console.recordings.programs`.
+    A child process that runs a program of `robot_console.recordings.programs`.
 
     It hears commands, tells facts, and ends when its standard input is closed, which happens
-    whatever becomes of this process.
+    whatever becomes of this process. It is started at once.
+
+    Parameters
+    ----------
+    program
+        The name of the module of the program, such as `play`.
+    arguments : Sequence[str]
+        Its command line arguments.
+
+    Attributes
+    ----------
+    facts
+        What the program has told last, by name; replaced as a whole by another thread.
+
     """
 
     def __init__(self, program: str, arguments: Sequence[str]) -> None:
-        """Start it."""
         self.facts: dict[str, Any] = {}
         self._lines: deque[str] = deque(maxlen=KEPT_LINES)
         self._end_by_s = float('inf')
@@ -85,7 +97,15 @@ class Child:
         return [_without_head(line) for line in list(self._lines) if _level(line) == 'WARN']
 
     def say(self, **command: Any) -> None:
-        """Tell it to do something."""
+        """
+        Send a command to the program; nothing is sent once it was asked to end.
+
+        Parameters
+        ----------
+        **command
+            The members of the JSON object that is sent, such as `paused=True`.
+
+        """
         pipe = self._process.stdin
         if pipe is None or self.is_ending:
             return
@@ -130,7 +150,21 @@ class Child:
 
 
 def last_sentence(lines: Iterable[str]) -> str:
-    """Return the last line that says something, without what a log or a program puts before."""
+    """
+    Extract the reason for a failure from the output of a program.
+
+    Parameters
+    ----------
+    lines
+        The last lines of its output.
+
+    Returns
+    -------
+    str
+        The last line that is neither blank nor a log of level INFO or DEBUG, without the prefix of
+        the log or the program; '' if there is none.
+
+    """
     said = [line for line in lines if line.strip() and _level(line) not in ('INFO', 'DEBUG')]
     return PROGRAM.sub('', _without_head(said[-1])) if said else ''
 

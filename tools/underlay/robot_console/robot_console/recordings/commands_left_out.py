@@ -17,7 +17,18 @@ COMMANDS = (
 
 
 def commands_among(topics: Iterable[str], patterns: str = COMMANDS) -> list[str]:
-    """Return the topics of which a name from some slash on fits one of the patterns."""
+    """
+    Select the topics that a robot would obey if they were played.
+
+    Parameters
+    ----------
+    topics
+        The names of recorded topics.
+    patterns
+        Shell patterns with blanks between them. One of them must match the name, or what follows
+        one of its slashes, to its end.
+
+    """
     words = patterns.split()
     return [topic for topic in topics if _fits(topic.strip('/').split('/'), words)]
 

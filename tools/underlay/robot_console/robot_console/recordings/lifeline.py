@@ -26,11 +26,21 @@ class Lifeline:
     Commands from the standard input, one JSON object a line.
 
     It is cut when the console has closed it, or is gone. A program that does not end then within
-    a while, because something hangs, is ended.
+    a while, because something hangs, is ended. To be constructed in the main thread.
+
+    Parameters
+    ----------
+    on_cut
+        Called in another thread when the standard input is closed.
+
+    Attributes
+    ----------
+    is_cut
+        Whether it is closed.
+
     """
 
     def __init__(self, on_cut: Callable[[], None] = lambda: None) -> None:
-        """Begin to listen, in the main thread; `on_cut` is called in another one."""
         self._waiting: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self._on_cut = on_cut
         self.is_cut = False
@@ -38,7 +48,21 @@ class Lifeline:
         threading.Thread(target=self._listen, daemon=True).start()
 
     def commands(self, timeout_s: float = 0.0) -> list[dict[str, Any]]:
-        """Return what has come, and wait for it if there is nothing."""
+        """
+        Get the commands that have come.
+
+        Parameters
+        ----------
+        timeout_s
+            For how long to wait for the first one, in s. The end of the input ends the wait as
+            well.
+
+        Returns
+        -------
+        list of dict
+            The commands in order, often none.
+
+        """
         found = []
         try:
             found.append(self._waiting.get(timeout=max(0.0, timeout_s)))
@@ -77,7 +101,15 @@ def interrupt_self() -> None:
 
 
 def tell(**facts: Any) -> None:
-    """Tell the console something; one that is gone need not know."""
+    """
+    Report facts to the console on the standard output; ignored if the console is gone.
+
+    Parameters
+    ----------
+    **facts
+        The members of a JSON object, which update `Child.facts`.
+
+    """
     try:
         sys.stdout.write(json.dumps(facts) + '\n')
         sys.stdout.flush()

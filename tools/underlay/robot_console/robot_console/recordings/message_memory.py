@@ -27,13 +27,25 @@ class Kept(NamedTuple):
 
 class MessageMemory:
     """
-    Takes messages as a writer of recordings does, but forgets those that are too old or too many.
+    A ring buffer of the newest messages, with the methods of `BagWriter` that a recorder calls.
 
     Latched messages that are forgotten still stand at the beginning of what is kept.
+
+    Parameters
+    ----------
+    span_ns
+        For how long messages are kept, in ns.
+    max_bytes
+        How much memory they may take, in bytes, with an estimate of the overhead.
+
+    Attributes
+    ----------
+    size_bytes
+        How much they take.
+
     """
 
     def __init__(self, span_ns: int, max_bytes: int) -> None:
-        """Take how long messages are kept, and how many bytes of them at most."""
         self._span_ns = span_ns
         self._max_bytes = max_bytes
         self._topics: dict[str, Topic] = {}
@@ -49,15 +61,44 @@ class MessageMemory:
         return len(self._messages)
 
     def age_ns(self, now_ns: int) -> int:
-        """Return how old the oldest message is."""
+        """
+        Get the age of the oldest message.
+
+        Parameters
+        ----------
+        now_ns
+            The time of `time.time_ns`.
+
+        Returns
+        -------
+        int
+            In ns; 0 if there is no message.
+
+        """
         return now_ns - self._messages[0].log_ns if self._messages else 0
 
     def set_topic(self, topic: Topic) -> None:
-        """Make a topic known, or what its publishers offer now."""
+        """
+        Add a topic, or update what its publishers offer.
+
+        Parameters
+        ----------
+        topic
+            The topic; to be set before its first message is written.
+
+        """
         self._topics[topic.name] = topic
 
     def write(self, message: RecordedMessage) -> None:
-        """Keep a message of a topic that is known."""
+        """
+        Store a message; the oldest ones are dropped if there is no room.
+
+        Parameters
+        ----------
+        message
+            A message of a topic that was set.
+
+        """
         self._messages.append(message)
         self.size_bytes += len(message.data) + OVERHEAD_BYTES
         while self.size_bytes > self._max_bytes and self._messages:
@@ -65,13 +106,34 @@ class MessageMemory:
             self._forget_oldest()
 
     def forget_old(self, now_ns: int) -> None:
-        """Forget what is too old."""
+        """
+        Drop the messages that are older than the time span.
+
+        Parameters
+        ----------
+        now_ns
+            The time of `time.time_ns`.
+
+        """
         while self._messages and self._messages[0].log_ns < now_ns - self._span_ns:
             self._forget_oldest()
             self.is_short = False
 
     def kept(self, now_ns: int) -> Kept:
-        """Return what a recording is to have now."""
+        """
+        Take a snapshot of the messages, for a recording.
+
+        Parameters
+        ----------
+        now_ns
+            The time of `time.time_ns`.
+
+        Returns
+        -------
+        Kept
+            The topics and messages; latched ones that were dropped come first, at the start time.
+
+        """
         self.forget_old(now_ns)
         start_ns = self._messages[0].log_ns if self._messages else now_ns
         head = (each._replace(log_ns=start_ns) for each in self._latched.alive(now_ns))
@@ -88,7 +150,31 @@ class MessageMemory:
 def write_bag(
     kept: Kept, folder: str, options: WriterOptions, find_definition: Callable[[str], Definition]
 ) -> int:
-    """Write a recording, and return how many messages it has; BagError tells if it cannot be."""
+    """
+    Write messages from memory to a new recording.
+
+    Parameters
+    ----------
+    kept
+        What is written.
+    folder
+        The path of the recording, which must not exist.
+    options
+        Compression and limits.
+    find_definition
+        Returns the definition of a message type.
+
+    Returns
+    -------
+    int
+        How many messages were written.
+
+    Raises
+    ------
+    BagError
+        It cannot be written.
+
+    """
     writer = BagWriter(folder, options, find_definition)
     try:
         for topic in kept.topics:

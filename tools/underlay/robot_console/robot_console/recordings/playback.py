@@ -27,14 +27,53 @@ class Source(Protocol):
     end_ns: int
 
     def messages(self, start_ns: int) -> Iterator[RecordedMessage]:
-        """Yield what is played, from a time on."""
+        """
+        Yield the messages that are played, by time.
+
+        Parameters
+        ----------
+        start_ns
+            The recorded time from which on, in ns; may be before the start of the recording.
+
+        """
 
     def latched(self, start_ns: int, end_ns: int) -> Iterator[RecordedMessage]:
-        """Yield the latched messages from a time to another."""
+        """
+        Yield the latched messages of a time span.
+
+        Parameters
+        ----------
+        start_ns, end_ns
+            Recorded times, in ns; the end is not included.
+
+        """
 
 
 class Playback:
-    """Publishes recorded messages when they are due."""
+    """
+    Publishes recorded messages when they are due, with jumps in time.
+
+    It starts at the beginning of the recording, after a short silence. Call `step` in a loop.
+
+    Parameters
+    ----------
+    source
+        The recording.
+    publish
+        Publishes a message.
+    now_ns
+        A steady clock, in ns.
+
+    Attributes
+    ----------
+    is_looping
+        Whether to start again at the end.
+    is_paused
+        Whether it stands still.
+    is_ended
+        Whether the end has been reached.
+
+    """
 
     def __init__(
         self,
@@ -42,7 +81,6 @@ class Playback:
         publish: Callable[[RecordedMessage], None],
         now_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        """Stand at the beginning, and go on from there."""
         self._source = source
         self._publish = publish
         self._now_ns = now_ns
@@ -87,11 +125,30 @@ class Playback:
             self._pacing.release()
 
     def set_rate(self, rate: float) -> None:
-        """Go on at another rate."""
+        """
+        Set the playback rate.
+
+        Parameters
+        ----------
+        rate
+            Recorded seconds per second; above 0, may be infinite.
+
+        """
         self._pacing.set_rate(rate)
 
     def jump_to(self, recorded_ns: int) -> None:
-        """Go on from another moment, with what there was shortly before."""
+        """
+        Seek to a recorded time.
+
+        What was recorded in the 0.3 s before it is published at once, to show how things were
+        then, and on a jump ahead also the latched messages that are skipped.
+
+        Parameters
+        ----------
+        recorded_ns
+            The recorded time, in ns; clamped to the recording.
+
+        """
         recorded_ns = max(self._source.start_ns, min(recorded_ns, self._source.end_ns))
         here_ns = self.position_ns
         if recorded_ns < here_ns:

@@ -24,10 +24,26 @@ class TooLarge(ValueError):
 
 
 class Reel:
-    """How the scene was at a time, and what was sent of it since then."""
+    """
+    A snapshot of the scene, and what was sent of it since then.
+
+    Parameters
+    ----------
+    start_s
+        The time of the snapshot, of `time.monotonic`.
+    scene
+        The viser messages that make up the scene.
+
+    Attributes
+    ----------
+    sent
+        The messages sent since then, each with its time of `time.monotonic`.
+    size_bytes
+        About how much memory these take.
+
+    """
 
     def __init__(self, start_s: float, scene: list[Any]) -> None:
-        """Begin with a scene."""
         self.start_s = start_s
         self.scene = scene
         self.sent: list[tuple[float, Any]] = []
@@ -40,10 +56,19 @@ class SceneTape:
 
     That costs little, because nothing is encoded before it is asked for. The server calls
     `_insert_message` for all that it sends, as it does with its own recordings.
+
+    Parameters
+    ----------
+    server
+        The server of the page.
+    span_s
+        How much is kept at least if memory allows, in s.
+    max_bytes
+        About how much memory may be used, in bytes.
+
     """
 
     def __init__(self, server: ViserServer, span_s: float, max_bytes: int) -> None:
-        """Begin to keep what is sent."""
         self._web = cast(Any, server._websock_server)
         self._span_s = span_s
         self._max_bytes = max_bytes
@@ -81,7 +106,27 @@ class SceneTape:
                 self._web._record_handles.remove(self)
 
     def page(self, title: str, max_bytes: int) -> bytes:
-        """Return a page that shows what is kept, or raise TooLarge; this takes a while."""
+        """
+        Encode what is kept as an HTML page that plays it; takes seconds, so use another thread.
+
+        Parameters
+        ----------
+        title
+            The title of the page.
+        max_bytes
+            How large it may be, in bytes.
+
+        Returns
+        -------
+        bytes
+            The page, in UTF-8.
+
+        Raises
+        ------
+        TooLarge
+            The page is larger; the text is a sentence.
+
+        """
         with self._web._record_lock:
             scene = self._reels[0].scene
             start_s, end_s = self._reels[0].start_s, time.monotonic()

@@ -41,10 +41,17 @@ class Bag:
 
 
 class Shelf:
-    """Looks at the recordings in a folder; what has not changed is read once."""
+    """
+    Lists the recordings in a folder; metadata that has not changed is read once.
+
+    Parameters
+    ----------
+    folder
+        The path of the folder; it may start with `~`, and need not exist.
+
+    """
 
     def __init__(self, folder: str) -> None:
-        """Look at nothing yet."""
         self.folder = os.path.abspath(os.path.expanduser(folder))
         self._read: dict[str, tuple[int, Bag]] = {}
         self.left_out_count = 0

@@ -27,7 +27,15 @@ size_text = human_size
 
 
 def clock_text(seconds: float) -> str:
-    """Return a duration as people read it: 7.5 s, 12:30, 1:02:03."""
+    """
+    Format a duration: 7.5 s, 12:30, 1:02:03.
+
+    Parameters
+    ----------
+    seconds
+        The duration, in s.
+
+    """
     if seconds < 60:
         return f'{seconds:.1f} s'
     minutes, rest = divmod(int(seconds), 60)
@@ -36,14 +44,32 @@ def clock_text(seconds: float) -> str:
 
 
 def listed(names: Iterable[str], most: int = NAMED) -> str:
-    """Return some names, and how many more there are."""
+    """
+    Join names with commas, and count those that are too many.
+
+    Parameters
+    ----------
+    names
+        The names.
+    most
+        How many of them are written out.
+
+    """
     names = list(names)
     text = ', '.join(names[:most])
     return f'{text} and {len(names) - most} more' if len(names) > most else text
 
 
 def about(bag: Bag) -> str:
-    """Return what there is to say about a recording, as Markdown."""
+    """
+    Describe a recording in Markdown: start, duration, messages and size, or its problem.
+
+    Parameters
+    ----------
+    bag
+        The recording.
+
+    """
     if bag.problem:
         return f'✖ {escaped(bag.problem)}'
     start = datetime.fromtimestamp(bag.start_s).strftime('%Y-%m-%d %H:%M:%S')
@@ -54,7 +80,15 @@ def about(bag: Bag) -> str:
 
 
 def topics_table(topics: Iterable[BagTopic]) -> str:
-    """Return a table of topics with their types, as HTML that is not wider than its place."""
+    """
+    Render the topics of a recording as an HTML table that fits the width of the panel.
+
+    Parameters
+    ----------
+    topics
+        The topics, with their types and message counts.
+
+    """
     rows = ''.join(
         f'<tr style="vertical-align: top"><td style="padding-bottom: 0.3em">{escape(each.name)}'
         f'<br><span style="opacity: 0.6">{escape(each.type_name)}</span></td>'
@@ -65,7 +99,19 @@ def topics_table(topics: Iterable[BagTopic]) -> str:
 
 
 def memory_text(facts: Mapping[str, object], wanted_s: float, max_mib: float) -> str:
-    """Return what is kept of the last seconds."""
+    """
+    Describe what the memory of the last seconds holds.
+
+    Parameters
+    ----------
+    facts
+        What the program `remember` has told; may be empty.
+    wanted_s
+        How much is to be kept, in s.
+    max_mib
+        How much memory that may take, in MiB.
+
+    """
     if 'seconds' not in facts:
         return 'Starting ...'
     seconds = min(float(str(facts['seconds'])), wanted_s)
@@ -79,7 +125,20 @@ def memory_text(facts: Mapping[str, object], wanted_s: float, max_mib: float) ->
 
 
 def mixture_text(publishers: Mapping[str, Iterable[str]]) -> str:
-    """Return what is wrong if others publish what is being played, otherwise ''."""
+    """
+    Warn that live nodes publish topics that are being played.
+
+    Parameters
+    ----------
+    publishers
+        The names of these nodes, by topic.
+
+    Returns
+    -------
+    str
+        The warning; '' if there are none.
+
+    """
     if not publishers:
         return ''
     nodes = sorted({name for names in publishers.values() for name in names})

@@ -20,7 +20,22 @@ MOST_BYTES_NESTED = 300_000
 
 
 def decoded(raw: bytes, kind: Any) -> str:
-    """Return the text of a message of a class, shortened; or why it is not shown."""
+    """
+    Decode a serialized message to text, shortened.
+
+    Parameters
+    ----------
+    raw
+        The serialized message.
+    kind
+        Its class.
+
+    Returns
+    -------
+    str
+        YAML; of a message that would take too long, a sentence that says so.
+
+    """
     from rclpy.serialization import deserialize_message
 
     most = MOST_BYTES_NESTED if has_lists_of_messages(kind) else MOST_BYTES_FLAT
@@ -35,7 +50,15 @@ def decoded(raw: bytes, kind: Any) -> str:
 
 @cache
 def has_lists_of_messages(kind: Any) -> bool:
-    """Tell whether messages of a class have lists of messages, which take long to decode."""
+    """
+    Check whether messages of a class have lists of messages, at any depth: these decode slowly.
+
+    Parameters
+    ----------
+    kind
+        The class.
+
+    """
     for field_type in kind.get_fields_and_field_types().values():
         inner = element_type(field_type)
         if '/' in inner and (inner != field_type or has_lists_of_messages(get_message(inner))):

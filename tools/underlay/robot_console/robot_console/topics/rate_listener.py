@@ -20,17 +20,42 @@ DEPTH = 50
 
 
 class RateListener:
-    """Listens to the topics that a survey wants to hear, as bytes that are not decoded."""
+    """
+    Measures the rates of topics with short subscriptions that do not decode messages.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    later
+        Runs a function soon, in the thread of the node.
+
+    Attributes
+    ----------
+    survey
+        Decides what to measure, and has the results.
+
+    """
 
     def __init__(self, node: Node, later: Callable[[Callable[[], None]], None]) -> None:
-        """Take what does something soon, in the thread of the node."""
         self.survey = Survey()
         self._node = node
         self._later = later
         self._subscriptions: dict[str, Any] = {}
 
     def update(self, types: Mapping[str, list[str]], now_s: float) -> None:
-        """Listen to the topics whose turn it is."""
+        """
+        Subscribe to the topics whose turn it is, and to no others.
+
+        Parameters
+        ----------
+        types
+            The names of the types of all topics, by name; those of unknown or several types are
+            skipped.
+        now_s
+            The time of `time.monotonic`.
+
+        """
         kinds = {topic: _kind(names) for topic, names in types.items()}
         readable = {topic: kind for topic, kind in kinds.items() if kind is not None}
         wanted = self.survey.plan(readable, now_s)

@@ -12,32 +12,95 @@ MOST = 500
 
 
 class RateWindow:
-    """The times and sizes of the newest messages of a topic."""
+    """
+    The times and sizes of the newest messages of a topic, which give its rate.
+
+    Parameters
+    ----------
+    window_s
+        How far the rate looks back, in s.
+    most
+        At how many messages it looks at most.
+
+    Attributes
+    ----------
+    count
+        How many messages have come in total.
+
+    """
 
     def __init__(self, window_s: float = WINDOW_S, most: int = MOST) -> None:
-        """Look back so far, and at so many messages."""
         self._window_s = window_s
         self._messages: deque[tuple[float, int]] = deque(maxlen=most)
         self.count = 0
 
     def add(self, time_s: float, size: int) -> None:
-        """Count a message; a clock that goes back starts anew."""
+        """
+        Count a message; if time goes back, those before are forgotten.
+
+        Parameters
+        ----------
+        time_s
+            When it came, in s.
+        size
+            Its size, in bytes.
+
+        """
         if self._messages and time_s < self._messages[-1][0]:
             self._messages.clear()
         self._messages.append((time_s, size))
         self.count += 1
 
     def age_s(self, now_s: float) -> float | None:
-        """Return how long ago the newest message came, None if none has come."""
+        """
+        Get the age of the newest message.
+
+        Parameters
+        ----------
+        now_s
+            The time of the same clock.
+
+        Returns
+        -------
+        float or None
+            In s; None if no message has come.
+
+        """
         return max(now_s - self._messages[-1][0], 0.0) if self._messages else None
 
     def rate_hz(self, now_s: float) -> float | None:
-        """Return how often messages come now, None if that is not known."""
+        """
+        Estimate the current message rate.
+
+        Parameters
+        ----------
+        now_s
+            The time of the same clock.
+
+        Returns
+        -------
+        float or None
+            In Hz; None after fewer than two messages, or a silence that is long for this topic.
+
+        """
         span = self._span(now_s)
         return None if span is None else (len(self._messages) - 1) / span
 
     def bytes_per_s(self, now_s: float) -> float | None:
-        """Return how many bytes come in a second, None if that is not known."""
+        """
+        Estimate the current bandwidth.
+
+        Parameters
+        ----------
+        now_s
+            The time of the same clock.
+
+        Returns
+        -------
+        float or None
+            In bytes per second; None as for `rate_hz`.
+
+        """
         span = self._span(now_s)
         if span is None:
             return None

@@ -45,18 +45,35 @@ class Survey:
     """
     Says which topics to listen to for a moment, to learn how often each comes.
 
-    A few are measured at a time, for two seconds or until thirty messages have come, so that
+    A few are measured at a time, for 2.5 s or until thirty messages or 8 MB have come, so that
     hundreds of topics cost little, and those that are fast or large least.
+
     """
 
     def __init__(self) -> None:
-        """Begin without any measurement."""
         self.measured: dict[str, Measured] = {}
         self._probes: dict[str, _Probe] = {}
         self._again_s: dict[str, float] = {}
 
     def hear(self, topic: str, time_s: float, size: int) -> bool:
-        """Take note of a message; return whether that was enough."""
+        """
+        Count a message of a topic that is being measured.
+
+        Parameters
+        ----------
+        topic
+            The name of the topic.
+        time_s
+            When the message came, in s.
+        size
+            Its size, in bytes.
+
+        Returns
+        -------
+        bool
+            True if the topic need not be heard any longer.
+
+        """
         probe = self._probes.get(topic)
         if probe is None:
             return True
@@ -66,7 +83,22 @@ class Survey:
         return probe.is_over(0.0)
 
     def plan(self, topics: Collection[str], now_s: float) -> set[str]:
-        """Return which of the topics are to be listened to now."""
+        """
+        Finish measurements that are over, and start the next ones.
+
+        Parameters
+        ----------
+        topics
+            All topics that could be measured.
+        now_s
+            The time of `time.monotonic`.
+
+        Returns
+        -------
+        set of str
+            The topics to listen to now, at most four.
+
+        """
         for topic in [each for each in self._probes if each not in topics]:
             del self._probes[topic]
         for topic, probe in list(self._probes.items()):

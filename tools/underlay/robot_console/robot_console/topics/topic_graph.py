@@ -24,7 +24,15 @@ MOST = 5
 
 
 def types_of(node: Node) -> dict[str, list[str]]:
-    """Return the topics that nodes can subscribe, with their types."""
+    """
+    List the topics that nodes can subscribe to, with their types.
+
+    Parameters
+    ----------
+    node
+        The node that is asked for the graph.
+
+    """
     return {
         name: list(types)
         for name, types in node.get_topic_names_and_types()
@@ -33,7 +41,22 @@ def types_of(node: Node) -> dict[str, list[str]]:
 
 
 def rows_of(node: Node, types: dict[str, list[str]]) -> list[Row]:
-    """Return name, type, and numbers of publishers and subscribers of topics."""
+    """
+    Build the rows of the topic list, sorted by name.
+
+    Parameters
+    ----------
+    node
+        The node that is asked for the graph.
+    types
+        The types of the topics, by name.
+
+    Returns
+    -------
+    list of Row
+        Name, types, number of publishers and number of subscribers of each.
+
+    """
     return [
         (name, ', '.join(kinds), node.count_publishers(name), node.count_subscribers(name))
         for name, kinds in sorted(types.items())
@@ -41,7 +64,22 @@ def rows_of(node: Node, types: dict[str, list[str]]) -> list[Row]:
 
 
 def ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
-    """Return the nodes at both ends of a topic, with their quality of service."""
+    """
+    List the publishers and subscribers of a topic.
+
+    Parameters
+    ----------
+    node
+        The node that is asked for the graph.
+    topic
+        The fully qualified name of the topic.
+
+    Returns
+    -------
+    dict
+        `publishers` and `subscribers`, each as pairs of node name and quality of service.
+
+    """
     return {
         'publishers': _named(node.get_publishers_info_by_topic(topic)),
         'subscribers': _named(node.get_subscriptions_info_by_topic(topic)),
@@ -50,9 +88,22 @@ def ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
 
 def mismatches(node: Node, topic: str) -> list[str]:
     """
-    Return a sentence for each pair of nodes between which nothing passes.
+    Find pairs of nodes with incompatible quality of service, between which nothing passes.
 
     A node may have several ends, of which one that fits is enough.
+
+    Parameters
+    ----------
+    node
+        The node that is asked for the graph.
+    topic
+        The fully qualified name of the topic.
+
+    Returns
+    -------
+    list of str
+        At most 5 sentences; none if there are more than 1000 pairs of ends.
+
     """
     publishers = node.get_publishers_info_by_topic(topic)
     subscribers = node.get_subscriptions_info_by_topic(topic)

@@ -22,10 +22,34 @@ SHARE = 0.03
 
 
 class TopicWatch:
-    """Counts the messages of a topic, and makes a text of the newest now and then."""
+    """
+    Subscribes to one topic: its rate, and now and then the newest message as text.
+
+    Call `update` periodically; it subscribes with a quality of service that fits the publishers.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    topic
+        The fully qualified name of the topic.
+    type_names
+        Its types; it can be watched only if there is exactly one.
+
+    Attributes
+    ----------
+    window
+        The times and sizes of the newest messages.
+    reason
+        A sentence on why the topic cannot be watched; '' if it can.
+    text
+        The newest message that was decoded.
+    size
+        The size of the newest message, in bytes.
+
+    """
 
     def __init__(self, node: Node, topic: str, type_names: list[str]) -> None:
-        """Subscribe in a way that fits those who publish now."""
         self._node, self._topic = node, topic
         self.window = RateWindow()
         self.reason = ''
@@ -92,7 +116,20 @@ class TopicWatch:
 
 
 def received_s(info: Any) -> float:
-    """Return when a message came to this machine, however late the node looks at it."""
+    """
+    Get the time at which a message reached this machine.
+
+    Parameters
+    ----------
+    info
+        The message info of rclpy.
+
+    Returns
+    -------
+    float
+        In s of `time.time`; the current time if the middleware does not tell.
+
+    """
     return float(info['received_timestamp'] / 1e9 or time.time())
 
 

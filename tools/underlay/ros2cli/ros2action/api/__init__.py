@@ -12,18 +12,58 @@ __all__ = ['get_action_clients', 'get_action_names_and_types', 'get_action_serve
 
 
 def get_action_names_and_types(*, node: Any) -> list[TopicInfo]:
-    """Return the names of all actions with their types, sorted."""
+    """
+    Return the names and types of all actions in the graph, sorted by name.
+
+    Parameters
+    ----------
+    node
+        The graph, or a node with its methods: whatever has `get_service_names_and_types`.
+
+    """
     found = actions_of(node.get_service_names_and_types())
     return sorted(TopicInfo(name, types) for name, types in found)
 
 
 def get_action_clients(node: Any, action: str) -> list[TopicInfo]:
-    """Return the full names of the nodes that are clients of an action, with its types."""
+    """
+    Find the nodes that have a client of an action.
+
+    Parameters
+    ----------
+    node
+        The graph, or a node with its methods.
+    action
+        The full name of the action, such as `/fibonacci`.
+
+    Returns
+    -------
+    list of TopicInfo
+        The full name of each node, hidden ones included, with the types by which it uses the
+        action.
+
+    """
     return _nodes_of(node, action, node.get_client_names_and_types_by_node)
 
 
 def get_action_servers(node: Any, action: str) -> list[TopicInfo]:
-    """Return the full names of the nodes that serve an action, with its types."""
+    """
+    Find the nodes that have a server of an action.
+
+    Parameters
+    ----------
+    node
+        The graph, or a node with its methods.
+    action
+        The full name of the action, such as `/fibonacci`.
+
+    Returns
+    -------
+    list of TopicInfo
+        The full name of each node, hidden ones included, with the types by which it serves the
+        action.
+
+    """
     return _nodes_of(node, action, node.get_service_names_and_types_by_node)
 
 

@@ -45,10 +45,26 @@ LAST_WORDS_S = 5.0
 
 
 class GoalSender:
-    """The client of one action."""
+    """
+    An action client that sends a goal and follows it to its end.
+
+    Call `wait_for_server`, then `send`.
+
+    Parameters
+    ----------
+    node
+        The node, inside its `with` statement, that the client belongs to and that is spun
+        meanwhile.
+    action_type
+        The class of the action.
+    name
+        The full name of the action.
+    with_feedback
+        Whether to print the feedback.
+
+    """
 
     def __init__(self, node: Any, action_type: Any, name: str, *, with_feedback: bool) -> None:
-        """Create the client; it may connect later."""
         self._node = node
         self._name = name
         self._type_name = type_name(action_type)
@@ -63,7 +79,25 @@ class GoalSender:
         wait_until(self._node, self._client.server_is_ready, patience)
 
     def send(self, message: OutgoingMessage) -> None:
-        """Send the goal and print its result; SIGINT and SIGTERM cancel it before they end us."""
+        """
+        Send a goal, and print its result when it has ended.
+
+        SIGINT and SIGTERM cancel the goal before they end the command; each answer to that is
+        waited for at most 5 s.
+
+        Parameters
+        ----------
+        message
+            The goal; its time stamps that are given as `now` or `auto` are set to the node's time.
+
+        Raises
+        ------
+        RuntimeError
+            The server goes away before the goal has ended.
+        KeyboardInterrupt, ExternalShutdownException
+            SIGINT or SIGTERM came.
+
+        """
         goal = message.stamped(self._node.get_clock().now().to_msg())
         print(f'Sending goal:\n{_indented(goal, 5)}')
         with signals_as_requests() as check:

@@ -14,7 +14,15 @@ class InfoVerb(VerbExtension):
     """Print information about an action."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the action's name and what to show of its nodes."""
+        """
+        Add the action's name and the options for what to show of its nodes.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'action_name', help="Name of the ROS action to get info (e.g. '/fibonacci')"
@@ -30,7 +38,15 @@ class InfoVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the clients and servers; an unknown action has none."""
+        """
+        Print the clients and servers of an action; an unknown action has none.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         from ros2action.api import get_action_clients, get_action_servers
         from ros2cli.node.strategy import NodeStrategy
 

@@ -14,13 +14,29 @@ class ListVerb(VerbExtension):
     """Output a list of action names."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add what to show of each action."""
+        """
+        Add the options for what to show of each action.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         add_types_argument(parser, 'action')
         add_count_argument(parser, 'actions')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the actions, or their count."""
+        """
+        Print the names of the actions, or their count.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         from ros2action.api import get_action_names_and_types
         from ros2cli.node.strategy import NodeStrategy
 

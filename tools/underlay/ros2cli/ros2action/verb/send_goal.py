@@ -16,7 +16,15 @@ class SendGoalVerb(VerbExtension):
     """Send an action goal."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the action, the goal and the choice of feedback."""
+        """
+        Add the action's name and type, the values of the goal and the option for feedback.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_node_arguments(parser)
         parser.add_argument('action_name', help="Name of the ROS action (e.g. '/fibonacci')")
         parser.add_argument(
@@ -28,7 +36,20 @@ class SendGoalVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Send the goal and print what comes of it; Ctrl-C or SIGTERM cancels the goal."""
+        """
+        Send a goal and print its result; Ctrl-C or SIGTERM cancels the goal.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Raises
+        ------
+        RuntimeError
+            The type, the name or the values are wrong, or the server goes away.
+
+        """
         from ros2action.api.sending import GoalSender
         from ros2cli.messages.lookup import get_passed_type
         from ros2cli.messages.outgoing import OutgoingMessage

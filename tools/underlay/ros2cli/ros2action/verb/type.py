@@ -14,14 +14,35 @@ class TypeVerb(VerbExtension):
     """Print an action's type."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the action's name."""
+        """
+        Add the action's name.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'action_name', help="Name of the ROS action to get type (e.g. '/fibonacci')"
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print all types of the action; without one the status is 1."""
+        """
+        Print all types of an action.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            0, or 1 if nobody has the action.
+
+        """
         from ros2action.api import get_action_names_and_types
         from ros2cli.node.strategy import NodeStrategy
 

@@ -11,7 +11,25 @@ __all__ = ['Refused', 'count', 'not_negative']
 
 
 def count(text: str) -> int:
-    """Return a whole number from zero on, or say why a text is none."""
+    """
+    Parse a non-negative integer of the command line.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Returns
+    -------
+    int
+        Zero or more.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is no such number.
+
+    """
     try:
         value = int(text)
     except ValueError:
@@ -22,7 +40,25 @@ def count(text: str) -> int:
 
 
 def not_negative(text: str) -> float:
-    """Return a finite number from zero on, or say why a text is none."""
+    """
+    Parse a finite non-negative number of the command line.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Returns
+    -------
+    float
+        Zero or more.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is no such number.
+
+    """
     try:
         value = float(text)
     except ValueError:
@@ -33,10 +69,21 @@ def not_negative(text: str) -> float:
 
 
 class Refused(argparse.Action):
-    """An option of rosbag2 that is not here; who uses it is told why, and no help lists it."""
+    """
+    The argparse action of a rosbag2 option that is not supported here.
+
+    Whoever uses the option gets a usage error with the reason; the help does not list it.
+
+    Parameters
+    ----------
+    option_strings, dest
+        As argparse passes them; the values that follow the option do not matter.
+    reason
+        What the usage error says after "is not possible here:".
+
+    """
 
     def __init__(self, option_strings: Sequence[str], dest: str, *, reason: str) -> None:
-        """Take any values, since they do not matter."""
         super().__init__(option_strings, dest, nargs='*', help=argparse.SUPPRESS)
         self._reason = reason
 

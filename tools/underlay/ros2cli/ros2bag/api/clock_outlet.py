@@ -15,10 +15,26 @@ NS_PER_S = 1_000_000_000
 
 
 class ClockOutlet:
-    """Publishes the recorded time so many times a second, also during a pause."""
+    """
+    Publishes the recorded time at a fixed rate, also while playback is paused.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    topic
+        The name of the topic, which is `/clock` unless it is remapped.
+    rate_hz
+        How often to publish, in Hz of wall time.
+
+    Attributes
+    ----------
+    publisher
+        The publisher of rosgraph_msgs/msg/Clock.
+
+    """
 
     def __init__(self, node: Any, topic: str, rate_hz: float) -> None:
-        """Create the publisher."""
         from rosgraph_msgs.msg import Clock
 
         self._clock = Clock()
@@ -27,7 +43,20 @@ class ClockOutlet:
         self._next_ns = 0
 
     def tick(self, pacing: Pacing) -> int:
-        """Publish if it is time to, and return the nanoseconds until the next time."""
+        """
+        Publish the recorded time if that is due.
+
+        Parameters
+        ----------
+        pacing
+            What maps wall time to recorded time.
+
+        Returns
+        -------
+        int
+            The time until the next publication is due, in ns of wall time.
+
+        """
         now_ns = time.monotonic_ns()
         if now_ns >= self._next_ns:
             self.publish(pacing.recorded_now_ns)
@@ -35,7 +64,15 @@ class ClockOutlet:
         return self._next_ns - now_ns
 
     def publish(self, recorded_ns: int) -> None:
-        """Publish a time."""
+        """
+        Publish a time.
+
+        Parameters
+        ----------
+        recorded_ns
+            Nanoseconds since the epoch; a negative time is published as zero.
+
+        """
         stamp = self._clock.clock
         stamp.sec, stamp.nanosec = divmod(max(0, recorded_ns), NS_PER_S)
         self.publisher.publish(self._clock)

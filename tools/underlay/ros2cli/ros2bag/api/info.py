@@ -20,18 +20,49 @@ UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
 
 
 def info_text(reader: BagReader, *, verbose: bool = False) -> str:
-    """Return the account of a recording."""
+    """
+    Format the metadata of a bag for the terminal.
+
+    Parameters
+    ----------
+    reader
+        The bag.
+    verbose
+        Whether to show the average rate, type hash and offered QoS of each topic as well.
+
+    Returns
+    -------
+    str
+        Several lines, without a newline at the end.
+
+    """
     rows = [*_rows(reader), ('Topic information', _topics(reader.metadata, verbose))]
     return '\n'.join(_row(title, lines) for title, lines in rows)
 
 
 def topic_names_text(reader: BagReader) -> str:
-    """Return the names of the topics, one a line."""
+    """
+    Return the names of the topics in a bag, one per line.
+
+    Parameters
+    ----------
+    reader
+        The bag.
+
+    """
     return '\n'.join(each.topic.name for each in reader.metadata.topics)
 
 
 def human_size(size_bytes: float) -> str:
-    """Return a size in a unit in which it is readable."""
+    """
+    Format a size in bytes with a binary unit, such as `1.5 MiB`.
+
+    Parameters
+    ----------
+    size_bytes
+        The size, zero or more.
+
+    """
     if size_bytes < KIB:
         return f'{size_bytes:.0f} B'
     exponent = min(len(UNITS) - 1, int(math.log(size_bytes, KIB)))

@@ -17,10 +17,19 @@ MAX_BYTES = 64
 
 
 class Keyboard:
-    """The keys pressed while in a `with` statement; none if stdin is no terminal of ours."""
+    """
+    The keys pressed while in a `with` statement, read without blocking.
+
+    There are none if stdin is not a terminal, or if the command runs in the background.
+
+    Parameters
+    ----------
+    enabled
+        Whether to read keys at all; if not, the terminal is left alone.
+
+    """
 
     def __init__(self, *, enabled: bool) -> None:
-        """Do nothing before the `with`."""
         self._is_wanted = enabled
         self._before: list[Any] | None = None
 

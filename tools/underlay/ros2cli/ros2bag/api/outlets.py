@@ -21,7 +21,23 @@ HASH_START = 'RIHS01_'
 
 
 class Outlets:
-    """One publisher a topic, under the name that it is to have."""
+    """
+    The publishers of a bag that is played, one per topic.
+
+    A topic whose type is not installed, or has changed since, is not played, which is a warning.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    topics
+        The recorded topics to play.
+    names
+        The new names of remapped topics by their recorded names.
+    overrides
+        QoS profiles by recorded topic name; other topics get `playback_profile`.
+
+    """
 
     def __init__(
         self,
@@ -30,7 +46,6 @@ class Outlets:
         names: Mapping[str, str],
         overrides: Mapping[str, Any],
     ) -> None:
-        """Create the publishers; a type that is not installed is a warning."""
         self._node = node
         self._publishers: dict[str, Any] = {}
         for topic in topics:
@@ -46,11 +61,29 @@ class Outlets:
         return list(self._publishers)
 
     def publish(self, topic: str, data: bytes) -> None:
-        """Publish a serialized message."""
+        """
+        Publish a serialized message.
+
+        Parameters
+        ----------
+        topic
+            The recorded name of the topic, one of `topics`.
+        data
+            The message in CDR, with its encapsulation header.
+
+        """
         self._publishers[topic].publish(data)
 
     def wait_for_subscribers(self, *others: Any) -> None:
-        """Wait until the subscribers that are there already are connected; to others as well."""
+        """
+        Wait until the existing subscribers are matched with the publishers, at most 2 s.
+
+        Parameters
+        ----------
+        *others
+            Further publishers to wait for, such as that of the clock.
+
+        """
         graph = self._node.graph
         end = time.monotonic() + MATCH_S
         publishers = (*self._publishers.values(), *others)
@@ -60,7 +93,15 @@ class Outlets:
             waiting = [each for each in waiting if not each.get_subscription_count()]
 
     def wait_until_acked(self, limit_ms: float) -> None:
-        """Wait until reliable subscribers have all messages; zero is without a limit."""
+        """
+        Wait until all reliable subscribers have acknowledged all messages.
+
+        Parameters
+        ----------
+        limit_ms
+            How long to wait at most for all topics together, in ms; zero is without limit.
+
+        """
         end = time.monotonic() + (limit_ms / 1e3 or float('inf'))
         for publisher in self._publishers.values():
             reliability = publisher.qos_profile.reliability

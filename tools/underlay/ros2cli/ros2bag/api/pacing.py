@@ -10,12 +10,23 @@ __all__ = ['Pacing']
 
 
 class Pacing:
-    """Lays recorded time over the time of the clock on the wall, from now on, at a rate."""
+    """
+    Maps wall time to recorded time, from now on, at a playback rate.
+
+    Parameters
+    ----------
+    recorded_ns
+        The recorded time that is now, in ns since the epoch.
+    rate
+        How many recorded seconds pass in one second; may be infinite.
+    now_ns
+        The clock, in ns; a monotonic one.
+
+    """
 
     def __init__(
         self, recorded_ns: int, rate: float, now_ns: Callable[[], int] = time.monotonic_ns
     ) -> None:
-        """Start at a recorded moment; the rate may be infinite."""
         self._now_ns = now_ns
         self._rate = rate
         self._anchor_recorded_ns = recorded_ns
@@ -36,7 +47,20 @@ class Pacing:
         return self._anchor_recorded_ns + int(elapsed_ns * self._rate)
 
     def wait_ns(self, recorded_ns: int) -> int:
-        """Return how long it is until a recorded moment; below zero if it is over."""
+        """
+        Compute how long it takes until a recorded time is due; not meant for while time is held.
+
+        Parameters
+        ----------
+        recorded_ns
+            In ns since the epoch.
+
+        Returns
+        -------
+        int
+            In ns of wall time; negative if it is overdue.
+
+        """
         due_ns = self._anchor_ns + int((recorded_ns - self._anchor_recorded_ns) / self._rate)
         return due_ns - self._now_ns()
 
@@ -53,11 +77,27 @@ class Pacing:
             self._anchor_ns = self._now_ns()
 
     def jump_to(self, recorded_ns: int) -> None:
-        """Go on from another recorded moment."""
+        """
+        Continue from another recorded time.
+
+        Parameters
+        ----------
+        recorded_ns
+            The recorded time that is now, in ns since the epoch.
+
+        """
         self._anchor_recorded_ns = recorded_ns
         self._anchor_ns = self._now_ns()
 
     def set_rate(self, rate: float) -> None:
-        """Go on at another rate."""
+        """
+        Continue at another playback rate.
+
+        Parameters
+        ----------
+        rate
+            How many recorded seconds pass in one second; may be infinite.
+
+        """
         self.jump_to(self.recorded_now_ns)
         self._rate = rate

@@ -10,15 +10,32 @@ __all__ = ['PauseSwitch', 'offer_pause_services']
 
 
 class PauseSwitch:
-    """Whether the work is paused; `say` is told each change."""
+    """
+    The paused state of a recorder or player.
+
+    Parameters
+    ----------
+    is_paused
+        Whether it starts paused; also an attribute, with the present state.
+    say
+        Called with a text at each change.
+
+    """
 
     def __init__(self, is_paused: bool, say: Callable[[str], object]) -> None:
-        """Start running or paused."""
         self.is_paused = is_paused
         self._say = say
 
     def change_to(self, is_paused: bool) -> None:
-        """Pause or resume."""
+        """
+        Pause or resume; without a change nothing is said.
+
+        Parameters
+        ----------
+        is_paused
+            Whether to pause.
+
+        """
         if is_paused != self.is_paused:
             self.is_paused = is_paused
             self._say('Paused.' if is_paused else 'Resumed.')
@@ -29,7 +46,17 @@ class PauseSwitch:
 
 
 def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
-    """Offer the services ~/pause, ~/resume and ~/toggle_paused."""
+    """
+    Create the services `~/pause`, `~/resume` and `~/toggle_paused` (std_srvs/srv/Trigger).
+
+    Parameters
+    ----------
+    node
+        The node that offers them.
+    switch
+        What they change.
+
+    """
     from std_srvs.srv import Trigger
 
     def offer(name: str, act: Callable[[], None]) -> None:

@@ -33,7 +33,15 @@ AS_FAST_AS_POSSIBLE = {
 
 
 def add_bag_argument(parser: argparse.ArgumentParser) -> None:
-    """Add the recording that is read."""
+    """
+    Add the arguments for the bag to read.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument('bag_path', help='the folder of the bag, or one of its files')
     parser.add_argument(
         '-s', '--storage', choices=['mcap'], default='mcap', help='format of the files'
@@ -41,7 +49,15 @@ def add_bag_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of topics, and how they are published."""
+    """
+    Add the options for which topics to publish, under which names and with which QoS.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '--topics', nargs='+', default=[], metavar='TOPIC', help='publish only these topics'
     )
@@ -86,7 +102,15 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_play_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add when and how fast messages are published."""
+    """
+    Add the options for the timing of playback, and for its control.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '-r',
         '--rate',
@@ -135,7 +159,15 @@ def add_play_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_span_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add which part of the recording is published."""
+    """
+    Add the options for which time span of the bag to publish.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '--start-offset',
         type=not_negative,
@@ -153,7 +185,20 @@ def add_span_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:
-    """Return the choice of topics, which is all of them if nothing is named."""
+    """
+    Build the topic filter for playback; without a choice it passes all topics.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_choice_arguments`.
+
+    Raises
+    ------
+    RuntimeError
+        What stands for a topic is not a valid name.
+
+    """
     return TopicFilter(
         everything=not args.topics and args.regex is None,
         topics=frozenset(absolute(name) for name in args.topics),
@@ -164,7 +209,20 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
 
 
 def remaps(args: argparse.Namespace) -> dict[str, str]:
-    """Return the new names of topics by their old ones."""
+    """
+    Return the new names of remapped topics by their recorded names.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_choice_arguments`.
+
+    Raises
+    ------
+    RuntimeError
+        One of the names is not valid.
+
+    """
     return {absolute(old): absolute(new) for old, new in args.remap}
 
 

@@ -23,7 +23,23 @@ FASTER = 1.1
 
 
 class Player:
-    """Plays messages through outlets, listening to the keyboard and to services meanwhile."""
+    """
+    Publishes recorded messages when they are due, serving the keyboard and services meanwhile.
+
+    Parameters
+    ----------
+    node
+        The node to spin.
+    outlets
+        The publishers.
+    clock
+        What publishes the recorded time, or None.
+    switch
+        The paused state, which SPACE toggles.
+    keyboard
+        The source of keys: RIGHT plays the next message while paused, UP and DOWN change the rate.
+
+    """
 
     def __init__(
         self,
@@ -33,7 +49,6 @@ class Player:
         switch: PauseSwitch,
         keyboard: Keyboard,
     ) -> None:
-        """Play nothing yet."""
         self._node = node
         self._outlets = outlets
         self._clock = clock
@@ -43,7 +58,22 @@ class Player:
         self._served_ns = 0
 
     def play(self, messages: Iterable[RecordedMessage], pacing: Pacing) -> int:
-        """Publish messages, each at its time, and return how many there were."""
+        """
+        Publish messages, each when it is due.
+
+        Parameters
+        ----------
+        messages
+            In the order in which they are to be published, all of topics of the outlets.
+        pacing
+            When a recorded time is due; pausing and keys change it.
+
+        Returns
+        -------
+        int
+            How many messages were published.
+
+        """
         count = 0
         for message in messages:
             self._wait_until(message.log_ns, pacing)
@@ -52,7 +82,17 @@ class Player:
         return count
 
     def rest_until(self, recorded_ns: int, pacing: Pacing) -> None:
-        """Wait for a recorded moment without a message."""
+        """
+        Wait for a recorded time without publishing a message.
+
+        Parameters
+        ----------
+        recorded_ns
+            In ns since the epoch.
+        pacing
+            When it is due, as for `play`.
+
+        """
         self._wait_until(recorded_ns, pacing)
 
     def _wait_until(self, recorded_ns: int, pacing: Pacing) -> None:

@@ -31,7 +31,22 @@ FOR_EVER_NS = 2**63 - 1
 
 
 def play(args: argparse.Namespace) -> None:
-    """Play a recording; RuntimeError says why that is not possible."""
+    """
+    Play a bag as the command line of `ros2 bag play` or `burst` says.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of the verb.
+
+    Raises
+    ------
+    BagError
+        The bag cannot be read, has nothing of what is chosen, or the QoS overrides are malformed.
+    RuntimeError
+        The name of a topic in the options is not valid.
+
+    """
     reader = BagReader(args.bag_path)
     reader.check()
     topics = _chosen_topics(reader, args)

@@ -26,12 +26,33 @@ LATCHED_DEPTH = 10
 
 
 def offered_by(publishers: Iterable[Any]) -> tuple[OfferedQos, ...]:
-    """Return what publishers offer, each as it was discovered."""
+    """
+    Convert the discovered QoS of publishers to what a bag stores.
+
+    Parameters
+    ----------
+    publishers
+        Endpoint infos of rclpy, with a `qos_profile` each.
+
+    Returns
+    -------
+    tuple of OfferedQos
+        One per publisher, in their order.
+
+    """
     return tuple(_offered(info.qos_profile) for info in publishers)
 
 
 def playback_profile(topic: Topic) -> QoSProfile:
-    """Return the profile that serves all who subscribed to the recorded publishers."""
+    """
+    Choose a QoS profile that connects to whoever could subscribe to the recorded publishers.
+
+    Parameters
+    ----------
+    topic
+        The topic with the QoS that was offered; reliable and volatile if nothing was recorded.
+
+    """
     offered = topic.offered_qos or (OfferedQos(),)
     reliable = any(qos.reliability != 'best_effort' for qos in offered)
     return QoSProfile(
@@ -44,7 +65,25 @@ def playback_profile(topic: Topic) -> QoSProfile:
 
 
 def read_overrides(path: str | None) -> dict[str, QoSProfile]:
-    """Return the profiles of a YAML file by topic; BagError says what is wrong with it."""
+    """
+    Read QoS profiles by topic name from a YAML file.
+
+    Parameters
+    ----------
+    path
+        The file, or None for no overrides.
+
+    Returns
+    -------
+    dict of str to QoSProfile
+        Empty without a file.
+
+    Raises
+    ------
+    BagError
+        The file cannot be read or is malformed.
+
+    """
     if path is None:
         return {}
     try:

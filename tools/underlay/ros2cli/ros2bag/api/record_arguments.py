@@ -23,7 +23,15 @@ SNAPSHOT = 'everything is recorded; split the recording with -d and delete what 
 
 
 def add_record_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of topics, the output and the way of recording."""
+    """
+    Add the choice of topics, the output and the recording options.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb; its epilog is set as well.
+
+    """
     _add_choice(parser)
     _add_output(parser)
     _add_compression(parser)
@@ -187,7 +195,20 @@ def _add_refused(parser: argparse.ArgumentParser) -> None:
 
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:
-    """Return the choice of topics; RuntimeError for what is no name of a topic."""
+    """
+    Build the topic filter for recording.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_record_arguments`.
+
+    Raises
+    ------
+    RuntimeError
+        What stands for a topic is not a valid name.
+
+    """
     return TopicFilter(
         everything=args.all,
         topics=frozenset(absolute(name) for name in [*args.topics, *args.topics_positional]),
@@ -201,7 +222,20 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
 
 
 def usage_error(args: argparse.Namespace) -> str:
-    """Return what is contradictory or missing in the options, or ''."""
+    """
+    Check the options for contradictions and omissions.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_record_arguments`.
+
+    Returns
+    -------
+    str
+        The error message, or ''.
+
+    """
     chosen = [args.topics_positional, args.topics, args.topic_types, args.regex]
     if args.all and any(chosen):
         return 'Name topics, types or a regular expression, or all topics with -a, but not both.'
@@ -215,14 +249,30 @@ def usage_error(args: argparse.Namespace) -> str:
 
 
 def compression_of(args: argparse.Namespace) -> str:
-    """Return the compression of the chunks."""
+    """
+    Return the compression of MCAP chunks: `none`, `lz4` or `zstd`.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_record_arguments`; an explicit format counts before the preset.
+
+    """
     if args.compression_format and args.compression_mode != 'none':
         return str(args.compression_format)
     return PRESETS[args.storage_preset_profile]
 
 
 def output_folder(args: argparse.Namespace) -> str:
-    """Return the folder of the recording."""
+    """
+    Return the folder to record to; by default its name has the local date and time.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_record_arguments`.
+
+    """
     return args.output or datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
 
 

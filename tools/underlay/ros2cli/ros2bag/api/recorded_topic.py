@@ -16,10 +16,22 @@ __all__ = ['RecordedTopic']
 
 class RecordedTopic:
     """
-    Receives the serialized messages of a topic, with what its publishers offer.
+    A subscription to the serialized messages of a topic that adapts to its publishers.
 
-    When a publisher appears that offers less than the others, the subscription is made anew so
-    that it hears all of them.
+    When a publisher appears that offers less than the others, the subscription is replaced so that
+    it receives from all of them. `update` creates it.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    what
+        The name of the topic, the name of its type, and the class of its type.
+    receive
+        Called with each serialized message and the message info of rclpy.
+    override
+        The QoS profile to subscribe with, whatever publishers offer; None adapts to them.
+
     """
 
     def __init__(
@@ -29,7 +41,6 @@ class RecordedTopic:
         receive: Callable[[bytes, dict[str, int]], None],
         override: Any = None,
     ) -> None:
-        """Prepare the subscription to a topic, its type by name and class; `update` makes it."""
         self._node = node
         self.name, self.type_name, self._message_type = what
         self._receive = receive
@@ -38,7 +49,20 @@ class RecordedTopic:
         self._subscription: Any = None
 
     def update(self, publishers: list[Any]) -> Topic:
-        """Subscribe so that all publishers are heard, and describe the topic."""
+        """
+        Subscribe, or subscribe again, so that all publishers are received.
+
+        Parameters
+        ----------
+        publishers
+            Endpoint infos of rclpy; may be empty.
+
+        Returns
+        -------
+        Topic
+            The topic with the type hash of the first publisher and the QoS that all of them offer.
+
+        """
         profile = self._override or matching_qos(publishers)[0]
         if self._subscription is None or self._is_weaker(profile):
             self._subscribe(profile)

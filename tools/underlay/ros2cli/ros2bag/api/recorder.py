@@ -24,7 +24,34 @@ REST_S = 5.0
 
 
 class Recorder:
-    """Everything that is received while it runs goes to a writer."""
+    """
+    Discovers topics, subscribes to them, and hands their messages to a bag writer.
+
+    Call `discover` from time to time while the node is spun, and `take_rest` at the end.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    writer
+        The bag that is written.
+    topic_filter
+        Which topics to record.
+    switch
+        The paused state: while paused only latched messages are kept, for `release_held`.
+    use_sim_time
+        Whether messages get the time of `/clock` instead of the time when they were received.
+    include_unpublished
+        Whether topics without a publisher are put in the list of topics, too.
+    overrides
+        QoS profiles to subscribe with, by topic name.
+
+    Attributes
+    ----------
+    received_count
+        How many messages have been received, paused or not.
+
+    """
 
     def __init__(
         self,
@@ -37,7 +64,6 @@ class Recorder:
         include_unpublished: bool = False,
         overrides: dict[str, Any] | None = None,
     ) -> None:
-        """Subscribe to nothing yet."""
         self._node = node
         self._writer = writer
         self._filter = topic_filter

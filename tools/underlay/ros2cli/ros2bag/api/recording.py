@@ -31,10 +31,22 @@ NS_PER_S = 1_000_000_000
 
 def record(args: argparse.Namespace) -> None:
     """
-    Record until a signal comes, which is how a recording that is complete ends.
+    Record topics until a signal comes, and complete the bag.
 
-    RuntimeError says why nothing, or no more, can be recorded. A signal that comes before there
-    is a recording is raised, as in other commands.
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `ros2 bag record`.
+
+    Raises
+    ------
+    BagError
+        The bag cannot be written, or the QoS overrides are malformed.
+    RuntimeError
+        The name of a topic in the options is not valid.
+    KeyboardInterrupt, ExternalShutdownException
+        A signal came before the recording had begun.
+
     """
     topic_filter = filter_of(args)
     overrides = read_overrides(args.qos_profile_overrides_path)
@@ -78,7 +90,20 @@ def _record(
 
 
 def find_definition(type_name: str) -> Definition:
-    """Return the definition of a type that is installed."""
+    """
+    Return the definition of a message type that is installed.
+
+    Parameters
+    ----------
+    type_name
+        Such as `std_msgs/msg/String`.
+
+    Returns
+    -------
+    Definition
+        Empty if the package or a file is missing.
+
+    """
     return definition_of(type_name, get_package_share_directory)
 
 

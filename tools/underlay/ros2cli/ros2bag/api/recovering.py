@@ -14,7 +14,20 @@ PERIOD_S = 2.0
 
 
 def recover_and_report(folder: str) -> None:
-    """Recover a recording and say what became of its files."""
+    """
+    Recover a bag, and print progress and what became of each file.
+
+    Parameters
+    ----------
+    folder
+        The folder of the bag.
+
+    Raises
+    ------
+    BagError
+        The folder is not that of a bag, the bag is still being recorded, or it cannot be written.
+
+    """
     outcomes = recover(folder, _Progress())
     for each in outcomes:
         if each.objection:

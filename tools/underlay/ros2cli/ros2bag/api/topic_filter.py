@@ -26,7 +26,17 @@ class TopicFilter:
     include_hidden: bool = field(default=True)
 
     def wants(self, name: str, type_name: str) -> bool:
-        """Tell if a topic is chosen; one that is named is chosen even if it is hidden."""
+        """
+        Whether a topic is chosen; one that is named is chosen even if it is hidden.
+
+        Parameters
+        ----------
+        name
+            The full name of the topic.
+        type_name
+            Its type, such as `std_msgs/msg/String`.
+
+        """
         if self._is_excluded(name, type_name):
             return False
         if name in self.topics:
@@ -42,7 +52,20 @@ class TopicFilter:
 
 
 def regular_expression(text: str) -> re.Pattern[str]:
-    """Return a pattern, or say why a text is none."""
+    """
+    Compile a regular expression of the command line.
+
+    Parameters
+    ----------
+    text
+        The word that the user has written.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is not a regular expression.
+
+    """
     try:
         return re.compile(text)
     except re.error as error:

@@ -15,16 +15,33 @@ __all__ = ['BagReader']
 
 
 class BagReader:
-    """A recording: the folder of one, or a single MCAP file."""
+    """
+    Reads a bag: its folder, or a single MCAP file.
+
+    Parameters
+    ----------
+    path
+        The folder with `metadata.yaml`, or the file; also an attribute.
+
+    Attributes
+    ----------
+    metadata
+        What `metadata.yaml`, or the index of the file, says.
+
+    Raises
+    ------
+    BagError
+        The path does not exist, or its metadata are missing or malformed.
+
+    """
 
     def __init__(self, path: str) -> None:
-        """Read the metadata; BagError says why that is not possible."""
         if not path:
             raise BagError('The path of the bag is empty: name its folder')
         self.path = path
         if os.path.isdir(path):
             self._folder = path
-            self.metadata = _read_metadata(path)
+            self.metadata = read_metadata(path)
         elif os.path.exists(path):
             from ros2bag.storage.mcap_summary import describe_file
 
@@ -56,7 +73,27 @@ class BagReader:
     def messages(
         self, topics: Collection[str] | None = None, start_ns: int = 0
     ) -> Iterator[RecordedMessage]:
-        """Yield the messages of these topics, or of all, from a time on."""
+        """
+        Read the messages file by file, within a file in the order of their log times.
+
+        Parameters
+        ----------
+        topics
+            The names of the topics to read; all if None.
+        start_ns
+            The earliest log time, in ns since the epoch.
+
+        Yields
+        ------
+        RecordedMessage
+            Serialized messages with their times.
+
+        Raises
+        ------
+        BagError
+            A file is missing or unreadable; BrokenFile if it is cut off or damaged.
+
+        """
         from mcap.reader import SeekingReader
         from ros2bag.storage.bounded_chunks import limit_chunks
         from ros2bag.storage.damage import BoundedFile, damage_told
@@ -78,13 +115,29 @@ class BagReader:
         return [os.path.join(self._folder, file.path) for file in self.metadata.files]
 
 
-def _read_metadata(folder: str) -> BagMetadata:
+def read_metadata(folder: str) -> BagMetadata:
+    """
+    Read `metadata.yaml` of a recording.
+
+    Parameters
+    ----------
+    folder
+        The folder of the recording.
+
+    Raises
+    ------
+    BagError
+        It is not there, cannot be read, or is malformed.
+
+    """
     path = os.path.join(folder, FILE_NAME)
     try:
         with open(path, encoding='utf-8') as stream:
             return metadata_from_text(stream.read(), path)
     except FileNotFoundError as error:
         raise BagError(_no_metadata_text(folder)) from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise BagError(f"'{path}' cannot be read: {error}") from error
 
 
 def _no_metadata_text(folder: str) -> str:

@@ -35,7 +35,26 @@ class WriterOptions:
 
 
 class BagWriter:
-    """A recording that is being written; BagError tells that it had to end."""
+    """
+    Writes a bag: a folder of MCAP files, split by size or time, and `metadata.yaml`.
+
+    When the disk is full the bag is completed with room that was reserved, and BagError is raised.
+
+    Parameters
+    ----------
+    folder
+        The folder to create.
+    options
+        Compression, limits and what else is stored.
+    find_definition
+        Returns the definition of a message type such as `std_msgs/msg/String`.
+
+    Raises
+    ------
+    BagError
+        The folder exists already or cannot be written.
+
+    """
 
     def __init__(
         self,
@@ -43,7 +62,6 @@ class BagWriter:
         options: WriterOptions,
         find_definition: Callable[[str], Definition],
     ) -> None:
-        """Create the folder, which must not exist, and its first file."""
         self._folder = os.path.abspath(folder)
         self._options = options
         self._find_definition = find_definition
@@ -62,10 +80,16 @@ class BagWriter:
 
     def set_topic(self, topic: Topic) -> None:
         """
-        Make a topic known, or what its publishers offer now.
+        Register a topic, or update what its publishers offer now.
 
-        What is recorded of a topic is what was known first: readers want it to be the same in
-        all files and in `metadata.yaml`. Later publishers count for what is latched.
+        What is recorded of a topic is what was known first: readers want it to be the same in all
+        files and in `metadata.yaml`. Later publishers decide which messages are latched.
+
+        Parameters
+        ----------
+        topic
+            The topic with its type and the QoS that its publishers offer.
+
         """
         if topic.name not in self._topics:
             self._topics[topic.name] = topic
@@ -73,7 +97,20 @@ class BagWriter:
         self._present[topic.name] = topic
 
     def write(self, message: RecordedMessage) -> None:
-        """Write a message of a topic that is known."""
+        """
+        Write a message, after starting the next file if this one is full.
+
+        Parameters
+        ----------
+        message
+            The message, of a topic that is registered.
+
+        Raises
+        ------
+        BagError
+            The disk is full or the file too large; the recording has ended.
+
+        """
         try:
             if self._is_full(message.log_ns):
                 self._split(message.log_ns)

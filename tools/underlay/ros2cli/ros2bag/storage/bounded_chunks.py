@@ -34,16 +34,28 @@ class ChunkTooLarge(ValueError):
 
 def chunk_stream(chunk: Chunk, validate_crc: bool = False) -> tuple[ReadDataStream, int]:
     """
-    Return the records of a chunk as a stream, and their length in bytes.
+    Decompress a chunk within a memory limit.
+
+    Parameters
+    ----------
+    chunk
+        The chunk as it is in the file.
+    validate_crc
+        Whether to compare the data with the checksum of the chunk, if it has one.
+
+    Returns
+    -------
+    tuple of ReadDataStream and int
+        The records of the chunk as a stream, and their length in bytes.
 
     Raises
     ------
     ChunkTooLarge
-        If it says that it needs too much memory.
+        The chunk says that it needs too much memory.
     ValueError
-        If it has another size than it says.
+        The chunk has another size than it says.
     CRCValidationError
-        If its check sum is wrong.
+        The checksum is wrong.
 
     """
     data = _unpacked(chunk)
@@ -55,7 +67,20 @@ def chunk_stream(chunk: Chunk, validate_crc: bool = False) -> tuple[ReadDataStre
 
 
 def size_objection(chunk: Chunk) -> str:
-    """Return why a chunk is not unpacked, as it says that it needs too much memory; or ''."""
+    """
+    Check the memory that a chunk says it needs against the limits.
+
+    Parameters
+    ----------
+    chunk
+        The chunk as it is in the file.
+
+    Returns
+    -------
+    str
+        Why the chunk is not decompressed, or ''.
+
+    """
     size, packed = chunk.uncompressed_size, len(chunk.data)
     if size <= min(LARGEST_BYTES, max(HARMLESS_BYTES, LARGEST_RATIO * packed)):
         return ''

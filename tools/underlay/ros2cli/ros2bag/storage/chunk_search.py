@@ -22,12 +22,40 @@ BLOCK_BYTES = 1024 * 1024
 
 
 def next_chunk(stream: BoundedFile, position: int) -> int | None:
-    """Return where the next whole chunk with a right check sum begins, or None."""
+    """
+    Find the next whole chunk with a correct checksum.
+
+    Parameters
+    ----------
+    stream
+        The file, whose position changes.
+    position
+        The offset in bytes at which to start.
+
+    Returns
+    -------
+    int or None
+        The offset of the record in bytes, or None if there is no such chunk.
+
+    """
     return next((at for at in _candidates(stream, position) if _is_chunk(stream, at)), None)
 
 
 def unpacked(chunk: Chunk) -> bytes | None:
-    """Return the records of a chunk, or None if they are not those that were written."""
+    """
+    Decompress and verify a chunk.
+
+    Parameters
+    ----------
+    chunk
+        The chunk as it is in the file.
+
+    Returns
+    -------
+    bytes or None
+        The records of the chunk; None if it is damaged or takes too much memory.
+
+    """
     try:
         stream, size = chunk_stream(chunk, validate_crc=True)
         return stream.read(size)

@@ -21,7 +21,33 @@ CHUNK_BYTES = 1024 * 1024
 def copy_messages(
     path: str, survey: Survey, new_path: str, progress: Callable[[float], None]
 ) -> int:
-    """Write what a file has to a new one, and return the number of messages."""
+    """
+    Copy the messages of a broken MCAP file to a new, complete one.
+
+    Messages whose schema or channel is lost are lost, too.
+
+    Parameters
+    ----------
+    path
+        The broken file.
+    survey
+        The schemas, channels and compression that were found in it.
+    new_path
+        The file to create.
+    progress
+        Called with the share (0 to 1) of the broken file that has been read.
+
+    Returns
+    -------
+    int
+        How many messages were copied.
+
+    Raises
+    ------
+    OSError
+        The new file exists already or cannot be written.
+
+    """
     name, compression = os.path.basename(path), survey.compression
     file = McapFile(new_path, name=name, compression=compression, chunk_bytes=CHUNK_BYTES)
     try:

@@ -42,15 +42,35 @@ class BrokenFile(BagError):
 
 
 class BoundedFile(io.BufferedReader):
-    """A file of which no more is read than there is, whatever a damaged length says."""
+    """
+    A binary file that never reads more than is left, whatever a damaged length says.
+
+    Parameters
+    ----------
+    path
+        The file to open.
+
+    Attributes
+    ----------
+    size
+        Of the file when it was opened, in bytes.
+
+    """
 
     def __init__(self, path: str) -> None:
-        """Open the file."""
         super().__init__(io.FileIO(path))
         self.size = os.path.getsize(path)
 
     def read(self, size: int | None = -1, /) -> bytes:
-        """Return as many bytes, or what is left."""
+        """
+        Read bytes, at most as many as are left, so that a huge size allocates nothing.
+
+        Parameters
+        ----------
+        size
+            How many; all that are left if it is None or negative.
+
+        """
         if size is not None and size > LARGE_BYTES:
             size = min(size, max(0, self.size - self.tell()))
         return super().read(size)
@@ -58,7 +78,22 @@ class BoundedFile(io.BufferedReader):
 
 @contextmanager
 def damage_told(path: str) -> Iterator[None]:
-    """Turn the errors of reading a file into a BagError, those of damage into a BrokenFile."""
+    """
+    Translate the errors of reading an MCAP file, in a `with` statement, to a BagError.
+
+    Parameters
+    ----------
+    path
+        The file, for the message.
+
+    Raises
+    ------
+    BagError
+        The file is missing, unreadable or not MCAP.
+    BrokenFile
+        The file is cut off or damaged.
+
+    """
     try:
         yield
     except BagError:

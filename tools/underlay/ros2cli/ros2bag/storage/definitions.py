@@ -27,10 +27,20 @@ class Definition(NamedTuple):
 
 def definition_of(type_name: str, find_share: Callable[[str], str]) -> Definition:
     """
-    Return the definition of a type in the form 'ros2msg', with nested ones appended.
+    Return the `ros2msg` definition of a message type, with those of nested types appended.
 
-    `find_share` returns the share folder of a package, and raises LookupError if it is not
-    installed. Without all the files the definition is empty.
+    Parameters
+    ----------
+    type_name
+        `package/msg/Name` or `package/Name`.
+    find_share
+        Returns the share folder of a package; raises LookupError if the package is not installed.
+
+    Returns
+    -------
+    Definition
+        Empty if a package or a file is missing, or the type is not a message.
+
     """
     try:
         return Definition('ros2msg', f'\n{SEPARATOR}\n'.join(_sections(type_name, find_share)))

@@ -36,7 +36,20 @@ class LatchedMessages:
         self._lifespans_ns: dict[str, int] = {}
 
     def add(self, message: RecordedMessage, topic: Topic) -> None:
-        """Keep a message, and of the older ones at least one a publisher."""
+        """
+        Keep a message for late subscribers of its topic.
+
+        Beyond 100 messages or 256 KiB the oldest ones of the topic are dropped, but as many as
+        there are latched publishers stay.
+
+        Parameters
+        ----------
+        message
+            The message.
+        topic
+            Its topic, at least one of whose publishers offers transient-local durability.
+
+        """
         offered = [qos for qos in topic.offered_qos if qos.is_latched]
         self._lifespans_ns[topic.name] = max(qos.lifespan_ns for qos in offered)
         kept = self._kept.setdefault(topic.name, deque())
@@ -45,7 +58,20 @@ class LatchedMessages:
             kept.popleft()
 
     def alive(self, now_ns: int) -> Iterator[RecordedMessage]:
-        """Yield the messages whose lifespan is not over, of each topic the oldest first."""
+        """
+        Iterate over the messages whose lifespan has not expired.
+
+        Parameters
+        ----------
+        now_ns
+            The present time, in ns since the epoch.
+
+        Yields
+        ------
+        RecordedMessage
+            Topic by topic, the oldest first.
+
+        """
         for topic, kept in self._kept.items():
             born_ns = now_ns - self._lifespans_ns[topic]
             yield from (message for message in kept if message.log_ns >= born_ns)

@@ -38,10 +38,29 @@ SEQUENCES = 2**32
 
 class McapFile:
     """
-    One file of a recording that is being written.
+    Writes one MCAP file of a bag.
 
-    After an OSError everything is kept in memory: `retry` and `finish` can be called when
-    there is room again.
+    After an OSError everything is kept in memory: `retry` and `finish` can be called when there is
+    room again.
+
+    Parameters
+    ----------
+    path
+        The file to create.
+    name
+        The file name for the metadata, if the file will be renamed afterwards.
+    compression
+        Of the chunks: `none`, `lz4` or `zstd`.
+    ros_distro
+        The name of the ROS distribution, for the metadata.
+    chunk_bytes
+        How much a chunk collects before it is written; `flush_if_due` writes it after 0.1 s.
+
+    Raises
+    ------
+    OSError
+        The file exists already or cannot be created.
+
     """
 
     def __init__(
@@ -53,7 +72,6 @@ class McapFile:
         ros_distro: str = '',
         chunk_bytes: int = CHUNK_BYTES,
     ) -> None:
-        """Create the file; it is called `name` when it is done, if that is not its name now."""
         self._stream = PatientFile(path)
         self._name = name or os.path.basename(path)
         self._ros_distro = ros_distro
@@ -91,7 +109,17 @@ class McapFile:
         return self._start_ns
 
     def add_topic(self, topic: Topic, definition: Definition) -> None:
-        """Make a topic known, before its first message."""
+        """
+        Register a topic, before its first message, with its schema and channel.
+
+        Parameters
+        ----------
+        topic
+            The topic.
+        definition
+            The definition of its type; may be empty.
+
+        """
         if topic.type_name not in self._schema_ids:
             self._schema_ids[topic.type_name] = self._writer.register_schema(
                 topic.type_name, definition.encoding, definition.text.encode()
@@ -110,7 +138,27 @@ class McapFile:
     def write(
         self, topic: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
     ) -> None:
-        """Add a message of a topic that is known."""
+        """
+        Add a message of a topic that is registered.
+
+        Parameters
+        ----------
+        topic
+            The name of the topic.
+        data
+            The serialized message.
+        log_ns, publish_ns
+            When it was received, in the time of the recorder, and published, in ns since the
+            epoch.
+        sequence
+            The publisher's sequence number, of which the lower 32 bits are stored.
+
+        Raises
+        ------
+        OSError
+            The chunk could not be written; it is kept for `retry`.
+
+        """
         self._writer.add_message(
             self._channel_ids[topic], log_ns, data, publish_ns, sequence % SEQUENCES
         )

@@ -70,7 +70,20 @@ class McapRecord(NamedTuple):
 
 
 def read_record(stream: IO[bytes]) -> McapRecord | None:
-    """Return the next record, or None at the end."""
+    """
+    Read the next record of an MCAP file.
+
+    Parameters
+    ----------
+    stream
+        The file, or the decompressed data of a chunk, positioned at the start of a record.
+
+    Returns
+    -------
+    McapRecord or None
+        The record, whose content may be cut off; None if not even its header is left.
+
+    """
     header = stream.read(RECORD_HEADER.size)
     if len(header) < RECORD_HEADER.size:
         return None

@@ -31,7 +31,27 @@ CRC_BYTES = 4
 
 
 def describe_file(path: str) -> BagMetadata:
-    """Return the metadata of a recording that consists of this file; BrokenFile if it is cut."""
+    """
+    Read the metadata of a single MCAP file from its index.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    BagMetadata
+        As of a bag that consists of this file.
+
+    Raises
+    ------
+    BagError
+        The file is missing, unreadable or not MCAP.
+    BrokenFile
+        The file has no index, or is damaged.
+
+    """
     with damage_told(path), BoundedFile(path) as stream:
         reader = SeekingReader(stream)
         _check_sum(stream)
@@ -78,7 +98,17 @@ def _topics(summary: Summary, statistics: Statistics) -> tuple[TopicInformation,
 
 
 def topic_of(channel: Channel, type_name: str) -> Topic:
-    """Return the topic that a channel stands for."""
+    """
+    Convert an MCAP channel to the topic that was recorded in it.
+
+    Parameters
+    ----------
+    channel
+        The channel, with the offered QoS and the type hash in its metadata.
+    type_name
+        The name of the channel's schema.
+
+    """
     return Topic(
         name=channel.topic,
         type_name=type_name,

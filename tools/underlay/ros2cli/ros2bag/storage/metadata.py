@@ -59,7 +59,15 @@ class MessageSpan:
         return max(0, self.end_ns - self.start_ns)
 
     def joined(self, other: MessageSpan) -> MessageSpan:
-        """Return the span of both."""
+        """
+        Return the union of two spans.
+
+        Parameters
+        ----------
+        other
+            The other span.
+
+        """
         return MessageSpan(
             self.message_count + other.message_count,
             min(self.start_ns, other.start_ns),

@@ -25,7 +25,15 @@ ROOT = 'rosbag2_bagfile_information'
 
 
 def metadata_to_text(metadata: BagMetadata) -> str:
-    """Return the content of `metadata.yaml`."""
+    """
+    Serialize metadata to the content of `metadata.yaml`.
+
+    Parameters
+    ----------
+    metadata
+        The description of a bag.
+
+    """
     span = metadata.span
     content = {
         'version': VERSION,
@@ -45,10 +53,25 @@ def metadata_to_text(metadata: BagMetadata) -> str:
 
 
 def metadata_from_text(text: str, where: str) -> BagMetadata:
-    """Return what a `metadata.yaml` says; BagError tells what is wrong with it."""
+    """
+    Parse the content of `metadata.yaml`.
+
+    Parameters
+    ----------
+    text
+        The content.
+    where
+        The path of the file, for error messages.
+
+    Raises
+    ------
+    BagError
+        The content is malformed, or of a version that is newer than 9.
+
+    """
     try:
         content = yaml.safe_load(text)[ROOT]
-        version = content['version']
+        version = int(content['version'])
         metadata = _from_dict(content)
     except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
         reason = ' '.join(f'{type(error).__name__}: {error}'.split())

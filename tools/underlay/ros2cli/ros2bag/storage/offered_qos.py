@@ -62,7 +62,21 @@ class OfferedQos:
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> OfferedQos:
-        """Return the quality of service of a mapping; what is left out has the default."""
+        """
+        Build a QoS from a mapping in the layout of rosbag2; what is left out has the default.
+
+        Parameters
+        ----------
+        values
+            Policies by name, or by number as before version 9; durations as mappings of `sec` and
+            `nsec`.
+
+        Raises
+        ------
+        KeyError, TypeError, ValueError
+            A value is malformed.
+
+        """
         default = cls()
         return cls(
             history=_policy(values.get('history', default.history), HISTORIES),
@@ -80,12 +94,38 @@ class OfferedQos:
 
 
 def qos_to_text(profiles: Iterable[OfferedQos]) -> str:
-    """Return the text that the channel of an MCAP file has."""
+    """
+    Serialize QoS profiles to the YAML that an MCAP channel stores.
+
+    Parameters
+    ----------
+    profiles
+        One per publisher.
+
+    """
     return yaml.safe_dump([each.to_dict() for each in profiles], sort_keys=False)
 
 
 def qos_from_text(text: str | list[Any]) -> tuple[OfferedQos, ...]:
-    """Return the profiles of a channel or of `metadata.yaml`, where older ones are texts."""
+    """
+    Parse the QoS profiles of an MCAP channel or of `metadata.yaml`.
+
+    Parameters
+    ----------
+    text
+        YAML, or the list that it stands for, as in `metadata.yaml` since version 9.
+
+    Returns
+    -------
+    tuple of OfferedQos
+        One per publisher.
+
+    Raises
+    ------
+    yaml.YAMLError, AttributeError, KeyError, TypeError, ValueError
+        The text is malformed.
+
+    """
     profiles = yaml.safe_load(text) if isinstance(text, str) else text
     return tuple(OfferedQos.from_dict(each) for each in profiles or ())
 

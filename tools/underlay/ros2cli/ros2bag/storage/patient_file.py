@@ -14,11 +14,21 @@ class PatientFile:
     A new file without a buffer: what was written is there, whatever becomes of the process.
 
     A write never fails and is never partial. What could not be written is kept, `check` tells why,
-    and `retry` writes it when there is room again.
+    and `retry` writes it when there is room again. The file is locked as long as it is open.
+
+    Parameters
+    ----------
+    path
+        The file to create.
+
+    Raises
+    ------
+    OSError
+        The file exists already or cannot be created.
+
     """
 
     def __init__(self, path: str) -> None:
-        """Create the file, which must not exist, and lock it as long as it is open."""
         self._file = open(path, 'xb', buffering=0)  # noqa: SIM115
         with suppress(OSError):
             # Some network file systems have no locks.
@@ -27,7 +37,20 @@ class PatientFile:
         self._error: OSError | None = None
 
     def write(self, data: bytes) -> int:
-        """Write all of the data, now or later."""
+        """
+        Write all of the data, now or when there is room again.
+
+        Parameters
+        ----------
+        data
+            The bytes to append.
+
+        Returns
+        -------
+        int
+            The length of the data.
+
+        """
         self._rest += data
         if self._error is None:
             self._write_rest()
@@ -66,7 +89,15 @@ class PatientFile:
 
 
 def is_being_written(path: str) -> bool:
-    """Tell if a process is writing this file through a `PatientFile`."""
+    """
+    Whether a process has this file open as a `PatientFile`.
+
+    Parameters
+    ----------
+    path
+        The file, which exists.
+
+    """
     with open(path, 'rb') as stream:
         try:
             fcntl.flock(stream, fcntl.LOCK_SH | fcntl.LOCK_NB)

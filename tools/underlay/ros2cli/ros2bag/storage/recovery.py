@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 import glob
 from itertools import chain, count
 import os
 import re
 from typing import NamedTuple
 
+from ros2bag.storage.bag_reader import read_metadata
 from ros2bag.storage.copying import copy_messages
 from ros2bag.storage.errors import BagError
 from ros2bag.storage.mcap_summary import describe_file
@@ -44,7 +46,29 @@ class RecoveredFile(NamedTuple):
 def recover(
     folder: str, progress: Callable[[str, float], None] = lambda path, share: None
 ) -> list[RecoveredFile]:
-    """Save what broken files have, and write `metadata.yaml`; the broken files are kept."""
+    """
+    Salvage the messages of broken files, and rewrite `metadata.yaml`.
+
+    Broken files are kept with the suffix `.broken`.
+
+    Parameters
+    ----------
+    folder
+        The folder of the bag.
+    progress
+        Called with the path of a file and the share (0 to 1) of it that has been read.
+
+    Returns
+    -------
+    list of RecoveredFile
+        What was done with each file, in the order of their numbers.
+
+    Raises
+    ------
+    BagError
+        The folder has no MCAP file or a foreign one, is being recorded to, or cannot be written.
+
+    """
     outcomes = [_recover_file(path, progress) for path in _paths(folder)]
     write_metadata(folder)
     _remove(os.path.join(folder, RESERVE_NAME))
@@ -52,14 +76,41 @@ def recover(
 
 
 def write_metadata(folder: str) -> int:
-    """Write `metadata.yaml` as the files say, and return the number of their messages."""
+    """
+    Rewrite `metadata.yaml` from the indices of the files.
+
+    Parameters
+    ----------
+    folder
+        The folder of the bag.
+
+    Returns
+    -------
+    int
+        The number of messages in all files.
+
+    Raises
+    ------
+    BagError
+        The folder has no MCAP file, or a file has no index, is damaged or is being recorded to.
+
+    """
     metadata = merged([describe_file(path) for path in _paths(folder)])
+    metadata = replace(metadata, custom_data=_custom_data(folder))
     path = os.path.join(folder, FILE_NAME)
     new_path = f'{path}{NEW_SUFFIX}'
     with open(new_path, 'w', encoding='utf-8') as stream:
         stream.write(metadata_to_text(metadata))
     os.replace(new_path, path)
     return metadata.span.message_count
+
+
+def _custom_data(folder: str) -> Mapping[str, str]:
+    """Return what only `metadata.yaml` knows, if it can be read."""
+    try:
+        return read_metadata(folder).custom_data
+    except BagError:
+        return {}
 
 
 def _paths(folder: str) -> list[str]:

@@ -13,10 +13,22 @@ RESERVED_BYTES = 4 * 1024 * 1024
 
 
 class Reserve:
-    """A file without content, which is given up when the disk is full or the work done."""
+    """
+    Reserved disk space, which is released when the disk is full or the work done.
+
+    Parameters
+    ----------
+    folder
+        Where to create the file that takes the space (4 MiB).
+
+    Raises
+    ------
+    OSError
+        The disk has not as much space left.
+
+    """
 
     def __init__(self, folder: str) -> None:
-        """Take the room; OSError tells that the disk has not so much."""
         self._path = os.path.join(folder, FILE_NAME)
         try:
             with open(self._path, 'xb') as stream:

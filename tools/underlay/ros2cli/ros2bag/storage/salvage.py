@@ -24,10 +24,28 @@ Content = Schema | Channel | Message
 
 
 class Salvage:
-    """The schemas, channels and messages of a broken file, in the order of the file."""
+    """
+    Reads the schemas, channels and messages of a broken MCAP file, in the order of the file.
+
+    Parameters
+    ----------
+    path
+        The file, which is not opened before `records`.
+
+    Attributes
+    ----------
+    compression
+        Of the first whole chunk; '' if it has none.
+    damaged_parts
+        How many parts were left out.
+    is_sound
+        Whether the data are those that were written, as far as there are checksums.
+    objection
+        Why a part was left out that would have filled the memory, or ''.
+
+    """
 
     def __init__(self, path: str) -> None:
-        """Start without having read anything."""
         self._path = path
         self._sum = 0
         # A message between chunks is something else whose kind was damaged.
@@ -39,11 +57,23 @@ class Salvage:
 
     def records(self, progress: Callable[[float], None] = lambda share: None) -> Iterator[Content]:
         """
-        Yield the records; `progress` is told which share of the file has been read.
+        Read all records that are intact; afterwards the attributes tell how it went.
 
-        Afterwards `damaged_parts` tells how many parts were left out, and `is_sound` if the data
-        are those that were written, as far as there are check sums; `objection` why a part was
-        left out that would have filled the memory.
+        Parameters
+        ----------
+        progress
+            Called with the share (0 to 1) of the file that has been read.
+
+        Yields
+        ------
+        Schema, Channel or Message
+            The records.
+
+        Raises
+        ------
+        BagError
+            The file is not MCAP.
+
         """
         self.damaged_parts, self.is_sound = 0, True
         with BoundedFile(self._path) as stream:

@@ -11,7 +11,15 @@ __all__ = ['merged']
 
 
 def merged(parts: Iterable[BagMetadata]) -> BagMetadata:
-    """Return the metadata of a recording that consists of these files, in their order."""
+    """
+    Merge the metadata of files to those of the bag that consists of them.
+
+    Parameters
+    ----------
+    parts
+        One per file, in their order; of a topic in several of them the last description counts.
+
+    """
     parts = list(parts)
     topics: dict[str, TopicInformation] = {}
     for information in (each for part in parts for each in part.topics):

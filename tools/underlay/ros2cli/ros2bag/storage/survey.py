@@ -15,10 +15,37 @@ __all__ = ['Survey']
 
 
 class Survey:
-    """What a file has: how many messages, all topics and types, and if it is whole."""
+    """
+    The content of an MCAP file, read once from beginning to end, and whether the file is intact.
+
+    Parameters
+    ----------
+    path
+        The file.
+    progress
+        Called with the share (0 to 1) of the file that has been read.
+
+    Attributes
+    ----------
+    schemas, channels
+        By their numbers; of a number that is used twice the first meaning counts.
+    message_count
+        How many messages could be read.
+    compression
+        Of the chunks: `none`, `lz4` or `zstd`.
+    damaged_parts, objection
+        As in `Salvage`.
+    is_whole
+        Whether nothing is damaged, and the index counts the same messages.
+
+    Raises
+    ------
+    BagError
+        The file is missing, unreadable or not MCAP.
+
+    """
 
     def __init__(self, path: str, progress: Callable[[float], None]) -> None:
-        """Read the file once. Of a number that is used twice the first meaning counts."""
         self.schemas: dict[int, Schema] = {}
         self.channels: dict[int, Channel] = {}
         self.message_count = 0

@@ -19,7 +19,15 @@ class BurstVerb(VerbExtension):
     """Publish a bag as fast as possible."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the bag, the choice of topics and how much of it is published."""
+        """
+        Add the bag, the choice of topics, the time span and the number of messages.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_bag_argument(parser)
         add_choice_arguments(parser)
         add_span_arguments(parser)
@@ -32,7 +40,15 @@ class BurstVerb(VerbExtension):
         parser.set_defaults(**AS_FAST_AS_POSSIBLE)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Publish the messages without waiting."""
+        """
+        Publish the messages of a bag without waiting between them.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         from ros2bag.api.playing import play
 
         play(args)

@@ -18,10 +18,31 @@ class ConvertVerb(VerbExtension):
     """Say how a bag is turned into another format."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Accept what users of rosbag2 write."""
+        """
+        Accept the options that users of rosbag2 write.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         parser.add_argument('-i', '--input', nargs='+', action='append', help='the bags')
         parser.add_argument('-o', '--output-options', help='the file with options')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Name the program that does it."""
+        """
+        Name the program that converts bags.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            The advice, as an error message.
+
+        """
         return ADVICE

@@ -14,7 +14,15 @@ class InfoVerb(VerbExtension):
     """Print information about a bag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the bag and the choice of details."""
+        """
+        Add the bag and the options for details.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_bag_argument(parser)
         parser.add_argument(
             '-t', '--topic-name', action='store_true', help='print only the names of the topics'
@@ -27,7 +35,15 @@ class InfoVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print what the metadata says."""
+        """
+        Print the metadata of a bag, and warn of files that are missing.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         from ros2bag.api.info import info_text, topic_names_text
         from ros2bag.storage.bag_reader import BagReader
 

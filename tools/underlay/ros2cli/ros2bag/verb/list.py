@@ -19,14 +19,30 @@ class ListVerb(VerbExtension):
     """Print the formats that are known."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the kind of format."""
+        """
+        Add the kind of format, such as `storage`.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         parser.add_argument('plugin_type', choices=list(KNOWN), help='what is listed')
         parser.add_argument(
             '-v', '--verbose', action='store_true', help='say what is done with each'
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the names of one kind."""
+        """
+        Print the formats of one kind.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         for name, purpose in KNOWN[args.plugin_type].items():
             print(f'{name}: {purpose}' if args.verbose else name)
         return None

@@ -18,14 +18,30 @@ class PlayVerb(VerbExtension):
     """Play back ROS data from a bag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the bag, the choice of topics and the way of playing."""
+        """
+        Add the bag, the choice of topics, the time span and the playback options.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_bag_argument(parser)
         add_choice_arguments(parser)
         add_play_arguments(parser)
         add_span_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Publish the messages as they were recorded."""
+        """
+        Publish the messages of a bag with the timing of the recording.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         from ros2bag.api.playing import play
 
         play(args)

@@ -13,11 +13,32 @@ class RecordVerb(VerbExtension):
     """Record ROS data to a bag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the choice of topics, the output and the way of recording."""
+        """
+        Add the choice of topics, the output and the recording options.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_record_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Record until the user stops it."""
+        """
+        Record topics until a signal comes.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            An error message if the options contradict each other or choose nothing.
+
+        """
         error = usage_error(args)
         if error:
             return error

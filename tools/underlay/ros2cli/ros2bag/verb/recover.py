@@ -12,13 +12,29 @@ class RecoverVerb(VerbExtension):
     """Make a broken or unfinished bag readable."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the bag."""
+        """
+        Add the folder of the bag.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         parser.add_argument(
             'bag_path', help='the folder of the bag; broken files are kept under another name'
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Save what broken files have, and write the metadata."""
+        """
+        Salvage the messages of broken files, and rewrite `metadata.yaml`.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         from ros2bag.api.recovering import recover_and_report
 
         recover_and_report(args.bag_path)

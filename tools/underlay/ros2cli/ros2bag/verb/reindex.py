@@ -13,11 +13,32 @@ class ReindexVerb(VerbExtension):
     """Write the metadata of a bag anew from its files."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the bag."""
+        """
+        Add the bag.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_bag_argument(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Write `metadata.yaml`; a file without an index is an error, see `recover`."""
+        """
+        Rewrite `metadata.yaml` from the indices of the files; see `recover` for files without one.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Raises
+        ------
+        BagError
+            A file has no index, is damaged, or is still being recorded.
+
+        """
         from ros2bag.storage.recovery import write_metadata
 
         count = write_metadata(args.bag_path)

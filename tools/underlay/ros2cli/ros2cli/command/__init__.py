@@ -21,7 +21,19 @@ class CommandExtension:
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the command's own arguments to its parser."""
+        """
+        Add the command's own arguments to its parser.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command.
+        cli_name
+            The command line up to the command, such as `ros2 bag`.
+        argv
+            The words after the name of the command; None if they are not known.
+
+        """
 
     def extension_points(self) -> Mapping[str, Mapping[str, Entry]]:
         """Return the groups of entry points that extend this command, with what they have."""
@@ -30,7 +42,29 @@ class CommandExtension:
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Do the work; an int is the exit status, a str is an error text."""
+        """
+        Execute the command.
+
+        A RuntimeError is printed on stderr, like a str that is returned, and gives status 1.
+
+        Parameters
+        ----------
+        parser
+            The root parser.
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        int or str or None
+            The exit status, or an error message for stderr with status 1; None is status 0.
+
+        Raises
+        ------
+        NotImplementedError
+            The subclass does not override it.
+
+        """
         raise NotImplementedError(f'{type(self).__name__} does not implement main()')
 
 
@@ -43,7 +77,15 @@ class VerbCommand(CommandExtension):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add a parser for each verb, with arguments only for the one that is called."""
+        """
+        Add a parser for each verb, with arguments only for the one that is called.
+
+        Parameters
+        ----------
+        parser, cli_name, argv
+            As for `CommandExtension.add_arguments`.
+
+        """
         self._parser = parser
         add_lazy_subparsers(
             parser,
@@ -62,7 +104,20 @@ class VerbCommand(CommandExtension):
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Call the chosen verb, or print the help if there is none."""
+        """
+        Execute the chosen verb, or print the help of the command if there is none.
+
+        Parameters
+        ----------
+        parser, args
+            As for `CommandExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            What the verb returns; 0 after the help.
+
+        """
         verb = getattr(args, '_verb', None)
         if verb is None:
             self._parser.print_help()

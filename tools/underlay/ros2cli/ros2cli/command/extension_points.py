@@ -15,7 +15,15 @@ class ExtensionPointsCommand(CommandExtension):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the choice of details."""
+        """
+        Add the option for details.
+
+        Parameters
+        ----------
+        parser, cli_name, argv
+            As for `CommandExtension.add_arguments`.
+
+        """
         parser.add_argument(
             '-v',
             '--verbose',
@@ -26,7 +34,15 @@ class ExtensionPointsCommand(CommandExtension):
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Print one group of entry points a line."""
+        """
+        Print the groups of entry points, one per line.
+
+        Parameters
+        ----------
+        parser, args
+            As for `CommandExtension.main`.
+
+        """
         from ros2cli.extension_points import extension_points, extensions
 
         for group, own in extension_points().items():

@@ -16,7 +16,15 @@ class ExtensionsCommand(CommandExtension):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the choice of extensions and details."""
+        """
+        Add the options for which extensions to show and for details.
+
+        Parameters
+        ----------
+        parser, cli_name, argv
+            As for `CommandExtension.add_arguments`.
+
+        """
         parser.add_argument(
             '-a',
             '--all',
@@ -30,7 +38,15 @@ class ExtensionsCommand(CommandExtension):
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Print the groups of entry points, and the extensions below each."""
+        """
+        Print the groups of entry points, each with its extensions below it.
+
+        Parameters
+        ----------
+        parser, args
+            As for `CommandExtension.main`.
+
+        """
         from ros2cli.extension_points import extension_points, extensions
 
         for group, own in extension_points().items():

@@ -22,7 +22,18 @@ ANSWER_DESCRIPTOR = 8
 
 
 def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) -> None:
-    """Write the possible words where the shell waits for them, and end the process."""
+    """
+    Answer the completion request of a shell, and end the process.
+
+    The request is in the environment (COMP_LINE, COMP_POINT); the answer goes to descriptor 8, as
+    argcomplete has it.
+
+    Parameters
+    ----------
+    create_parser
+        Returns the root parser for the words after `ros2` that are complete.
+
+    """
     _end_before_it_annoys()
     from argcomplete.lexers import split_line
     from ros2cli.completion.finder import Finder

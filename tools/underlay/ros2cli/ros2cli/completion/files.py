@@ -11,27 +11,80 @@ Choice = Callable[[str], bool]
 
 
 def files(prefix: str, args: argparse.Namespace | None = None) -> list[str]:
-    """Return the files and folders that a word may go on to."""
+    """
+    List the files and folders that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word so far.
+    args : argparse.Namespace | None
+        The parsed line, which does not matter.
+
+    """
     return _paths(prefix, bool)
 
 
 def folders(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the folders that a word may go on to."""
+    """
+    List the folders that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word so far.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _paths(prefix, lambda name: False)
 
 
 def bags(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the folders and the files of bags."""
+    """
+    List the folders and bag files that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word so far.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return files_of_kind(prefix, ('.mcap', '.db3'))
 
 
 def files_of_kind(prefix: str, suffixes: tuple[str, ...]) -> list[str]:
-    """Return the files with one of some suffixes, and all folders."""
+    """
+    List the files with certain suffixes, and all folders, that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word so far.
+    suffixes
+        The ends of file names, each with its dot.
+
+    Returns
+    -------
+    list of str
+        Paths that begin as the word does, folders with a slash at the end.
+
+    """
     return _paths(prefix, lambda name: name.endswith(suffixes))
 
 
 def as_path(word: str) -> str:
-    """Return what the shell will make of a word that begins with ~ or a variable."""
+    """
+    Expand `~` and variables in a word as the shell will.
+
+    Parameters
+    ----------
+    word
+        A word of the command line.
+
+    """
     return os.path.expanduser(os.path.expandvars(word))
 
 

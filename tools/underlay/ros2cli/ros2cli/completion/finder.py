@@ -15,7 +15,24 @@ class Finder(CompletionFinder):
     def quote_completions(
         self, completions: list[str], cword_prequote: str, last_wordbreak_pos: int | None
     ) -> list[str]:
-        """Return the words quoted for bash; zsh quotes itself, in the manner of the line."""
+        """
+        Quote words for bash; zsh quotes them itself, in the manner of the line.
+
+        Parameters
+        ----------
+        completions
+            The words that complete the line.
+        cword_prequote
+            The quote with which the word begins on the line, or ''.
+        last_wordbreak_pos
+            Where the shell breaks the word, as argcomplete passes it.
+
+        Returns
+        -------
+        list of str
+            The words as the shell is to receive them.
+
+        """
         is_message = not cword_prequote and all(word.startswith('{') for word in completions)
         if is_message:
             completions = [_between_quotes(word) for word in completions]

@@ -15,44 +15,123 @@ HIDDEN = '/_'
 
 
 def topics(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of the topics."""
+    """
+    List the names of the topics.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; hidden names are listed only if it has a hidden part.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _visible(prefix, graph_names().topics)
 
 
 def nodes(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the full names of the nodes."""
+    """
+    List the full names of the nodes.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; hidden names are listed only if it has a hidden part.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _visible(prefix, graph_names().nodes)
 
 
 def lifecycle_nodes(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the full names of the nodes with a life cycle."""
+    """
+    List the full names of the lifecycle nodes.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; hidden names are listed only if it has a hidden part.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _visible(prefix, _owners(*STATE_SERVICE))
 
 
 def containers(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the full names of the containers of components."""
+    """
+    List the full names of the component containers.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; hidden names are listed only if it has a hidden part.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _visible(prefix, _owners(*LOAD_SERVICE))
 
 
 def services(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of the services."""
+    """
+    List the names of the services.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; hidden names are listed only if it has a hidden part.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _visible(prefix, graph_names().services)
 
 
 def actions(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of the actions, each of which is a hidden service as well."""
+    """
+    List the names of the actions, each of which is a hidden service as well.
+
+    Parameters
+    ----------
+    prefix, args
+        The word so far and the parsed line, neither of which matters.
+
+    """
     names = graph_names().services
     return [name.removesuffix(ACTION_SUFFIX) for name in names if name.endswith(ACTION_SUFFIX)]
 
 
 def types_of_topic(name: str) -> list[str]:
-    """Return the types of a topic; none if nobody uses it."""
-    return graph_names().topics.get(name, [])
+    """
+    Return the types of a topic; none if nobody uses it.
+
+    Parameters
+    ----------
+    name
+        The name of the topic, with or without the slash before it.
+
+    """
+    return graph_names().topics.get(_full(name), [])
 
 
 def types_of_service(name: str) -> list[str]:
-    """Return the types of a service; none if nobody uses it."""
-    return graph_names().services.get(name, [])
+    """
+    Return the types of a service; none if nobody uses it.
+
+    Parameters
+    ----------
+    name
+        The name of the service, with or without the slash before it.
+
+    """
+    return graph_names().services.get(_full(name), [])
+
+
+def _full(name: str) -> str:
+    """Return a name as the graph has it."""
+    return name if name.startswith('/') else f'/{name}'
 
 
 def _owners(suffix: str, service_type: str) -> list[str]:

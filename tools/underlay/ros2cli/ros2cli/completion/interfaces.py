@@ -10,32 +10,86 @@ from ros2interface.api import get_interface_packages, get_interfaces
 
 
 def packages(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the packages that define interfaces."""
+    """
+    List the packages that define interfaces.
+
+    Parameters
+    ----------
+    prefix, args
+        The word so far and the parsed line, neither of which matters.
+
+    """
     return get_interface_packages()
 
 
 def interfaces(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return all types; only the packages as long as none is named, since there are hundreds."""
+    """
+    List the types of messages, services and actions.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; while several packages fit, only their names are listed.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     return _packages_first(prefix, ('msg', 'srv', 'action'))
 
 
 def messages(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the types of messages."""
+    """
+    List the types of messages.
+
+    Parameters
+    ----------
+    prefix, args
+        As for `interfaces`.
+
+    """
     return _packages_first(prefix, ('msg',))
 
 
 def actions(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the types of actions."""
+    """
+    List the types of actions.
+
+    Parameters
+    ----------
+    prefix, args
+        As for `interfaces`.
+
+    """
     return _packages_first(prefix, ('action',))
 
 
 def messages_of_topic(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the types of a topic, or those of all messages if nobody uses it yet."""
+    """
+    List the types of a topic, or those of all messages if nobody uses it yet.
+
+    Parameters
+    ----------
+    prefix
+        The word so far, as for `interfaces`.
+    args : argparse.Namespace
+        The parsed line, with the `topic_name`.
+
+    """
     return types_of_topic(args.topic_name) or messages(prefix, args)
 
 
 def services_of_name(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the types of a service, or those of all services if it is not named."""
+    """
+    List the types of a service, or those of all services if none is named or nobody uses it.
+
+    Parameters
+    ----------
+    prefix
+        The word so far, as for `interfaces`.
+    args : argparse.Namespace
+        The parsed line, with the `service_name` if the verb has one.
+
+    """
     name = getattr(args, 'service_name', None)
     return (types_of_service(name) if name else []) or _packages_first(prefix, ('srv',))
 

@@ -20,7 +20,17 @@ TRUTHS = ('true', 'false')
 
 
 def packages_or_files(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the packages with launch files, or launch files if the word looks like a path."""
+    """
+    List the packages with launch files, or launch files if the word looks like a path.
+
+    Parameters
+    ----------
+    prefix
+        The word so far.
+    args : argparse.Namespace
+        The parsed line, which does not matter.
+
+    """
     if os.sep in prefix or prefix.startswith(('.', '~')):
         return files_of_kind(prefix, FILE_SUFFIXES)
     found = get_packages_with_prefixes()
@@ -30,13 +40,33 @@ def packages_or_files(prefix: str, args: argparse.Namespace) -> list[str]:
 
 
 def launch_files_of_package(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the launch files of a package; none if the word in its place is a file itself."""
+    """
+    List the launch files of a package; none if a file stands in place of the package.
+
+    Parameters
+    ----------
+    prefix
+        The word so far, which does not matter.
+    args : argparse.Namespace
+        The parsed line, with the `package_name`.
+
+    """
     folder = get_packages_with_prefixes().get(args.package_name)
     return launch_files(Path(folder, 'share', args.package_name)) if folder else []
 
 
 def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the arguments of a launch file that have no value yet, or one's values."""
+    """
+    List the launch arguments that have no value yet, or the values of one, as `name:=value`.
+
+    Parameters
+    ----------
+    prefix
+        The word so far; with `:=` in it the values are listed.
+    args : argparse.Namespace
+        The parsed line, with `package_name`, `launch_file_name` and `launch_arguments`.
+
+    """
     target = as_path(args.package_name)
     if args.launch_file_name is None and not os.path.isfile(target):
         return []

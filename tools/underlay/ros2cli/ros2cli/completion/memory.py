@@ -11,9 +11,9 @@ from contextlib import suppress
 import json
 import os
 from pathlib import Path
-import re
 import time
 from typing import Any
+from urllib.parse import quote
 
 from ros2cli.graph.participants import participant_ports
 from ros2cli.graph.reach import read_reach
@@ -22,7 +22,21 @@ REMEMBERED_S = 8.0
 
 
 def recall(subject: str) -> Any:
-    """Return what is known about a subject; None if that is nothing, or too old."""
+    """
+    Read cached data from the file system.
+
+    Parameters
+    ----------
+    subject
+        The key under which `remember` has stored them.
+
+    Returns
+    -------
+    Any
+        The data; None without any, after 8 s, or when participants on this machine have come or
+        gone.
+
+    """
     path = _path(subject)
     try:
         if time.time() - path.stat().st_mtime > REMEMBERED_S:
@@ -34,7 +48,19 @@ def recall(subject: str) -> Any:
 
 
 def remember(subject: str, data: Any) -> None:
-    """Write what is known, in one step, so that a second shell never reads half of it."""
+    """
+    Cache data in the file system; a failure to do so is ignored.
+
+    The file is replaced in one step, so that a second shell never reads half of it.
+
+    Parameters
+    ----------
+    subject
+        The key, such as the name of the service that was called.
+    data
+        What JSON can store, except None.
+
+    """
     path = _path(subject)
     new = path.with_name(f'{path.name}.{os.getpid()}')
     with suppress(OSError):
@@ -52,5 +78,5 @@ def _path(subject: str) -> Path:
     """Return the file for a subject, as seen from this shell."""
     folder = Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser()
     reach = read_reach()
-    name = re.sub(r'\W', '_', f'{reach.domain_id}_{reach.extent}_{subject}')
+    name = quote(f'{reach.domain_id}_{reach.extent}_{subject}', safe='')
     return folder / 'completion' / f'{name}.json'

@@ -10,12 +10,28 @@ from ament_index_python.packages import get_packages_with_prefixes, PackageNotFo
 
 
 def packages(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of all packages."""
+    """
+    List the names of all packages.
+
+    Parameters
+    ----------
+    prefix, args
+        The word so far and the parsed line, neither of which matters.
+
+    """
     return sorted(get_packages_with_prefixes())
 
 
 def packages_with_executables(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of the packages that have something to run."""
+    """
+    List the names of the packages that have executables.
+
+    Parameters
+    ----------
+    prefix, args
+        The word so far and the parsed line, neither of which matters.
+
+    """
     return sorted(
         name
         for name, folder in get_packages_with_prefixes().items()
@@ -24,7 +40,17 @@ def packages_with_executables(prefix: str, args: argparse.Namespace) -> list[str
 
 
 def executables(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of a package's executables."""
+    """
+    List the names of a package's executables.
+
+    Parameters
+    ----------
+    prefix
+        The word so far, which does not matter.
+    args : argparse.Namespace
+        The parsed line, with the `package_name`.
+
+    """
     from ros2pkg.api import get_executable_paths
 
     try:
@@ -35,7 +61,15 @@ def executables(prefix: str, args: argparse.Namespace) -> list[str]:
 
 
 def licenses(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the licences whose text a new package can have."""
+    """
+    List the licences whose text a new package can have.
+
+    Parameters
+    ----------
+    prefix, args
+        The word so far and the parsed line, neither of which matters.
+
+    """
     from ros2pkg.create.licenses import known_licenses
 
     return known_licenses()

@@ -11,7 +11,17 @@ TIMEOUT_S = 1.5
 
 
 def parameters(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the names of the parameters of the node that the command line names."""
+    """
+    List the names of a node's parameters.
+
+    Parameters
+    ----------
+    prefix
+        The word so far, which does not matter.
+    args : argparse.Namespace
+        The parsed line, with the `node_name`.
+
+    """
     service = f'/{args.node_name.lstrip("/")}/list_parameters'
     names: list[str] | None = recall(service)
     if names is None:

@@ -9,7 +9,22 @@ TYPES = ('message_type', 'service_type', 'action_type')
 
 
 def values(prefix: str, args: argparse.Namespace) -> list[str]:
-    """Return the default values of the type that the command line names, on one line."""
+    """
+    Return the default values of an interface as one line of YAML.
+
+    Parameters
+    ----------
+    prefix
+        The word so far, which does not matter.
+    args : argparse.Namespace
+        The parsed line, with the `message_type`, `service_type` or `action_type`.
+
+    Returns
+    -------
+    list of str
+        The line alone; empty if the type is unknown.
+
+    """
     from ros2cli.messages.text import to_yaml
     from ros2interface.api.prototype import create_prototype
 

@@ -70,7 +70,22 @@ NEVER = {  # what is named there is new
 
 
 def find_completer(command: str, argument: str) -> Completer | None:
-    """Return what completes an argument of a command such as `ros2 topic echo`, or None."""
+    """
+    Look up what completes an argument.
+
+    Parameters
+    ----------
+    command
+        The program name of the parser, such as `ros2 topic echo`.
+    argument
+        The `dest` of the argument.
+
+    Returns
+    -------
+    Completer or None
+        Called with the word so far and the parsed line; argcomplete drops words that do not fit.
+
+    """
     if (command, argument) in NEVER:
         return None
     target = OF_COMMAND.get((command, argument)) or OF_ARGUMENT.get(argument)

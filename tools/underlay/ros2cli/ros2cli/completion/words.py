@@ -9,5 +9,13 @@ TRANSITIONS = ('activate', 'cleanup', 'configure', 'deactivate', 'shutdown')
 
 
 def transitions(prefix: str, args: argparse.Namespace) -> tuple[str, ...]:
-    """Return the transitions of a lifecycle node that users ask for."""
+    """
+    List the transitions of a lifecycle node that users request.
+
+    Parameters
+    ----------
+    prefix, args
+        The word so far and the parsed line, neither of which matters.
+
+    """
     return TRANSITIONS

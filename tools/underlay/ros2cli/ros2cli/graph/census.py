@@ -14,10 +14,17 @@ AGAIN_S = 2.0
 
 
 class Census:
-    """The participants of a domain on this machine, as the kernel shows them."""
+    """
+    Counts the DDS participants of a domain on this machine, as the kernel shows them.
+
+    Parameters
+    ----------
+    domain_id
+        The ROS domain ID.
+
+    """
 
     def __init__(self, domain_id: int) -> None:
-        """Know of nobody."""
         self._domain_id = domain_id
         self._sockets: dict[int, str] = {}
         self._since_s: dict[str, float] = {}
@@ -26,11 +33,24 @@ class Census:
 
     def take(self, now_s: float, silent: Collection[Address]) -> dict[Address, str] | None:
         """
-        Return the addresses of participants, ourselves apart; None if they cannot be counted.
+        Count the participants of other processes on this machine.
 
-        With each comes its socket's inode, by which it is told from another at its address.
+        Of those that stay silent for 0.4 s, the sockets of processes that will never answer are
+        left out.
 
-        :param silent: those of the last time who have not answered yet
+        Parameters
+        ----------
+        now_s
+            The present time of a monotonic clock, in s.
+        silent
+            The addresses of the last count that have not answered yet.
+
+        Returns
+        -------
+        dict of Address to str, or None
+            The inode of the socket at each address, which tells a participant from a later one
+            there; None if they cannot be counted.
+
         """
         sockets = participant_sockets(self._domain_id)
         if sockets is None:
@@ -45,7 +65,15 @@ class Census:
         }
 
     def are_stopped(self, silent: Collection[Address]) -> bool:
-        """Tell if those who do not answer are stopped processes, so that waiting is no use."""
+        """
+        Whether those who do not answer are all stopped processes, so that waiting is no use.
+
+        Parameters
+        ----------
+        silent
+            Their addresses; without any the answer is no.
+
+        """
         holders = [self._holders.get(self._sockets.get(port, '')) for _, port in silent]
         return bool(holders) and all(holder and holder.is_stopped for holder in holders)
 

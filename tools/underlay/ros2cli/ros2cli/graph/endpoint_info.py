@@ -38,7 +38,17 @@ TYPE_HASH = re.compile(r'RIHS(\d{2})_([0-9a-f]{64})')
 
 
 def endpoint_info(endpoint: dds.Endpoint, node: NodeEntities | None) -> TopicEndpointInfo:
-    """Return what rclpy says of an endpoint; its node may be unknown."""
+    """
+    Convert an endpoint to the TopicEndpointInfo of rclpy.
+
+    Parameters
+    ----------
+    endpoint
+        The reader or writer, as discovery describes it.
+    node
+        The node that it belongs to; None if that is unknown.
+
+    """
     owner = node or UNKNOWN_NODE
     role = TopicEndpointTypeEnum
     return TopicEndpointInfo(

@@ -17,11 +17,17 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 class Graph:
     """
-    Nodes and endpoints, without those of the command that asks.
+    The graph at one moment, without the command that asks; its methods are those of an rclpy node.
 
-    :param nodes: as their participants tell them
-    :param endpoints: all readers and writers
-    :param elsewhere: the GUID prefixes of the participants on other machines
+    Parameters
+    ----------
+    nodes
+        The nodes with their endpoints, as their participants describe them.
+    endpoints
+        All readers and writers.
+    elsewhere
+        The GUID prefixes (12 bytes) of the participants on other machines.
+
     """
 
     def __init__(
@@ -30,7 +36,6 @@ class Graph:
         endpoints: Iterable[Endpoint],
         elsewhere: Iterable[bytes] = (),
     ) -> None:
-        """Keep what is known."""
         self._elsewhere = frozenset(elsewhere)
         self._nodes = list(nodes)
         self._endpoints = list(endpoints)
@@ -48,47 +53,155 @@ class Graph:
         return _services(self._endpoints, (REQUEST, RESPONSE))
 
     def get_publisher_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
-        """Return the topics that a node publishes."""
+        """
+        Return the topics that a node publishes.
+
+        Parameters
+        ----------
+        name, namespace
+            Of the node, such as `talker` and `/`.
+
+        Returns
+        -------
+        list of tuple
+            Names with their types, sorted.
+
+        """
         return _topics(self._of_node(name, namespace, are_writers=True))
 
     def get_subscriber_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
-        """Return the topics that a node subscribes to."""
+        """
+        Return the topics that a node subscribes to.
+
+        Parameters
+        ----------
+        name, namespace
+            Of the node, such as `talker` and `/`.
+
+        Returns
+        -------
+        list of tuple
+            Names with their types, sorted.
+
+        """
         return _topics(self._of_node(name, namespace, are_writers=False))
 
     def get_service_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
-        """Return the services that a node offers."""
+        """
+        Return the services that a node offers.
+
+        Parameters
+        ----------
+        name, namespace
+            Of the node, such as `talker` and `/`.
+
+        Returns
+        -------
+        list of tuple
+            Names with their types, sorted.
+
+        """
         return _services(self._of_node(name, namespace, are_writers=False), (REQUEST,))
 
     def get_client_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
-        """Return the services that a node calls."""
+        """
+        Return the services that a node has a client of.
+
+        Parameters
+        ----------
+        name, namespace
+            Of the node, such as `talker` and `/`.
+
+        Returns
+        -------
+        list of tuple
+            Names with their types, sorted.
+
+        """
         return _services(self._of_node(name, namespace, are_writers=False), (RESPONSE,))
 
     def count_publishers(self, topic: str) -> int:
-        """Return how many publish to a topic."""
+        """
+        Count the publishers of a topic.
+
+        Parameters
+        ----------
+        topic
+            The full name of the topic.
+
+        """
         return sum(each.is_writer for each in self._ends(TOPIC, topic))
 
     def count_subscribers(self, topic: str) -> int:
-        """Return how many subscribe to a topic."""
+        """
+        Count the subscriptions to a topic.
+
+        Parameters
+        ----------
+        topic
+            The full name of the topic.
+
+        """
         return len(self._readers(TOPIC, topic))
 
     def count_services(self, name: str) -> int:
-        """Return how many offer a service."""
+        """
+        Count the servers of a service.
+
+        Parameters
+        ----------
+        name
+            The full name of the service.
+
+        """
         return len(self._readers(REQUEST, name))
 
     def count_clients(self, name: str) -> int:
-        """Return how many call a service."""
+        """
+        Count the clients of a service.
+
+        Parameters
+        ----------
+        name
+            The full name of the service.
+
+        """
         return len(self._readers(RESPONSE, name))
 
     def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
-        """Return who publishes to a topic, in the class of rclpy."""
+        """
+        Return the publishers of a topic, each as a TopicEndpointInfo of rclpy.
+
+        Parameters
+        ----------
+        topic
+            The full name of the topic.
+
+        """
         return [self._info(each) for each in self._ends(TOPIC, topic) if each.is_writer]
 
     def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
-        """Return who subscribes to a topic, in the class of rclpy."""
+        """
+        Return the subscriptions to a topic, each as a TopicEndpointInfo of rclpy.
+
+        Parameters
+        ----------
+        topic
+            The full name of the topic.
+
+        """
         return [self._info(each) for each in self._readers(TOPIC, topic)]
 
     def is_elsewhere(self, info: Any) -> bool:
-        """Tell if a publisher or subscription is on another machine."""
+        """
+        Whether a publisher or subscription is on another machine.
+
+        Parameters
+        ----------
+        info
+            Its TopicEndpointInfo, from one of the methods above.
+
+        """
         return bytes(info.endpoint_gid[:PREFIX_BYTES]) in self._elsewhere
 
     def _readers(self, kind: str, name: str) -> list[Endpoint]:

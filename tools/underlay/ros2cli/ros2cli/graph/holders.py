@@ -31,9 +31,22 @@ class Holder(NamedTuple):
 
 def find_holders(inodes: Collection[str], proc: str = '/proc') -> dict[str, Holder]:
     """
-    Return the processes that hold sockets; those of other users cannot be found.
+    Find the processes that hold sockets; those of other users cannot be found.
 
     A child that has inherited a socket of a participant counts only if nobody else has it.
+
+    Parameters
+    ----------
+    inodes
+        The inodes of the sockets, in decimal.
+    proc
+        Where procfs is mounted.
+
+    Returns
+    -------
+    dict of str to Holder
+        One process per inode, as far as they are found.
+
     """
     targets = {f'socket:[{inode}]': inode for inode in inodes}
     found: dict[str, Holder] = {}

@@ -29,14 +29,28 @@ MAX_WAITING = 4096
 
 class Link:
     """
-    Carries the datagrams of an observer.
+    The UDP socket of an observer, which carries its datagrams; nobody is asked before `exchange`.
 
-    :ivar observer: what has been heard
-    :ivar can_count: whether it is known how many participants this machine has
+    Parameters
+    ----------
+    reach
+        The domain, and how far discovery goes.
+
+    Attributes
+    ----------
+    observer
+        Collects what is received.
+    can_count
+        Whether it is known how many participants this machine has.
+
+    Raises
+    ------
+    RuntimeError
+        The address of a static peer cannot be found.
+
     """
 
     def __init__(self, reach: Reach) -> None:
-        """Open a socket; nobody is asked yet."""
         self._reach = reach
         self._hosts = _own_hosts(reach)
         self._peers = [_address(peer) for peer in reach.peers]
@@ -64,7 +78,15 @@ class Link:
         self._socket.close()
 
     def exchange(self, *, waits: bool) -> None:
-        """Ask what is to be asked, and hear what has come, or comes until the next question."""
+        """
+        Send the requests that are due, and handle the datagrams that have come.
+
+        Parameters
+        ----------
+        waits
+            Whether to wait, for a datagram or until the next request is due, if none has come.
+
+        """
         if self._reach.extent == OFF:
             return
         now_s = time.monotonic()

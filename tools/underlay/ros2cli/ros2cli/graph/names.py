@@ -29,7 +29,20 @@ class RosName(NamedTuple):
 
 
 def ros_name(topic: str) -> RosName | None:
-    """Return what a topic of DDS is to ROS; None if it does not come from ROS."""
+    """
+    Translate the name of a DDS topic to ROS.
+
+    Parameters
+    ----------
+    topic
+        The name in DDS, such as `rt/chatter`.
+
+    Returns
+    -------
+    RosName or None
+        The name and kind in ROS; None if the topic does not come from ROS.
+
+    """
     kind, slash, rest = topic.partition('/')
     suffix = SUFFIXES.get(kind)
     if suffix is None or not slash or not rest.endswith(suffix):
@@ -38,7 +51,15 @@ def ros_name(topic: str) -> RosName | None:
 
 
 def ros_type(type_name: str) -> str:
-    """Return `pkg/msg/Name` for a type of DDS; what does not come from ROS stays as it is."""
+    """
+    Translate the name of a DDS type to ROS, as `pkg/msg/Name`.
+
+    Parameters
+    ----------
+    type_name
+        The name in DDS; it is returned as it is if it does not come from ROS.
+
+    """
     match = TYPE.fullmatch(type_name)
     if not match:
         return type_name
@@ -46,5 +67,13 @@ def ros_type(type_name: str) -> str:
 
 
 def service_type(type_name: str) -> str:
-    """Return `pkg/srv/Name` for the type of a service's requests or responses."""
+    """
+    Translate the DDS type of a service's requests or responses to ROS, as `pkg/srv/Name`.
+
+    Parameters
+    ----------
+    type_name
+        The name in DDS.
+
+    """
     return PART_OF_SERVICE.sub('', ros_type(type_name))

@@ -18,13 +18,39 @@ INODE_COLUMN = 9
 
 
 def participant_ports(domain_id: int) -> list[int] | None:
-    """Return the discovery ports of other processes' participants; None if it is unknown."""
+    """
+    Return the discovery ports of other processes' participants.
+
+    Parameters
+    ----------
+    domain_id
+        The ROS domain ID.
+
+    Returns
+    -------
+    list of int or None
+        UDP ports, ascending; None if the kernel does not tell.
+
+    """
     sockets = participant_sockets(domain_id)
     return None if sockets is None else list(sockets)
 
 
 def participant_sockets(domain_id: int) -> dict[int, str] | None:
-    """Return these ports with the inodes of their sockets; None if it is unknown."""
+    """
+    Return the discovery ports of other processes' participants with their sockets.
+
+    Parameters
+    ----------
+    domain_id
+        The ROS domain ID.
+
+    Returns
+    -------
+    dict of int to str, or None
+        The inodes of the sockets by UDP port; None if the kernel does not tell.
+
+    """
     try:
         with open('/proc/net/udp', encoding='ascii') as stream:
             rows = stream.readlines()[1:]
@@ -35,7 +61,24 @@ def participant_sockets(domain_id: int) -> dict[int, str] | None:
 
 
 def ports_in_table(rows: Iterable[str], own_inodes: set[str], domain_id: int) -> dict[int, str]:
-    """Return the ports in the kernel's table of UDP sockets, without our own, ascending."""
+    """
+    Find the discovery ports in the kernel's table of UDP sockets.
+
+    Parameters
+    ----------
+    rows
+        The lines of `/proc/net/udp`, without the header.
+    own_inodes
+        The inodes of this process's sockets, which are left out.
+    domain_id
+        The ROS domain ID.
+
+    Returns
+    -------
+    dict of int to str
+        The inodes of the sockets by UDP port, ascending.
+
+    """
     found = {}
     for row in rows:
         columns = row.split()

@@ -37,7 +37,20 @@ class Reach(NamedTuple):
 
 
 def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
-    """Return what the environment says; RuntimeError if it names what cannot be reached."""
+    """
+    Read the domain and the discovery range from environment variables.
+
+    Parameters
+    ----------
+    environment
+        The variables.
+
+    Raises
+    ------
+    RuntimeError
+        The domain ID is not valid, or a discovery server is set, which is not supported.
+
+    """
     if environment.get('ROS_DISCOVERY_SERVER'):
         raise RuntimeError(
             'ROS_DISCOVERY_SERVER is set, but these commands ask the nodes themselves and know '

@@ -29,18 +29,28 @@ INCOMPLETE = (
 
 
 class GraphWatch:
-    """Knows the graph; rclpy is not needed. Use it in a `with` statement, or close it."""
+    """
+    Reads the graph and sees it change, without rclpy; use it in a `with` statement, or close it.
+
+    Parameters
+    ----------
+    spin_time_s
+        How long to wait for those who cannot be counted, that is, nodes on other machines, in s.
+    check
+        Called again and again during each wait; what it raises ends the wait.
+
+    Raises
+    ------
+    RuntimeError
+        The environment variables of discovery are not valid.
+
+    """
 
     def __init__(
         self,
         spin_time_s: float = DEFAULT_SPIN_TIME_S,
         check: Callable[[], object] = lambda: None,
     ) -> None:
-        """
-        Choose how long to wait for those who cannot be counted: nodes on other machines.
-
-        `check` is called again and again during each wait, and may raise what ends it.
-        """
         self._check = check
         self._reach = read_reach()
         self._spin_time_s = spin_time_s
@@ -85,9 +95,20 @@ class GraphWatch:
 
     def settled(self, is_done: Callable[[Graph], object] = lambda _: False) -> Graph:
         """
-        Return the graph when it is complete, or has what is looked for.
+        Wait until the graph is complete, or has what is looked for.
 
-        Who does not answer in time is not waited for a second time.
+        A participant that does not answer in time is not waited for again, and there is a warning.
+
+        Parameters
+        ----------
+        is_done
+            Whether a graph that may be incomplete has what is looked for.
+
+        Returns
+        -------
+        Graph
+            The graph at the end of the wait.
+
         """
         patience = Patience('the answers of all ROS processes on this machine')
         self._exchange(waits=False)
@@ -101,9 +122,20 @@ class GraphWatch:
 
     def settled_with(self, find: Callable[[Graph], object]) -> Graph:
         """
-        Return the complete graph with what is looked for, if that comes within the spin time.
+        Wait for something within the spin time, then until the graph is complete.
 
         So a command finds a node that has been started just before it.
+
+        Parameters
+        ----------
+        find
+            What is looked for in a graph; what is false is not found.
+
+        Returns
+        -------
+        Graph
+            The complete graph, with or without what is looked for.
+
         """
         self.wait_for(find, None, 0.0)
         return self.settled()
@@ -120,9 +152,22 @@ class GraphWatch:
         timeout_s: float = float('inf'),
     ) -> T:
         """
-        Return what is found in the graph in time, or what `find` says of nothing.
+        Wait until something is found in the graph.
 
-        The time is at least the spin time; without patience, nothing is said about the wait.
+        Parameters
+        ----------
+        find
+            What is looked for in a graph; what is false is not found.
+        patience
+            What tells the user about the wait; None says nothing.
+        timeout_s
+            How long to wait in s, but at least the spin time.
+
+        Returns
+        -------
+        T
+            What `find` has returned last, which is false if the time is over.
+
         """
         end_s = time.monotonic() + timeout_s
         found = find(self.settled(find))

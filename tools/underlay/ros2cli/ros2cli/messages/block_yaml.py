@@ -26,7 +26,25 @@ class NeedsPyYaml(Exception):
 
 
 def to_block_yaml(plain: Any) -> str:
-    """Return a mapping, list or scalar as YAML; NeedsPyYaml if it is out of the ordinary."""
+    """
+    Serialize a mapping or list to block YAML.
+
+    Parameters
+    ----------
+    plain
+        Mappings, lists, numbers and texts.
+
+    Returns
+    -------
+    str
+        The lines, each with its newline.
+
+    Raises
+    ------
+    NeedsPyYaml
+        It is neither, is empty, or has a value that only PyYAML writes.
+
+    """
     if isinstance(plain, (dict, list)) and plain:
         return '\n'.join(_lines(plain, '')) + '\n'
     raise NeedsPyYaml
@@ -93,7 +111,17 @@ def _text(text: str) -> str:
 
 
 def dump(plain: Any, *, flow_style: bool) -> str:
-    """Return a plain value as PyYAML writes it, with long lines and all letters kept."""
+    """
+    Serialize a plain value with PyYAML, without wrapping lines or escaping letters.
+
+    Parameters
+    ----------
+    plain
+        Mappings, lists, numbers and texts.
+    flow_style
+        Whether to write it on one line, with braces and brackets.
+
+    """
     text: str = yaml.dump(
         plain,
         Dumper=Dumper,

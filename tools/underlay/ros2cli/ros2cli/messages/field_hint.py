@@ -7,7 +7,15 @@ from ros2cli.suggest import did_you_mean
 
 
 def field_hint(error: Exception) -> str:
-    """Return a question that names the field which is meant, for an AttributeError, or ''."""
+    """
+    Return a question that names the field which is probably meant, or ''.
+
+    Parameters
+    ----------
+    error
+        The error of setting or reading a field; only an AttributeError has a hint.
+
+    """
     fields: dict[str, str] = getattr(
         getattr(error, 'obj', None), 'get_fields_and_field_types', dict[str, str]
     )()

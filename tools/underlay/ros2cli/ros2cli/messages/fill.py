@@ -40,8 +40,28 @@ def fill(message: Any, values: dict[str, Any]) -> list[Stamp]:
     """
     Set the fields of a message.
 
-    Return functions that set those fields to the present time which have the value `auto`, in
-    a header, or `now`. AttributeError, TypeError or ValueError say what is wrong.
+    Parameters
+    ----------
+    message
+        The message, which is changed.
+    values
+        The values by field name, as YAML gives them; `auto` for a header and `now` for a time are
+        stamps.
+
+    Returns
+    -------
+    list of Stamp
+        Functions that set the stamps to a time, a builtin_interfaces/msg/Time.
+
+    Raises
+    ------
+    AttributeError
+        There is no such field.
+    TypeError, ValueError, AssertionError
+        A value does not fit its field.
+    UnknownType
+        The type of an array's elements is not installed.
+
     """
     stamps: list[Stamp] = []
     types = message.get_fields_and_field_types()

@@ -23,12 +23,50 @@ class WrongKind(UnknownType):
 
 
 def get_message(name: str) -> Any:
-    """Return the class of a message, named `package/msg/Type` or `package/Type`."""
+    """
+    Import the class of a message.
+
+    Parameters
+    ----------
+    name
+        `package/msg/Type` or `package/Type`.
+
+    Returns
+    -------
+    Any
+        The class.
+
+    Raises
+    ------
+    UnknownType
+        There is none; WrongKind if the name is that of a service or action.
+
+    """
     return _get_interface(name, 'msg')
 
 
 def get_passed_type(name: str, kind: str) -> Any:
-    """Return the class of a `msg`, `srv` or `action` that the user names, or RuntimeError."""
+    """
+    Import the class of an interface that the user names.
+
+    Parameters
+    ----------
+    name
+        `package/kind/Type` or `package/Type`.
+    kind
+        `msg`, `srv` or `action`.
+
+    Returns
+    -------
+    Any
+        The class.
+
+    Raises
+    ------
+    RuntimeError
+        There is none of this kind.
+
+    """
     try:
         return _get_interface(name, kind)
     except UnknownType as error:
@@ -39,7 +77,15 @@ def get_passed_type(name: str, kind: str) -> Any:
 
 
 def type_name(interface: Any) -> str:
-    """Return `package/msg/Type` for the class of an interface."""
+    """
+    Return the name of an interface, such as `package/msg/Type`.
+
+    Parameters
+    ----------
+    interface
+        Its class.
+
+    """
     package, kind = interface.__module__.split('.')[:2]
     return f'{package}/{kind}/{interface.__name__}'
 

@@ -14,10 +14,26 @@ FIELD_ERROR = 'Failed to populate field: {}'
 
 
 class OutgoingMessage:
-    """A message from the command line, whose time stamps are set anew each time it is sent."""
+    """
+    A message from the command line, whose time stamps are set each time it is sent.
+
+    Parameters
+    ----------
+    message
+        The message, with default values; also an attribute.
+    text
+        The values of its fields in YAML.
+    error_text
+        The error message for values that do not fit, with a placeholder for the reason.
+
+    Raises
+    ------
+    RuntimeError
+        The text is not a YAML mapping, or its values do not fit the message.
+
+    """
 
     def __init__(self, message: Any, text: str, error_text: str = FIELD_ERROR) -> None:
-        """Fill the message from YAML; RuntimeError says what is wrong with the values."""
         self.message = message
         values = parse_values(text)
         try:
@@ -27,7 +43,15 @@ class OutgoingMessage:
             raise RuntimeError('\n'.join(lines).rstrip()) from error
 
     def stamped(self, now: Any) -> Any:
-        """Return the message with the time in all fields that want it."""
+        """
+        Set the time stamps, and return the message.
+
+        Parameters
+        ----------
+        now
+            The time, a builtin_interfaces/msg/Time.
+
+        """
         for stamp in self._stamps:
             stamp(now)
         return self.message

@@ -17,7 +17,24 @@ class Shortening(NamedTuple):
 
 
 def to_plain(value: Any, shortening: Shortening = Shortening(), field_type: str = '') -> Any:
-    """Return a message, or the value of a field, as a plain value in the order of fields."""
+    """
+    Convert a message, or the value of a field, to plain Python values.
+
+    Parameters
+    ----------
+    value
+        The message or value.
+    shortening
+        How long texts and arrays may become.
+    field_type
+        The type of the field, as rosidl names it, such as `sequence<double>`.
+
+    Returns
+    -------
+    Any
+        Mappings in the order of the fields, lists, numbers and texts.
+
+    """
     if hasattr(value, 'get_fields_and_field_types'):
         return {
             name: to_plain(getattr(value, name), shortening, field_type)
@@ -61,7 +78,15 @@ def _array_summary(length: int, field_type: str) -> str:
 
 
 def element_type(field_type: str) -> str:
-    """Return `double` for `sequence<double>`, `sequence<double, 3>` and `double[3]`."""
+    """
+    Return the type of the elements of an array or sequence, such as `double`.
+
+    Parameters
+    ----------
+    field_type
+        The type of the field, such as `sequence<double>`, `sequence<double, 3>` or `double[3]`.
+
+    """
     if field_type.startswith('sequence<'):
         inner = field_type.removeprefix('sequence<').removesuffix('>')
         return inner.rpartition(', ')[0] if inner.rpartition(', ')[2].isdigit() else inner

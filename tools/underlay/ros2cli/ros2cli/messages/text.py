@@ -11,12 +11,34 @@ from ros2cli.messages.plain import Shortening, to_plain
 
 
 def to_yaml(value: Any, shortening: Shortening = Shortening(), *, flow_style: bool = False) -> str:
-    """Return a message as YAML, one field a line unless flow style is wanted."""
+    """
+    Serialize a message to YAML.
+
+    Parameters
+    ----------
+    value
+        The message.
+    shortening
+        How long texts and arrays may become.
+    flow_style
+        Whether to write it on one line instead of one field per line.
+
+    """
     return plain_to_yaml(to_plain(value, shortening), flow_style=flow_style)
 
 
 def plain_to_yaml(plain: Any, *, flow_style: bool = False) -> str:
-    """Return plain values as YAML, in the fast way where that is possible."""
+    """
+    Serialize plain values to YAML, without PyYAML where that is possible.
+
+    Parameters
+    ----------
+    plain
+        Mappings, lists, numbers and texts.
+    flow_style
+        Whether to write it on one line.
+
+    """
     if flow_style:
         return dump(plain, flow_style=True)
     try:
@@ -26,12 +48,30 @@ def plain_to_yaml(plain: Any, *, flow_style: bool = False) -> str:
 
 
 def to_csv(value: Any, shortening: Shortening = Shortening()) -> str:
-    """Return the values of all fields, depth first, with commas between them."""
+    """
+    Serialize the values of all fields of a message, depth first, with commas between them.
+
+    Parameters
+    ----------
+    value
+        The message.
+    shortening
+        How long texts and arrays may become.
+
+    """
     return plain_to_csv(to_plain(value, shortening))
 
 
 def plain_to_csv(plain: Any) -> str:
-    """Return plain values, depth first, with commas between them."""
+    """
+    Serialize plain values, depth first, with commas between them.
+
+    Parameters
+    ----------
+    plain
+        Mappings, lists, numbers and texts; nothing is quoted.
+
+    """
     return ','.join(str(leaf) for leaf in _leaves(plain))
 
 

@@ -23,7 +23,25 @@ _DEEPEST = 20
 
 
 def parse_values(text: str) -> dict[str, Any]:
-    """Return the mapping that a text in YAML stands for; RuntimeError if it is none."""
+    """
+    Parse the values of a message's fields.
+
+    Parameters
+    ----------
+    text
+        YAML, such as `{linear: {x: 0.3}}`.
+
+    Returns
+    -------
+    dict
+        The values by field name; empty for an empty text.
+
+    Raises
+    ------
+    RuntimeError
+        The text is not YAML, or not a mapping.
+
+    """
     try:
         return _Simple(text).mapping()
     except _NotSimple:

@@ -8,7 +8,17 @@ import sys
 
 
 def add_values_arguments(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the values in YAML, or the choice to read them from standard input."""
+    """
+    Add the argument for values in YAML, and the option to read them from standard input.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        What is filled, for the help, such as `goal`.
+
+    """
     source = parser.add_mutually_exclusive_group()
     source.add_argument(
         'values',
@@ -20,7 +30,20 @@ def add_values_arguments(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def values_text(args: argparse.Namespace) -> str:
-    """Return the values that were given on the command line or on standard input."""
+    """
+    Return the values in YAML, from the command line or standard input.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_values_arguments`.
+
+    Raises
+    ------
+    RuntimeError
+        Standard input is closed, or is not text.
+
+    """
     text: str = _read_stdin() if args.stdin else args.values
     return text
 

@@ -10,7 +10,15 @@ from ros2cli.graph import DEFAULT_SPIN_TIME_S
 
 
 def add_node_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options for discovery and time."""
+    """
+    Add the options for discovery and simulated time.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '--spin-time',
         type=positive_number,
@@ -25,7 +33,15 @@ def add_node_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of verbs that read the graph."""
+    """
+    Add the options of verbs that read the graph.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     add_node_arguments(parser)
     parser.add_argument(
         '--no-daemon',
@@ -35,7 +51,15 @@ def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_hidden_nodes_argument(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of hidden nodes."""
+    """
+    Add the option to consider hidden nodes.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
     )

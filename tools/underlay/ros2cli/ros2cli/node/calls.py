@@ -12,7 +12,31 @@ CONNECTION_TIMEOUT_S = 5.0
 
 
 def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = float('inf')) -> Any:
-    """Return what a call returns; RuntimeError if the service disappears or time is over."""
+    """
+    Wait for the response to a service call.
+
+    Parameters
+    ----------
+    node
+        The node to spin meanwhile.
+    client
+        The client of the service.
+    future
+        The future of the call.
+    timeout_s
+        How long to wait at most, in s.
+
+    Returns
+    -------
+    Any
+        The response.
+
+    Raises
+    ------
+    RuntimeError
+        The service goes away, or does not answer in time.
+
+    """
     name = client.srv_name
 
     def is_over() -> bool:
@@ -28,7 +52,33 @@ def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = fl
 def call(
     node: Any, service_type: Any, name: str, request: Any, timeout_s: float = float('inf')
 ) -> Any:
-    """Call a service of a node that is there, and return its response."""
+    """
+    Call a service of a node that is known to exist.
+
+    Parameters
+    ----------
+    node
+        The node that calls it, and that is spun meanwhile.
+    service_type
+        The class of the service.
+    name
+        The full name of the service.
+    request
+        The request.
+    timeout_s
+        How long to wait for the response, in s; the connection may take another 5 s.
+
+    Returns
+    -------
+    Any
+        The response.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, goes away, or does not answer in time.
+
+    """
     client = node.create_client(service_type, name)
     try:
         patience = Patience(f"the service '{name}'")

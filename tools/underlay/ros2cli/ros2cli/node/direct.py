@@ -28,7 +28,26 @@ __all__ = ['DirectNode', 'add_arguments']
 
 
 class DirectNode:
-    """A hidden node in a `with` statement; its attributes are those of the rclpy node."""
+    """
+    An rclpy node that exists inside a `with` statement; its attributes are those of the node.
+
+    rclpy is initialized on entry and shut down on exit.
+
+    Parameters
+    ----------
+    args : argparse.Namespace | None
+        The options of `add_node_arguments`; None, or what is left out, is the default.
+    node_name
+        The name of the node; by default a hidden one with the process ID.
+    survives_interrupt
+        Whether the node outlives Ctrl-C, so that there is time for some last words.
+
+    Attributes
+    ----------
+    node, executor
+        The rclpy node, and the executor that spins it, inside the `with` statement.
+
+    """
 
     def __init__(
         self,
@@ -37,11 +56,6 @@ class DirectNode:
         node_name: str | None = None,
         survives_interrupt: bool = False,
     ) -> None:
-        """
-        Keep the options of the command line; nothing happens before the `with`.
-
-        Ctrl-C ends the node at once, unless it is to survive that for some last words.
-        """
         self._spin_time_s: float = getattr(args, 'spin_time', DEFAULT_SPIN_TIME_S)
         self._watch: GraphWatch | None = None
         self._use_sim_time: bool = getattr(args, 'use_sim_time', False)
@@ -81,7 +95,15 @@ class DirectNode:
         return self.watch.settled()
 
     def spin_once(self, timeout_s: float) -> None:
-        """Do the work that is due, and wait for it if there is none."""
+        """
+        Execute a callback that is ready, or wait for one.
+
+        Parameters
+        ----------
+        timeout_s
+            How long to wait at most, in s.
+
+        """
         self.executor.spin_once(timeout_sec=timeout_s)
 
     def __getattr__(self, name: str) -> Any:

@@ -11,7 +11,29 @@ from ros2node.api import get_node_names
 
 
 def find_node(watch: GraphWatch, name: str, timeout_s: float = 0.0) -> str:
-    """Return the full name of a node that is there in time, or RuntimeError."""
+    """
+    Find a node by its name, and wait for it if it is not there yet.
+
+    Parameters
+    ----------
+    watch
+        The graph.
+    name
+        The name that the user has written, with or without the leading slash.
+    timeout_s
+        How long to wait in s, but at least the spin time of the watch.
+
+    Returns
+    -------
+    str
+        The full name of the node.
+
+    Raises
+    ------
+    RuntimeError
+        There is no such node in time; the message suggests a similar name.
+
+    """
     full_name = name if name.startswith('/') else f'/{name}'
 
     def is_known(graph: Graph) -> bool:
@@ -24,7 +46,17 @@ def find_node(watch: GraphWatch, name: str, timeout_s: float = 0.0) -> str:
 
 
 def known_nodes(graph: Graph, *, include_hidden_nodes: bool = True) -> list[str]:
-    """Return the full names of all nodes, each once, sorted."""
+    """
+    Return the full names of all nodes, each once, sorted.
+
+    Parameters
+    ----------
+    graph
+        The graph.
+    include_hidden_nodes
+        Whether to return hidden nodes as well.
+
+    """
     names = get_node_names(node=graph, include_hidden_nodes=include_hidden_nodes)
     return sorted({name.full_name for name in names})
 
@@ -32,7 +64,21 @@ def known_nodes(graph: Graph, *, include_hidden_nodes: bool = True) -> list[str]
 def nodes_with_service(
     graph: Graph, suffix: str, service_type: str, *, include_hidden_nodes: bool
 ) -> list[str]:
-    """Return the nodes that offer a service of this type under their own name."""
+    """
+    Return the full names of the nodes that offer a service under their own name, sorted.
+
+    Parameters
+    ----------
+    graph
+        The graph.
+    suffix
+        The name of the service below that of the node, such as `/get_state`.
+    service_type
+        The type of the service, such as `lifecycle_msgs/srv/GetState`.
+    include_hidden_nodes
+        Whether to return hidden nodes as well.
+
+    """
     services = dict(graph.get_service_names_and_types())
     return [
         name

@@ -19,9 +19,20 @@ def NodeStrategy(  # noqa: N802
     args: argparse.Namespace, find: Callable[[Graph], object] = lambda _: True
 ) -> Iterator[Graph]:
     """
-    Yield the complete graph; the name is the one that extensions know.
+    Yield the complete graph, in a `with` statement; the name is the one that extensions know.
 
-    What `find` does not find at once is waited for during the spin time.
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_strategy_arguments`.
+    find
+        What is looked for in a graph; it is waited for during the spin time.
+
+    Yields
+    ------
+    Graph
+        The graph, which stays as it is.
+
     """
     with GraphWatch(args.spin_time) as watch:
         graph = watch.settled_with(find)

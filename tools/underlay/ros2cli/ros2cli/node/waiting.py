@@ -18,7 +18,26 @@ def wait_until(
     patience: Patience | None,
     timeout_s: float = float('inf'),
 ) -> bool:
-    """Spin until something is true or the time is over, with or without a word about it."""
+    """
+    Spin a node until a condition is true.
+
+    Parameters
+    ----------
+    node
+        The node.
+    is_true
+        The condition, which is looked at between callbacks.
+    patience
+        What tells the user about the wait; None says nothing.
+    timeout_s
+        How long to wait at most, in s.
+
+    Returns
+    -------
+    bool
+        Whether it became true in time.
+
+    """
     end = time.monotonic() + timeout_s
     while not is_true():
         if time.monotonic() > end:
@@ -30,7 +49,17 @@ def wait_until(
 
 
 def spin_until(node: Any, end_s: float) -> None:
-    """Do the work that is due until a moment of the monotonic clock; look at it at least once."""
+    """
+    Spin a node until a moment, at least once.
+
+    Parameters
+    ----------
+    node
+        The node.
+    end_s
+        The moment, in s of the monotonic clock.
+
+    """
     while True:
         left_s = end_s - time.monotonic()
         node.spin_once(max(0.0, left_s))

@@ -55,7 +55,20 @@ class Endpoint(NamedTuple):
 
 
 def guid_of(parameters: Parameters) -> bytes:
-    """Return the identity of an endpoint, from its description or only its key."""
+    """
+    Return the GUID (16 bytes) of an endpoint.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The description of the endpoint, or only its key.
+
+    Raises
+    ------
+    ValueError
+        There is no GUID, or it is damaged.
+
+    """
     raw = parameters.first(PID_ENDPOINT_GUID) or parameters.first(PID_KEY_HASH)
     if len(raw) != GUID_BYTES:
         raise ValueError('an endpoint without identity')
@@ -63,7 +76,22 @@ def guid_of(parameters: Parameters) -> bytes:
 
 
 def endpoint_of(parameters: Parameters, *, is_writer: bool) -> Endpoint:
-    """Return an endpoint; what it leaves away has the default of DDS."""
+    """
+    Decode an endpoint; what it leaves out has the default of DDS.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The description of the endpoint.
+    is_writer
+        Whether it is a writer, whose default reliability is another than that of a reader.
+
+    Raises
+    ------
+    ValueError
+        The description is damaged.
+
+    """
     reliability = RELIABLE if is_writer else BEST_EFFORT
     return Endpoint(
         guid_of(parameters),

@@ -24,7 +24,25 @@ class NodeEntities(NamedTuple):
 
 
 def decode_entities(payload: bytes) -> tuple[NodeEntities, ...]:
-    """Read a rmw_dds_common/msg/ParticipantEntitiesInfo; ValueError if it is damaged."""
+    """
+    Decode a rmw_dds_common/msg/ParticipantEntitiesInfo.
+
+    Parameters
+    ----------
+    payload
+        The serialized message (CDR), with its encapsulation header.
+
+    Returns
+    -------
+    tuple of NodeEntities
+        The nodes of the participant with their endpoints.
+
+    Raises
+    ------
+    ValueError
+        The message is damaged.
+
+    """
     try:
         cursor = _Cursor(payload)
         return tuple(cursor.node() for _ in range(cursor.length()))

@@ -20,7 +20,26 @@ class Fragments:
         self._missing = 0
 
     def add(self, fragment: Fragment) -> Data | None:
-        """Return the whole sample if this was the last part that was missing."""
+        """
+        Add a fragment, and reassemble the sample when it is complete.
+
+        Parameters
+        ----------
+        fragment
+            A part of a sample; that of another sample than the last drops the parts of the last
+            one.
+
+        Returns
+        -------
+        Data or None
+            The whole sample if this was the last part that was missing.
+
+        Raises
+        ------
+        ValueError
+            The sample is said to be larger than 16 MiB.
+
+        """
         if fragment.size > MAX_SAMPLE_BYTES:
             raise ValueError(f'a sample of {fragment.size} bytes')
         if fragment.number != self._number:

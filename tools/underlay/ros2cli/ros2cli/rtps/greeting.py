@@ -59,7 +59,17 @@ def new_prefix() -> bytes:
 
 
 def greeting(prefix: bytes, addresses: Sequence[Address]) -> bytes:
-    """Return the datagram that makes a participant tell us about itself."""
+    """
+    Return the datagram that makes a participant describe itself to us.
+
+    Parameters
+    ----------
+    prefix
+        Our GUID prefix (12 bytes).
+    addresses
+        The addresses of our socket, as others reach it.
+
+    """
     return message(
         prefix,
         data(UNKNOWN_ENTITY, PARTICIPANTS_WRITER, 1, _participant(prefix, addresses)),
@@ -69,7 +79,15 @@ def greeting(prefix: bytes, addresses: Sequence[Address]) -> bytes:
 
 
 def farewell(prefix: bytes) -> bytes:
-    """Return the datagram that makes a participant forget us."""
+    """
+    Return the datagram that makes a participant forget us.
+
+    Parameters
+    ----------
+    prefix
+        Our GUID prefix (12 bytes).
+
+    """
     guid = prefix + PARTICIPANT
     qos = encode_inline([(PID_KEY_HASH, guid), (PID_STATUS_INFO, DISPOSED)])
     key = encode_parameters([(PID_PARTICIPANT_GUID, guid)])

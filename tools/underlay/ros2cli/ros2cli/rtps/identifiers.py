@@ -48,11 +48,27 @@ MAX_PARTICIPANTS = 120
 
 
 def multicast_port(domain_id: int) -> int:
-    """Return the port on which all participants of a domain hear."""
+    """
+    Return the UDP port on which all participants of a domain listen to multicast.
+
+    Parameters
+    ----------
+    domain_id
+        The ROS domain ID.
+
+    """
     return PORT_BASE + PORTS_PER_DOMAIN * domain_id
 
 
 def unicast_ports(domain_id: int) -> range:
-    """Return the ports that the participants of a domain take for discovery, in turn."""
+    """
+    Return the UDP ports that the participants of a domain take for discovery, in turn.
+
+    Parameters
+    ----------
+    domain_id
+        The ROS domain ID.
+
+    """
     first = multicast_port(domain_id) + FIRST_UNICAST_PORT
     return range(first, first + 2 * MAX_PARTICIPANTS, 2)

@@ -23,30 +23,88 @@ FINAL = 0b0010
 
 
 def message(own_prefix: bytes, *parts: bytes) -> bytes:
-    """Return a datagram of submessages."""
+    """
+    Build a datagram from submessages.
+
+    Parameters
+    ----------
+    own_prefix
+        Our GUID prefix (12 bytes).
+    *parts
+        The submessages.
+
+    """
     return b''.join((MAGIC, PROTOCOL_VERSION, VENDOR_UNKNOWN, own_prefix, *parts))
 
 
 def info_destination(prefix: bytes) -> bytes:
-    """Say for whom the submessages that follow are."""
+    """
+    Build an INFO_DST submessage, which says for whom the submessages that follow are.
+
+    Parameters
+    ----------
+    prefix
+        The GUID prefix (12 bytes) of the receiver.
+
+    """
     return _submessage(INFO_DESTINATION, 0, prefix)
 
 
 def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: bytes = b'') -> bytes:
-    """Return a sample; with `key_qos`, inline parameters, the payload is only the key."""
+    """
+    Build a DATA submessage, which carries a sample.
+
+    Parameters
+    ----------
+    reader, writer
+        The entity IDs (4 bytes each) of both ends.
+    number
+        The sequence number of the sample.
+    payload
+        The serialized sample, with its encapsulation header.
+    key_qos
+        Inline parameters; with them the payload is only the key.
+
+    """
     flags = INLINE_QOS | KEY if key_qos else PAYLOAD
     ends = struct.pack('<HH', 0, 16) + reader + writer
     return _submessage(DATA, flags, ends + _sequence_number(number) + key_qos + payload)
 
 
 def heartbeat(reader: bytes, writer: bytes, first: int, last: int, count: int) -> bytes:
-    """Tell a reader which sequence numbers there are, and ask what it lacks."""
+    """
+    Build a HEARTBEAT submessage, which announces samples and asks what the reader lacks.
+
+    Parameters
+    ----------
+    reader, writer
+        The entity IDs (4 bytes each) of both ends.
+    first, last
+        The sequence numbers that the writer has.
+    count
+        The number of this heartbeat, by which a repetition is recognized.
+
+    """
     numbers = _sequence_number(first) + _sequence_number(last)
     return _submessage(HEARTBEAT, 0, reader + writer + numbers + struct.pack('<I', count))
 
 
 def acknack(reader: bytes, writer: bytes, base: int, missing: list[int], count: int) -> bytes:
-    """Tell a writer that all before `base` has come; ask for what is missing, if anything is."""
+    """
+    Build an ACKNACK submessage, which acknowledges samples and requests those that are missing.
+
+    Parameters
+    ----------
+    reader, writer
+        The entity IDs (4 bytes each) of both ends.
+    base
+        All samples before this sequence number have come; 0 asks for a heartbeat only.
+    missing
+        The sequence numbers to request, from `base` on; those 256 or more after it are left out.
+    count
+        The number of this message, by which a repetition is recognized.
+
+    """
     flags = 0 if missing or not base else FINAL
     wanted = [number - base for number in missing if number - base < MAX_NUMBERS]
     size = max(wanted) + 1 if wanted else 0

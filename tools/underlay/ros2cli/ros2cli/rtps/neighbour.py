@@ -26,20 +26,35 @@ MAX_PATIENCE_S = 0.5
 
 class Neighbour:
     """
-    One participant; it makes and reads datagrams, but neither sends nor receives any.
+    Another participant; it makes and reads datagrams, but neither sends nor receives any.
 
-    :param own_prefix: of our GUIDs
-    :param prefix: of its GUIDs
-    :param discovery: where it hears about participants and endpoints
-    :param user: where it hears about messages
-    :ivar heard_s: when it said something
-    :ivar lease_s: how long it may be silent, before others have to take it for lost
+    Parameters
+    ----------
+    own_prefix
+        Our GUID prefix (12 bytes).
+    prefix
+        The participant's GUID prefix (12 bytes).
+    discovery
+        Where it hears about participants and endpoints.
+    user
+        Where it hears about messages.
+
+    Attributes
+    ----------
+    heard_s
+        When it said something last, in s of the observer's clock.
+    lease_s
+        How long it may be silent before others have to take it for lost, in s.
+    endpoints
+        The readers and writers that it has described, by GUID.
+    nodes
+        The nodes that it has described.
+
     """
 
     def __init__(
         self, own_prefix: bytes, prefix: bytes, discovery: Address, user: Address
     ) -> None:
-        """Know nothing but the addresses."""
         self.prefix = prefix
         self.discovery = discovery
         self.heard_s = 0.0
@@ -77,7 +92,20 @@ class Neighbour:
         return float('inf') if self._is_acknowledged else self._ask_again_s
 
     def handle(self, news: Submessage) -> None:
-        """Take in what it says; ValueError if that is damaged."""
+        """
+        Take in a submessage from this participant.
+
+        Parameters
+        ----------
+        news
+            The submessage.
+
+        Raises
+        ------
+        ValueError
+            The sample in it is damaged.
+
+        """
         stream = self._stream(news)
         if stream is None:
             return
@@ -96,9 +124,20 @@ class Neighbour:
 
     def requests(self, now_s: float) -> Iterator[tuple[bytes, Address]]:
         """
-        Yield the datagrams that ask for what is missing, and whereto.
+        Build the datagrams that request what is missing.
 
         Each time it takes longer until the next request; when all is there, it is acknowledged.
+
+        Parameters
+        ----------
+        now_s
+            The present time, in s of the observer's clock.
+
+        Yields
+        ------
+        tuple of bytes and Address
+            A datagram, and where to send it.
+
         """
         self._is_acknowledged = self.is_complete
         self._ask_again_s = now_s + self._patience_s

@@ -29,16 +29,20 @@ NEVER_S = float('-inf')
 
 class Observer:
     """
-    Gathers what the participants of a domain tell; its `send` is the only way out.
+    Collects what the participants of a domain tell about themselves.
 
-    :param addresses: of our own socket, as others reach it
-    :param send: sends a datagram to an address
+    Parameters
+    ----------
+    addresses
+        Of our own socket, as others reach it.
+    send
+        Sends a datagram to an address; it is the only way out.
+
     """
 
     def __init__(
         self, addresses: Sequence[Address], send: Callable[[bytes, Address], None]
     ) -> None:
-        """Know nobody."""
         self._prefix = new_prefix()
         self._greeting = greeting(self._prefix, addresses)
         self._send = send
@@ -78,9 +82,13 @@ class Observer:
 
     def expect(self, present: Mapping[Address, str]) -> None:
         """
-        Set who there is on this machine, ourselves apart; who has left is forgotten.
+        Set which participants there are on this machine; those that have left are forgotten.
 
-        :param present: where they hear, and by what one is told from the next at its address
+        Parameters
+        ----------
+        present
+            Where they listen, without ourselves, each with what tells it from a later one there.
+
         """
         before, self._expected = self._expected, dict(present)
         stayed = {address for address in present if present[address] == before.get(address)}
@@ -94,11 +102,27 @@ class Observer:
         }
 
     def greet(self, address: Address) -> None:
-        """Ask whoever hears at an address to tell about itself."""
+        """
+        Ask whoever listens at an address to describe itself.
+
+        Parameters
+        ----------
+        address
+            The host and UDP port, of a participant or of the multicast group.
+
+        """
         self._send(self._greeting, address)
 
     def ask(self, now_s: float) -> None:
-        """Send what is due: the next greeting, questions, and signs of life."""
+        """
+        Send what is due: the next greeting, requests, and signs of life.
+
+        Parameters
+        ----------
+        now_s
+            The present time of a monotonic clock, in s.
+
+        """
         self._now_s = now_s
         self._forget_lost()
         for address, greeted_s in self._silent.items():
@@ -118,7 +142,17 @@ class Observer:
                 self.greet(neighbour.discovery)
 
     def handle(self, datagram: bytes, host: str) -> None:
-        """Take in a datagram from a host; damaged ones are as good as lost."""
+        """
+        Take in a datagram; a damaged one is as good as lost.
+
+        Parameters
+        ----------
+        datagram
+            The datagram as it was received.
+        host
+            The IP address of the sender; THIS_HOST if it is on this machine.
+
+        """
         prefix = sender(datagram)
         if prefix is None or prefix == self._prefix or datagram == self._latest:
             return

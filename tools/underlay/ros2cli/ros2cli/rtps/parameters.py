@@ -28,15 +28,49 @@ class Parameters(NamedTuple):
     order: str
 
     def first(self, identifier: int) -> bytes:
-        """Return a value, or nothing."""
+        """
+        Return the first value of a parameter, or nothing.
+
+        Parameters
+        ----------
+        identifier
+            The parameter ID.
+
+        """
         return self.values.get(identifier, [NO_PARAMETER])[0]
 
     def text(self, identifier: int) -> str:
-        """Return a string, or ''."""
+        """
+        Decode a string parameter; '' if it is not there.
+
+        Parameters
+        ----------
+        identifier
+            The parameter ID.
+
+        Raises
+        ------
+        ValueError
+            The value is damaged.
+
+        """
         return text_of(self.octets(identifier))
 
     def octets(self, identifier: int) -> bytes:
-        """Return a sequence of bytes, or nothing."""
+        """
+        Decode a parameter that is a sequence of bytes; empty if it is not there.
+
+        Parameters
+        ----------
+        identifier
+            The parameter ID.
+
+        Raises
+        ------
+        ValueError
+            The value is damaged.
+
+        """
         raw = self.first(identifier)
         if not raw:
             return b''
@@ -44,7 +78,22 @@ class Parameters(NamedTuple):
         return raw[4:][:size]
 
     def number(self, identifier: int, default: int) -> int:
-        """Return an enumerator."""
+        """
+        Decode a parameter that is an enumerator.
+
+        Parameters
+        ----------
+        identifier
+            The parameter ID.
+        default
+            What is returned if it is not there.
+
+        Raises
+        ------
+        ValueError
+            The value is damaged.
+
+        """
         raw = self.first(identifier)
         if not raw:
             return default
@@ -52,7 +101,27 @@ class Parameters(NamedTuple):
         return number
 
     def duration_ns(self, identifier: int, offset: int = 0) -> int:
-        """Return a duration; it is infinite if it is not there."""
+        """
+        Decode a parameter that is a duration.
+
+        Parameters
+        ----------
+        identifier
+            The parameter ID.
+        offset
+            Where the duration begins in the value, in bytes.
+
+        Returns
+        -------
+        int
+            Nanoseconds; INFINITE_NS if it is infinite or not there.
+
+        Raises
+        ------
+        ValueError
+            The value is damaged.
+
+        """
         raw = self.first(identifier)
         if not raw:
             return INFINITE_NS
@@ -62,7 +131,20 @@ class Parameters(NamedTuple):
         return seconds * 10**9 + round(fraction * 10**9 / 2**32)
 
     def ports(self, identifier: int) -> list[int]:
-        """Return the UDP ports of locators."""
+        """
+        Decode the UDP ports of locators; those of other transports are left out.
+
+        Parameters
+        ----------
+        identifier
+            The parameter ID.
+
+        Raises
+        ------
+        ValueError
+            A value is damaged.
+
+        """
         found = [self._unpack('iI', raw) for raw in self.values.get(identifier, [])]
         return [port for kind, port in found if kind == UDP_V4 and 0 < port <= MAX_PORT]
 
@@ -74,7 +156,20 @@ class Parameters(NamedTuple):
 
 
 def decode_parameters(payload: bytes) -> Parameters:
-    """Read a list with its encapsulation header; ValueError if it is damaged."""
+    """
+    Decode a list of parameters with its encapsulation header.
+
+    Parameters
+    ----------
+    payload
+        The serialized list.
+
+    Raises
+    ------
+    ValueError
+        The list is damaged.
+
+    """
     order = '<' if payload[1:2] in (b'\x01', b'\x03') else '>'
     try:
         return read_parameters(payload, 4, order)[0]
@@ -83,7 +178,29 @@ def decode_parameters(payload: bytes) -> Parameters:
 
 
 def read_parameters(data: bytes, offset: int, order: str) -> tuple[Parameters, int]:
-    """Read a list from an offset on; return where it ends, too."""
+    """
+    Decode a list of parameters in the middle of other data.
+
+    Parameters
+    ----------
+    data
+        The bytes that have the list.
+    offset
+        Where it begins.
+    order
+        The byte order in the notation of struct, `<` or `>`.
+
+    Returns
+    -------
+    tuple of Parameters and int
+        The list, and the offset at which it ends.
+
+    Raises
+    ------
+    struct.error
+        The list is cut off.
+
+    """
     values: dict[int, list[bytes]] = {}
     while True:
         kind, length = struct.unpack_from(f'{order}HH', data, offset)
@@ -95,12 +212,28 @@ def read_parameters(data: bytes, offset: int, order: str) -> tuple[Parameters, i
 
 
 def encode_parameters(parameters: Iterable[tuple[int, bytes]]) -> bytes:
-    """Return a list with its encapsulation header."""
+    """
+    Encode a list of parameters with its encapsulation header.
+
+    Parameters
+    ----------
+    parameters : Iterable[tuple[int, bytes]]
+        Pairs of parameter ID and value.
+
+    """
     return PL_CDR_LE + encode_inline(parameters)
 
 
 def encode_inline(parameters: Iterable[tuple[int, bytes]]) -> bytes:
-    """Return a list as it stands in front of a payload."""
+    """
+    Encode a list of parameters as it stands in front of a payload.
+
+    Parameters
+    ----------
+    parameters : Iterable[tuple[int, bytes]]
+        Pairs of parameter ID and value.
+
+    """
     return b''.join(_parameter(*each) for each in (*parameters, (PID_SENTINEL, b'')))
 
 
@@ -110,22 +243,54 @@ def _parameter(identifier: int, value: bytes) -> bytes:
 
 
 def text_value(text: str) -> bytes:
-    """Return a string as a value."""
+    """
+    Encode a string as the value of a parameter.
+
+    Parameters
+    ----------
+    text
+        The string.
+
+    """
     raw = text.encode() + b'\0'
     return struct.pack('<I', len(raw)) + raw
 
 
 def number_value(number: int) -> bytes:
-    """Return an enumerator or a set of bits as a value."""
+    """
+    Encode an enumerator or a set of bits as the value of a parameter.
+
+    Parameters
+    ----------
+    number
+        An unsigned number of 32 bits.
+
+    """
     return struct.pack('<I', number)
 
 
 def duration_value(seconds: int) -> bytes:
-    """Return a duration as a value."""
+    """
+    Encode a duration as the value of a parameter.
+
+    Parameters
+    ----------
+    seconds
+        Whole seconds.
+
+    """
     return struct.pack('<iI', seconds, 0)
 
 
 def locator_value(address: Address) -> bytes:
-    """Return a UDP address as a value."""
+    """
+    Encode a UDPv4 locator as the value of a parameter.
+
+    Parameters
+    ----------
+    address
+        The IPv4 address and the port.
+
+    """
     host, port = address
     return struct.pack('<iI', UDP_V4, port) + bytes(12) + socket.inet_aton(host)

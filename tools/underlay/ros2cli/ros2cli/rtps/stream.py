@@ -13,10 +13,24 @@ MAX_AHEAD = 10_000  # samples that are kept in mind behind one that is missing
 
 
 class Stream:
-    """The reading end of a reliable writer."""
+    """
+    The reading end of a reliable writer: which samples have come, and which are missing.
+
+    Parameters
+    ----------
+    reader
+        Our entity ID (4 bytes).
+    writer
+        The entity ID (4 bytes) of the writer; also an attribute.
+
+    Attributes
+    ----------
+    fragments
+        What reassembles samples that are too large for one datagram.
+
+    """
 
     def __init__(self, reader: bytes, writer: bytes) -> None:
-        """Know nothing yet of what the writer has."""
         self.writer = writer
         self.fragments = Fragments()
         self._reader = reader
@@ -42,23 +56,60 @@ class Stream:
         return not self.is_complete and self._next > self._requested > 0
 
     def on_heartbeat(self, first: int, last: int) -> bool:
-        """Learn which sequence numbers there are; return whether that asks for more."""
+        """
+        Take in which sequence numbers the writer has.
+
+        Parameters
+        ----------
+        first, last
+            The least and the greatest sequence number; what is before the first will never come.
+
+        Returns
+        -------
+        bool
+            Whether there are new samples to request.
+
+        """
         is_news = self._last is None or last > self._last
         self._last = max(last, self._last or 0)
         self._advance(first)
         return is_news and not self.is_complete
 
     def wants(self, number: int) -> bool:
-        """Tell if a sample has not come yet; most come twice."""
+        """
+        Whether a sample has not come yet; most come twice.
+
+        Parameters
+        ----------
+        number
+            Its sequence number.
+
+        """
         return self._next <= number < self._next + MAX_AHEAD and number not in self._ahead
 
     def settle(self, numbers: Iterable[int]) -> None:
-        """Note what has come, or will never come."""
+        """
+        Mark samples that have come, or will never come.
+
+        Parameters
+        ----------
+        numbers
+            Their sequence numbers.
+
+        """
         self._ahead.update(number for number in numbers if self.wants(number))
         self._advance(self._next)
 
     def skip(self, start: int, end: int) -> None:
-        """Note that nothing will ever come from a number to before another."""
+        """
+        Mark a range of samples that will never come.
+
+        Parameters
+        ----------
+        start, end
+            The first sequence number, and that after the last.
+
+        """
         if start <= self._next:
             self._advance(end)
         else:

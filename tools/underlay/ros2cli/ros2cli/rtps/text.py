@@ -5,7 +5,15 @@ from __future__ import annotations
 
 
 def text_of(raw: bytes) -> str:
-    """Return a string; what would make a terminal do something is only shown."""
+    """
+    Decode a string from the network; control characters are escaped, to protect the terminal.
+
+    Parameters
+    ----------
+    raw
+        UTF-8, with or without zeros at the end.
+
+    """
     text = raw.rstrip(b'\0').decode('utf-8', 'backslashreplace')
     if text.isprintable():
         return text

@@ -74,14 +74,42 @@ Submessage = Data | Fragment | Heartbeat | Gap
 
 
 def sender(datagram: bytes) -> bytes | None:
-    """Return the GUID prefix of who sent a datagram; None if it is not one of RTPS."""
+    """
+    Return the GUID prefix (12 bytes) of a datagram's sender; None if it is not RTPS.
+
+    Parameters
+    ----------
+    datagram
+        The datagram as it was received.
+
+    """
     if len(datagram) < HEADER_BYTES or not datagram.startswith(MAGIC):
         return None
     return datagram[:HEADER_BYTES][-PREFIX_BYTES:]
 
 
 def submessages(datagram: bytes, own_prefix: bytes) -> Iterator[Submessage]:
-    """Yield what a datagram tells us; ValueError if it is damaged."""
+    """
+    Decode the submessages of a datagram that are meant for us and tell about the graph.
+
+    Parameters
+    ----------
+    datagram
+        The datagram, of which `sender` says that it is RTPS.
+    own_prefix
+        Our GUID prefix (12 bytes).
+
+    Yields
+    ------
+    Submessage
+        Samples, fragments, heartbeats and gaps, in their order.
+
+    Raises
+    ------
+    ValueError
+        The datagram is damaged.
+
+    """
     try:
         yield from _submessages(datagram, own_prefix)
     except (struct.error, IndexError) as error:

@@ -36,12 +36,40 @@ class Component(NamedTuple):
 
 
 def get_containers(graph: Graph) -> list[str]:
-    """Return the full names of all container nodes, sorted."""
+    """
+    Return the full names of all component containers, sorted.
+
+    Parameters
+    ----------
+    graph
+        The graph; a container is a node that offers the service `_container/list_nodes`.
+
+    """
     return nodes_with_service(graph, f'{SERVICE}/list_nodes', LIST_TYPE, include_hidden_nodes=True)
 
 
 def find_container(watch: GraphWatch, name: str) -> str:
-    """Return the full name of a container that is there, or RuntimeError."""
+    """
+    Find a component container by its name.
+
+    Parameters
+    ----------
+    watch
+        The graph, which is waited for as long as the spin time if the container is not in it yet.
+    name
+        The name that the user has written, with or without the leading slash.
+
+    Returns
+    -------
+    str
+        The full name of the container.
+
+    Raises
+    ------
+    RuntimeError
+        There is no such container; the message suggests a similar name.
+
+    """
     full_name = name if name.startswith('/') else f'/{name}'
     known = get_containers(watch.settled_with(lambda graph: full_name in get_containers(graph)))
     if full_name not in known:
@@ -51,7 +79,29 @@ def find_container(watch: GraphWatch, name: str) -> str:
 
 
 def get_components(node: Any, container: str, timeout_s: float) -> list[Component]:
-    """Return the components in a container."""
+    """
+    List the components in a container, through its service `_container/list_nodes`.
+
+    Parameters
+    ----------
+    node
+        The node that calls the service.
+    container
+        The full name of the container.
+    timeout_s
+        How long to wait for the response, in s.
+
+    Returns
+    -------
+    list of Component
+        In the order of the response.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect or does not answer in time, or its types are not installed.
+
+    """
     service = container_services().ListNodes
     response = call(
         node, service, f'{container}{SERVICE}/list_nodes', service.Request(), timeout_s
@@ -62,7 +112,29 @@ def get_components(node: Any, container: str, timeout_s: float) -> list[Componen
 
 
 def load_component(node: Any, container: str, args: argparse.Namespace) -> Component:
-    """Load a component as the command line says; RuntimeError has the container's reason."""
+    """
+    Load a component into a container, through its service `_container/load_node`.
+
+    Parameters
+    ----------
+    node
+        The node that calls the service.
+    container
+        The full name of the container.
+    args : argparse.Namespace
+        The options of `add_load_arguments`: what to load, with which name and parameters.
+
+    Returns
+    -------
+    Component
+        The unique ID that the container has given the component, and its full node name.
+
+    Raises
+    ------
+    RuntimeError
+        The container rejects the request, goes away, or does not connect.
+
+    """
     service = container_services().LoadNode
     request = service.Request(
         package_name=args.package_name,
@@ -81,7 +153,29 @@ def load_component(node: Any, container: str, args: argparse.Namespace) -> Compo
 
 
 def unload_component(node: Any, container: str, uid: int) -> str:
-    """Unload a component; return '' or why the container does not."""
+    """
+    Unload a component from a container, through its service `_container/unload_node`.
+
+    Parameters
+    ----------
+    node
+        The node that calls the service.
+    container
+        The full name of the container.
+    uid
+        The unique ID of the component in the container.
+
+    Returns
+    -------
+    str
+        '' if the component is unloaded, else the reason that the container gives.
+
+    Raises
+    ------
+    RuntimeError
+        The container goes away or does not connect.
+
+    """
     service = container_services().UnloadNode
     request = service.Request(unique_id=uid)
     response = call(node, service, f'{container}{SERVICE}/unload_node', request)

@@ -16,7 +16,20 @@ def get_component_packages() -> list[str]:
 
 
 def get_component_types(package: str) -> list[str]:
-    """Return the components of a package, in the order in which it registers them."""
+    """
+    List the components that a package registers in the ament index.
+
+    Parameters
+    ----------
+    package
+        The name of the package.
+
+    Returns
+    -------
+    list of str
+        The class names, in the order of registration; empty if the package registers none.
+
+    """
     try:
         content, _ = get_resource(RESOURCE, package)
     except LookupError:

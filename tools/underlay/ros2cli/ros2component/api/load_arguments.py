@@ -9,7 +9,15 @@ LOG_LEVELS = {'unset': 0, 'debug': 10, 'info': 20, 'warn': 30, 'error': 40, 'fat
 
 
 def add_load_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the component, its name and its parameters."""
+    """
+    Add the arguments that say which component to load, with which name and parameters.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     add = parser.add_argument
     add('package_name', help='Package name where the component is to be found')
     add('plugin_name', help='Type name of the component to be loaded')

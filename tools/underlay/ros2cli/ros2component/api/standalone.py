@@ -22,7 +22,27 @@ END_TIMEOUT_S = 5.0
 
 
 def run_standalone(args: argparse.Namespace) -> int:
-    """Start a container, load the component into it, and return the container's exit status."""
+    """
+    Start a container, load one component into it, and wait until the container ends.
+
+    The container is terminated when this returns or raises, and killed after another 5 s.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_load_arguments` and of a node, and `container_node_name`.
+
+    Returns
+    -------
+    int
+        The exit status of the container; negative if a signal has ended it.
+
+    Raises
+    ------
+    RuntimeError
+        There is no executable of a container, it ends early, or it rejects the component.
+
+    """
     with _container_process(args.container_node_name) as process:
         _load(process, args)
         return process.wait()

@@ -12,13 +12,34 @@ class TypesVerb(VerbExtension):
     """Output a list of components registered in the ament index."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the package."""
+        """
+        Add the package, which is optional.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         parser.add_argument(
             'package_name', nargs='?', help='Package name to list component types from'
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the components of one package, or of all under the names of the packages."""
+        """
+        Print the components of one package, or those of all packages below the package names.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            An error message if the named package registers no component.
+
+        """
         from ros2component.api.index import get_component_packages, get_component_types
 
         if args.package_name is not None:

@@ -17,7 +17,15 @@ class ListVerb(VerbExtension):
     """Output a list of running containers and components."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the container and the choice of components."""
+        """
+        Add the container, which is optional, and the option to list containers only.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'container_node_name', nargs='?', help='Container node name to list components from'
@@ -27,7 +35,20 @@ class ListVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the containers, each with the components in it."""
+        """
+        Print the containers, each with its components below it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Raises
+        ------
+        RuntimeError
+            The named container does not exist.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2component.api import find_container, get_containers
 

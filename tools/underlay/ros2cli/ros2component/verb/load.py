@@ -14,7 +14,15 @@ class LoadVerb(VerbExtension):
     """Load a component into a container node."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the container and the component."""
+        """
+        Add the container and what to load into it.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'container_node_name', help='Container node name to load component into'
@@ -25,7 +33,20 @@ class LoadVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Load the component and print its number and name."""
+        """
+        Load a component into a container, and print its unique ID and name.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Raises
+        ------
+        RuntimeError
+            The container does not exist, or rejects the component.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2component.api import find_container, load_component
 

@@ -17,7 +17,15 @@ class StandaloneVerb(VerbExtension):
     """Run a component into its own standalone container node."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the container's name and the component."""
+        """
+        Add the container's name and what to load into it.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             '-c',
@@ -29,7 +37,20 @@ class StandaloneVerb(VerbExtension):
         add_load_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Start a container, load the component, and stay until the container ends."""
+        """
+        Start a container, load a component into it, and stay until the container ends.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            The exit status of the container.
+
+        """
         from ros2component.api.standalone import run_standalone
 
         return run_standalone(args)

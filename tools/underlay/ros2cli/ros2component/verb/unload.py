@@ -15,7 +15,15 @@ class UnloadVerb(VerbExtension):
     """Unload a component from a container node."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the container and the numbers of the components."""
+        """
+        Add the container and the unique IDs of the components.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'container_node_name', help='Container node name to unload component from'
@@ -31,7 +39,20 @@ class UnloadVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Unload the components one by one; the status is 1 if one of them stays."""
+        """
+        Unload components from a container one by one, and go on if one of them stays.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        Returns
+        -------
+        int or str or None
+            0, or 1 if the container has not unloaded all of them.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2component.api import find_container, unload_component
 

@@ -18,6 +18,14 @@ class AnswerVerb(VerbExtension):
     """A verb that can only say that there is no daemon, and why nothing is lost."""
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the answer; that is no error, so that scripts go on."""
+        """
+        Print that there is no daemon, which is no error, so that scripts go on.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line, as for `VerbExtension.main`.
+
+        """
         print(ANSWER)
         return None

@@ -12,7 +12,15 @@ class StartVerb(AnswerVerb):
     """Start the daemon if it is not running."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the option of a daemon, which changes nothing here."""
+        """
+        Add the option `--debug`, which has no effect.
+
+        Parameters
+        ----------
+        parser, cli_name
+            As for `VerbExtension.add_arguments`.
+
+        """
         parser.add_argument(
             '-d', '--debug', action='store_true', help='accepted for compatibility'
         )

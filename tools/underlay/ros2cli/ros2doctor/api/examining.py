@@ -15,7 +15,22 @@ from ros2doctor.api.table import CHECK_GROUP, CHECKS, REPORT_GROUP, REPORTS, WOR
 
 
 def examine(*, include_warnings: bool, exclude_packages: bool) -> set[str]:
-    """Run the checks and print what they find and their sum; return the failed categories."""
+    """
+    Run the checks and print their findings and a summary.
+
+    Parameters
+    ----------
+    include_warnings
+        Whether a check that finds warnings only counts as failed, too.
+    exclude_packages
+        Whether the check of the workspace's packages is left out.
+
+    Returns
+    -------
+    set of str
+        The categories of the checks that failed.
+
+    """
     failed, failures, total = run_checks(
         include_warnings=include_warnings, exclude_packages=exclude_packages
     )
@@ -30,7 +45,22 @@ def examine(*, include_warnings: bool, exclude_packages: bool) -> set[str]:
 def run_checks(
     *, include_warnings: bool = False, exclude_packages: bool = False
 ) -> tuple[set[str], int, int]:
-    """Run the checks; return the failed categories, the failures and the number of checks."""
+    """
+    Run the checks and print the findings of each as soon as it is done.
+
+    A check that raises an exception counts as failed and does not keep the others from running.
+
+    Parameters
+    ----------
+    include_warnings, exclude_packages
+        As for `examine`.
+
+    Returns
+    -------
+    tuple
+        The categories of the checks that failed, how many checks failed, and how many there were.
+
+    """
     failed: set[str] = set()
     failures = total = 0
     for check in _load(CHECKS, CHECK_GROUP, exclude_packages):
@@ -46,7 +76,17 @@ def run_checks(
 def print_reports(
     *, categories: Collection[str] | None = None, exclude_packages: bool = False
 ) -> None:
-    """Print the reports of some categories; without a choice all, with what the checks find."""
+    """
+    Print the reports of some categories, or all of them and then the findings of the checks.
+
+    Parameters
+    ----------
+    categories
+        The categories to print, without running the checks; None for everything.
+    exclude_packages
+        Whether the report and the check of the workspace's packages are left out.
+
+    """
     for report in generate_reports(categories=categories, exclude_packages=exclude_packages):
         format_print(report)
     if categories is None:
@@ -57,7 +97,22 @@ def print_reports(
 def generate_reports(
     *, categories: Collection[str] | None = None, exclude_packages: bool = False
 ) -> Iterator[Report]:
-    """Yield the reports of some categories, or all."""
+    """
+    Generate the reports of some categories, or all.
+
+    Parameters
+    ----------
+    categories
+        The categories to report; None for all.
+    exclude_packages
+        Whether the report of the workspace's packages is left out.
+
+    Yields
+    ------
+    Report
+        A section; where its report raises an exception, one that names the exception.
+
+    """
     for report in _load(REPORTS, REPORT_GROUP, exclude_packages):
         if categories is None or report.category() in categories:
             yield _section(report)

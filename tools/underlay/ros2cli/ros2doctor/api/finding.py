@@ -31,10 +31,17 @@ class Finding(NamedTuple):
 
 
 class Result:
-    """All that a check has found."""
+    """
+    The findings of a check.
+
+    Parameters
+    ----------
+    findings
+        What the check has found so far; an iterator is read to its end at once.
+
+    """
 
     def __init__(self, findings: Iterable[Finding] = ()) -> None:
-        """Begin with some findings."""
         self.findings = list(findings)
 
     @property
@@ -48,11 +55,31 @@ class Result:
         return self._count(Severity.WARNING)
 
     def add_error(self, error_msg: str, why: str = '', mend: str = '') -> None:
-        """Add something that does not work."""
+        """
+        Add a finding about something that does not work.
+
+        Parameters
+        ----------
+        error_msg
+            What is wrong, in one sentence.
+        why
+            What does not work because of it.
+        mend
+            The command, or the change, that fixes it.
+
+        """
         self.findings.append(Finding(Severity.ERROR, error_msg, why, mend))
 
     def add_warning(self, warn_msg: str, why: str = '', mend: str = '') -> None:
-        """Add something that may cause trouble."""
+        """
+        Add a finding about something that may cause trouble.
+
+        Parameters
+        ----------
+        warn_msg, why, mend
+            As for `add_error`.
+
+        """
         self.findings.append(Finding(Severity.WARNING, warn_msg, why, mend))
 
     def _count(self, severity: Severity) -> int:

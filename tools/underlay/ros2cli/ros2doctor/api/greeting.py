@@ -20,7 +20,20 @@ Sources = Counter[str]
 
 
 def greet(node: Any, args: argparse.Namespace) -> None:
-    """Greet for ever, or until one table is printed; each period prints who was heard in it."""
+    """
+    Exchange greetings with other hosts, by topic and by multicast, and print who was heard.
+
+    Each print period ends with a table of the greetings received in it.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that publishes and subscribes to the topic.
+    args : argparse.Namespace
+        The options `topic`, `ttl`, `emit_period` and `print_period` (s), and `once`, which ends
+        this after the first table.
+
+    """
     name = f'{socket.gethostname()}/{os.getpid()}'
     by_topic: Sources = Counter()
     by_multicast: Sources = Counter()
@@ -39,7 +52,24 @@ def greet(node: Any, args: argparse.Namespace) -> None:
 
 
 def table(topic: str, by_topic: Sources, by_multicast: Sources, own: str) -> str:
-    """Return how many greetings of each process came by both ways; the own ones are marked."""
+    """
+    Format a table of how many greetings of each process came by topic and by multicast.
+
+    Parameters
+    ----------
+    topic
+        The name of the topic, which heads its column.
+    by_topic, by_multicast
+        Number of greetings received each way, by name of the sender (`host/pid`).
+    own
+        The name of this process, whose row is marked, and is there even if nothing was heard.
+
+    Returns
+    -------
+    str
+        The table, with an empty line at the end.
+
+    """
     names = sorted({own, *by_topic, *by_multicast})
     width = max(map(len, names)) + len(' (this process)')
     way = f'{GROUP}:{PORT}'
@@ -52,10 +82,28 @@ def table(topic: str, by_topic: Sources, by_multicast: Sources, own: str) -> str
 
 
 class MulticastGroup:
-    """The group that all hosts greet, in a `with` statement."""
+    """
+    Member of the multicast group that all hosts greet, to be used in a `with` statement.
+
+    Parameters
+    ----------
+    ttl
+        Time to live of the packets sent (0 to 255): with 1 they stay in this network, and each
+        router that they are to pass takes one more.
+
+    Attributes
+    ----------
+    error
+        Why the group could not be joined, or a greeting not be sent; None if nothing has failed.
+
+    Raises
+    ------
+    OSError
+        The TTL is out of range, or another program has the port to itself.
+
+    """
 
     def __init__(self, ttl: int) -> None:
-        """Join the group; OSError if this machine has no multicast."""
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         set_option = self._socket.setsockopt
         set_option(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -82,7 +130,15 @@ class MulticastGroup:
         self._socket.close()
 
     def send(self, name: str) -> None:
-        """Greet all hosts; without a network nobody hears it."""
+        """
+        Send a greeting to all hosts of the group; an error is kept in `error`, not raised.
+
+        Parameters
+        ----------
+        name
+            The name of the sender (`host/pid`), which is the whole greeting.
+
+        """
         try:
             self._socket.sendto(name.encode(), (GROUP, PORT))
         except OSError as error:

@@ -5,13 +5,35 @@ from __future__ import annotations
 
 
 class Report:
-    """A title with named items."""
+    """
+    A section of the report: a title with named items.
+
+    Parameters
+    ----------
+    name
+        The title.
+
+    Attributes
+    ----------
+    items
+        The lines in their order, each a name and a text.
+
+    """
 
     def __init__(self, name: str) -> None:
-        """Begin an empty section."""
         self.name = name
         self.items: list[tuple[str, str]] = []
 
     def add_to_report(self, item_name: str, item_info: object) -> None:
-        """Add a line."""
+        """
+        Add a line to the section.
+
+        Parameters
+        ----------
+        item_name
+            What stands on the left; several lines may have the same name.
+        item_info
+            What stands on the right, converted by `str`.
+
+        """
         self.items.append((item_name, str(item_info)))

@@ -24,7 +24,22 @@ class ClientLibraryCheck(DoctorCheck):
 
 
 def client_library_findings(why_not: str, install_again: str) -> Iterator[Finding]:
-    """Yield why rclpy does not start, if it does not."""
+    """
+    Report an error if rclpy does not start.
+
+    Parameters
+    ----------
+    why_not
+        The reason, as `why_rclpy_does_not_start` gives it; '' if rclpy starts.
+    install_again
+        The command that installs the wheels again, which the finding suggests.
+
+    Yields
+    ------
+    Finding
+        At most one.
+
+    """
     if why_not:
         yield Finding(
             Severity.ERROR,

@@ -18,12 +18,38 @@ class ClockCheck(GraphCheck):
         return 'clock'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield the nodes whose time stands still."""
+        """
+        Check for nodes whose time stands still because nobody publishes /clock.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `without_clock` is examined.
+
+        Yields
+        ------
+        Finding
+            At most one error.
+
+        """
         yield from clock_findings(graph.without_clock)
 
 
 def clock_findings(nodes: Collection[str]) -> Iterator[Finding]:
-    """Yield one finding on all nodes that wait for a /clock that nobody publishes."""
+    """
+    Report one error about all nodes that wait for a /clock that nobody publishes.
+
+    Parameters
+    ----------
+    nodes
+        Full names of the nodes.
+
+    Yields
+    ------
+    Finding
+        The error; nothing without nodes.
+
+    """
     if nodes:
         yield Finding(
             Severity.ERROR,

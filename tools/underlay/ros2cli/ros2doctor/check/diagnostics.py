@@ -19,12 +19,38 @@ class DiagnosticsCheck(GraphCheck):
         return 'diagnostics'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield what nodes complain of."""
+        """
+        Check what nodes report on the diagnostics topics.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `complaints` are examined.
+
+        Yields
+        ------
+        Finding
+            One for each component that is not OK.
+
+        """
         yield from diagnostics_findings(graph.complaints)
 
 
 def diagnostics_findings(complaints: Iterable[Complaint]) -> Iterator[Finding]:
-    """Yield one finding for each part of a robot that is not all right."""
+    """
+    Report each component of a robot whose diagnostic status is not OK.
+
+    Parameters
+    ----------
+    complaints
+        The newest status of each component whose level is WARN or worse.
+
+    Yields
+    ------
+    Finding
+        A warning for the level WARN, an error for all that are worse.
+
+    """
     for each in complaints:
         yield Finding(
             Severity.WARNING if each.level == WARN else Severity.ERROR,

@@ -30,7 +30,22 @@ class EnvironmentCheck(DoctorCheck):
 
 
 def environment_findings(facts: Environment) -> Iterator[Finding]:
-    """Yield what is wrong with an environment."""
+    """
+    Report what is wrong with the environment variables and programs of a shell.
+
+    Where no ROS 2 environment is sourced, what depends on one is not examined.
+
+    Parameters
+    ----------
+    facts
+        The environment, as `read_environment` gives it.
+
+    Yields
+    ------
+    Finding
+        An error or a warning each.
+
+    """
     yield from _python(facts)
     yield from _current_folder(facts)
     if not facts.folders('AMENT_PREFIX_PATH'):

@@ -28,7 +28,20 @@ class FramesCheck(GraphCheck):
         return 'frames'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield what keeps transforms from being looked up."""
+        """
+        Check for what keeps transforms from being looked up.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `transforms` and `without_clock` are examined.
+
+        Yields
+        ------
+        Finding
+            As for `frame_findings`.
+
+        """
         yield from frame_findings(graph.transforms, bool(graph.without_clock))
 
 
@@ -36,9 +49,21 @@ def frame_findings(
     transforms: Iterable[Transform], waits_for_clock: bool = False
 ) -> Iterator[Finding]:
     """
-    Yield what is wrong with the trees that some transforms make.
+    Report what is wrong with the trees of frames that some transforms form.
 
-    :param waits_for_clock: whether nodes wait for a /clock, and may publish no transforms thus
+    Parameters
+    ----------
+    transforms
+        The edges of all trees; those of different topics form different trees.
+    waits_for_clock
+        Whether nodes wait for a /clock, and therefore may not publish their transforms.
+
+    Yields
+    ------
+    Finding
+        An error for a frame with several parents, or for frames that hang on no root; a warning
+        where the frames of one topic have several roots.
+
     """
     trees: dict[str, Parents] = defaultdict(lambda: defaultdict(set))
     for transform in transforms:
@@ -50,12 +75,26 @@ def frame_findings(
         if len(found) > 1 and not doubtful:
             mend = AFTER_CLOCK if waits_for_clock else _joining(topic, found)
             yield _two_roots(topic, found, mend)
-        elif not found:
-            yield _loop(topic, parents)
+        circling = set(parents) - _below(found, parents)
+        if circling and not doubtful:
+            yield _loop(topic, circling)
 
 
 def roots(parents: Parents) -> list[str]:
-    """Return the frames that have no parent, those of the world first, then by name."""
+    """
+    List the root frames: those that are a parent and have none.
+
+    Parameters
+    ----------
+    parents
+        The parents of each frame that has any, by child.
+
+    Returns
+    -------
+    list of str
+        The frames of the world first, in the order of REP 105, then the others by name.
+
+    """
     above = {parent for each in parents.values() for parent in each}
     return sorted(above - set(parents), key=_rank)
 
@@ -108,10 +147,20 @@ def _publish_command(topic: str, parent: str, child: str) -> str:
     )
 
 
-def _loop(topic: str, parents: Parents) -> Finding:
+def _below(found: list[str], parents: Parents) -> set[str]:
+    """Return the frames that hang on the roots of their tree."""
+    below: set[str] = set()
+    more = set(found)
+    while more:
+        below |= more
+        more = {child for child, above in parents.items() if above & below} - below
+    return below
+
+
+def _loop(topic: str, frames: set[str]) -> Finding:
     return Finding(
         Severity.ERROR,
-        f"on '{topic}', the frames go round in a circle: {', '.join(sorted(parents))}",
+        f"on '{topic}', the frames go round in a circle: {', '.join(sorted(frames))}",
         'no transform between them can be looked up',
         f'stop one of the nodes that publish them: ros2 topic info --verbose {topic}',
     )

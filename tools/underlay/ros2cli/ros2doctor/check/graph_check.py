@@ -21,5 +21,23 @@ class GraphCheck(DoctorCheck):
         return Result(self.findings(read_graph()))
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield what is wrong with a graph."""
+        """
+        Check the graph of the running nodes.
+
+        Parameters
+        ----------
+        graph
+            All that is known of the running nodes, which `read_graph` reads once for all checks.
+
+        Yields
+        ------
+        Finding
+            What is wrong.
+
+        Raises
+        ------
+        NotImplementedError
+            A subclass does not override it.
+
+        """
         raise NotImplementedError(f'{type(self).__name__} does not implement findings()')

@@ -31,7 +31,20 @@ class GraphicsCheck(DoctorCheck):
 
 
 def graphics_findings(facts: Graphics) -> Iterator[Finding]:
-    """Yield what keeps a simulator from drawing."""
+    """
+    Report what keeps a simulator from rendering, or makes it slow.
+
+    Parameters
+    ----------
+    facts
+        The OpenGL libraries, drivers and devices, as `read_graphics` gives them.
+
+    Yields
+    ------
+    Finding
+        A warning each, since simulation works without rendering.
+
+    """
     if not any(facts.libraries.values()):
         yield Finding(
             Severity.WARNING,

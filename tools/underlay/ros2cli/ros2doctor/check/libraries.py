@@ -25,7 +25,23 @@ class LibrariesCheck(DoctorCheck):
 
 
 def library_findings(facts: Libraries, set_up: str) -> Iterator[Finding]:
-    """Yield what is wrong with a library path."""
+    """
+    Report what is wrong with LD_LIBRARY_PATH.
+
+    Parameters
+    ----------
+    facts
+        The folders of the path, as `read_libraries` gives them.
+    set_up
+        The command that sets up a new terminal, which findings suggest.
+
+    Yields
+    ------
+    Finding
+        An error where libraries of the wheels are not found, or those of another ROS come first; a
+        warning where a folder replaces libraries of the system.
+
+    """
     names = [os.path.realpath(folder.path) for folder in facts.search]
     own = os.path.realpath(facts.own)
     if facts.set_by_shell and own not in names:

@@ -12,7 +12,21 @@ from ros2doctor.facts.network import Network
 
 
 def multicast_findings(facts: Network) -> Iterator[Finding]:
-    """Yield the interfaces on which multicast does not work; on none at all is an error."""
+    """
+    Report the network interfaces on which multicast does not work.
+
+    Parameters
+    ----------
+    facts
+        The interfaces and the result of the multicast test on each.
+
+    Yields
+    ------
+    Finding
+        One error if no interface delivers multicast, else a warning for each one that does not
+        (other than the loopback), and one for a missing route.
+
+    """
     tried = [each for each in facts.interfaces if each.name in facts.multicast]
     deaf = [each for each in tried if facts.multicast[each.name]]
     if tried and len(deaf) == len(tried):
@@ -27,7 +41,20 @@ def multicast_findings(facts: Network) -> Iterator[Finding]:
 
 
 def multicast_state(error: OSError | None) -> str:
-    """Return in a few words whether multicast works."""
+    """
+    Describe in a few words whether multicast works.
+
+    Parameters
+    ----------
+    error
+        What `multicast_error` returned: None if multicast works, TimeoutError if nothing arrives.
+
+    Returns
+    -------
+    str
+        The words, in lower case and without a period.
+
+    """
     if error is None:
         return 'multicast works'
     reason = 'packets do not arrive' if isinstance(error, TimeoutError) else error.strerror

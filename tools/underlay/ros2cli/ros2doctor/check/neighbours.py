@@ -21,7 +21,20 @@ class NeighboursCheck(GraphCheck):
         return 'neighbours'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield the nodes of other machines, if this one has not chosen a domain."""
+        """
+        Check for nodes of other machines in the default domain.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `elsewhere` and `domain_id` are examined.
+
+        Yields
+        ------
+        Finding
+            At most one warning, which names all these nodes.
+
+        """
         if graph.elsewhere and graph.domain_id == DEFAULT_DOMAIN:
             yield Finding(
                 Severity.WARNING,

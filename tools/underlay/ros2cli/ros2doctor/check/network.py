@@ -34,7 +34,23 @@ class NetworkCheck(DoctorCheck):
 
 
 def network_findings(facts: Network) -> Iterator[Finding]:
-    """Yield what keeps nodes from finding each other."""
+    """
+    Report what keeps nodes from discovering each other, or messages from arriving.
+
+    Discovery range, static peers, domain, interfaces, multicast, DDS profile and shared memory are
+    examined.
+
+    Parameters
+    ----------
+    facts
+        The configuration of the network, as `read_network` gives it.
+
+    Yields
+    ------
+    Finding
+        An error or a warning each.
+
+    """
     yield from _range(facts)
     yield from _peers(facts)
     yield from _domain(facts)
@@ -44,12 +60,38 @@ def network_findings(facts: Network) -> Iterator[Finding]:
 
 
 def discovery_range(facts: Network) -> str:
-    """Return how far nodes look for others."""
+    """
+    Get the discovery range that nodes use, SUBNET by default.
+
+    Parameters
+    ----------
+    facts
+        The network, of whose variables ROS_AUTOMATIC_DISCOVERY_RANGE is read.
+
+    Returns
+    -------
+    str
+        The value as it was set, which may be none of those that ROS knows.
+
+    """
     return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '') or SUBNET
 
 
 def who_reaches(facts: Network) -> str:
-    """Return who reaches the nodes that are started here."""
+    """
+    Describe which machines reach the nodes that are started here.
+
+    Parameters
+    ----------
+    facts
+        The network, whose discovery range and DDS profile decide.
+
+    Returns
+    -------
+    str
+        A phrase such as `this machine only`.
+
+    """
     profile = facts.variables.get(PROFILES_VARIABLE, '')
     extent = discovery_range(facts)
     if extent == OFF:

@@ -24,13 +24,39 @@ class NodesCheck(GraphCheck):
         return 'nodes'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield the names that several nodes have, and namespaces without effect."""
+        """
+        Check for duplicate node names and for namespaces without effect.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `nodes` and `endpoints` are examined.
+
+        Yields
+        ------
+        Finding
+            A warning each.
+
+        """
         yield from name_findings(graph.nodes)
         yield from namespace_findings(graph.endpoints)
 
 
 def name_findings(names: Iterable[str]) -> Iterator[Finding]:
-    """Yield the names that are there several times."""
+    """
+    Report duplicate node names.
+
+    Parameters
+    ----------
+    names
+        Full names, each as often as there are nodes of that name.
+
+    Yields
+    ------
+    Finding
+        One warning for each name that several nodes have.
+
+    """
     for name, count in sorted(Counter(names).items()):
         last = name.rpartition('/')[2]
         if count > 1:
@@ -45,7 +71,22 @@ def name_findings(names: Iterable[str]) -> Iterator[Finding]:
 
 
 def namespace_findings(endpoints: Iterable[Endpoint]) -> Iterator[Finding]:
-    """Yield the topics that nodes of one name, in several namespaces, publish together."""
+    """
+    Report absolute topic names on which nodes of several namespaces publish together.
+
+    Topics that robots share on purpose, such as /tf and /clock, are not counted.
+
+    Parameters
+    ----------
+    endpoints
+        The publishers and subscriptions of all nodes; only publishers matter.
+
+    Yields
+    ------
+    Finding
+        One warning for each topic and name of a node (without its namespace).
+
+    """
     namespaces: dict[tuple[str, str], set[str]] = defaultdict(set)
     for each in endpoints:
         namespace, _, name = each.node.rpartition('/')

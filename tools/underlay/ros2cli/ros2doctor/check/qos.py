@@ -22,19 +22,60 @@ class QosCheck(GraphCheck):
         return 'qos'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield the pairs between which no message passes."""
+        """
+        Check for publishers and subscriptions between which no message passes.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `endpoints` are examined.
+
+        Yields
+        ------
+        Finding
+            As for `pair_findings`, each once.
+
+        """
         yield from dict.fromkeys(pair_findings(graph.endpoints, why_incompatible))
 
 
 def why_nothing_passes(publisher: Endpoint, subscription: Endpoint) -> str:
-    """Return why a subscription gets nothing from a publisher, or '' if it does."""
+    """
+    Explain why a subscription receives nothing from a publisher: its type or its QoS.
+
+    Parameters
+    ----------
+    publisher, subscription
+        Two endpoints of the same topic.
+
+    Returns
+    -------
+    str
+        The reason; '' if messages pass.
+
+    """
     if publisher.type_name != subscription.type_name:
         return f'{publisher.type_name} is not {subscription.type_name}'
     return why_incompatible(publisher.qos, subscription.qos)
 
 
 def why_incompatible(offered: Any, requested: Any) -> str:
-    """Return why two qualities of service do not fit each other, or '' if they do."""
+    """
+    Explain why two QoS profiles are incompatible, as rclpy sees it.
+
+    Parameters
+    ----------
+    offered
+        The profile of the publisher.
+    requested
+        The profile of the subscription.
+
+    Returns
+    -------
+    str
+        The reason; '' if they are compatible, or may be.
+
+    """
     from rclpy.qos import qos_check_compatible, QoSCompatibility
 
     compatibility, reason = qos_check_compatible(offered, requested)
@@ -47,10 +88,24 @@ def pair_findings(
     endpoints: Iterable[Endpoint], why_not: Callable[[Any, Any], str]
 ) -> Iterator[Finding]:
     """
-    Yield the pairs of some endpoints between whose nodes no message passes.
+    Report the pairs of endpoints between whose nodes no message passes.
 
-    A node may subscribe to a topic twice, with qualities of service that complement each other:
-    whoever reaches one of the subscriptions reaches the node.
+    A node may subscribe to a topic twice, with QoS profiles that complement each other: whoever
+    reaches one of the subscriptions reaches the node.
+
+    Parameters
+    ----------
+    endpoints
+        The publishers and subscriptions of all nodes.
+    why_not
+        Gets the offered and the requested QoS, and returns why they are incompatible, or ''
+        if they are not; see `why_incompatible`.
+
+    Yields
+    ------
+    Finding
+        An error for each pair whose types or QoS do not match.
+
     """
     known = tuple(endpoints)
     findings, connected = [], set()
@@ -66,7 +121,20 @@ def pair_findings(
 
 
 def pairs(endpoints: Iterable[Endpoint]) -> Iterator[Pair]:
-    """Yield each publisher with each subscription of its topic."""
+    """
+    Pair each publisher with each subscription of its topic.
+
+    Parameters
+    ----------
+    endpoints
+        The publishers and subscriptions of all nodes.
+
+    Yields
+    ------
+    tuple
+        A publisher and a subscription, sorted by topic.
+
+    """
     by_topic: dict[str, tuple[list[Endpoint], list[Endpoint]]] = defaultdict(lambda: ([], []))
     for endpoint in endpoints:
         by_topic[endpoint.topic][not endpoint.is_publisher].append(endpoint)

@@ -31,7 +31,25 @@ class ScriptsCheck(DoctorCheck):
 def script_findings(
     scripts: Iterable[Script], mend: Callable[[Path | None], str]
 ) -> Iterator[Finding]:
-    """Yield one finding an interpreter and workspace that do not fit; `mend` has the cure."""
+    """
+    Report installed scripts whose interpreter does not exist, or is another Python.
+
+    Scripts that look their interpreter up in PATH, by `env`, are not counted.
+
+    Parameters
+    ----------
+    scripts
+        The scripts to examine.
+    mend
+        Returns the command that installs the scripts of a workspace again, or those of the
+        environment for None; see `mending_command`.
+
+    Yields
+    ------
+    Finding
+        One error for each wrong interpreter and workspace, which lists the scripts.
+
+    """
     wrong: dict[tuple[str, Path | None], list[Script]] = defaultdict(list)
     for script in scripts:
         is_wrong = not script.exists or (script.is_python and not script.is_own)
@@ -42,7 +60,20 @@ def script_findings(
 
 
 def mending_command(workspace: Path | None) -> str:
-    """Return the command that writes the scripts of a workspace, or the environment, anew."""
+    """
+    Build the command that writes the scripts of a workspace, or the environment, again.
+
+    Parameters
+    ----------
+    workspace
+        The folder of the workspace, which is built from scratch; None for the environment.
+
+    Returns
+    -------
+    str
+        A command for the shell.
+
+    """
     if workspace is None:
         return install_command()
     environment = shlex.quote(f'{environment_prefix()}/setup.bash')

@@ -14,7 +14,20 @@ CLEAN_UP = 'for l in /dev/shm/fastrtps_[0-9a-f]*_el; do flock -n "$l" rm -f "$l"
 
 
 def shared_memory_findings(facts: SharedMemory | None) -> Iterator[Finding]:
-    """Yield what is wrong with the shared memory."""
+    """
+    Report shared memory that is missing, almost full, or taken by killed processes.
+
+    Parameters
+    ----------
+    facts
+        The state of /dev/shm; None if it does not exist or cannot be written.
+
+    Yields
+    ------
+    Finding
+        At most one warning.
+
+    """
     if facts is None:
         yield _too_little('is missing or cannot be written', 'sudo mount -t tmpfs tmpfs /dev/shm')
     elif facts.free < ENOUGH_BYTES:

@@ -27,7 +27,20 @@ class WheelsCheck(DoctorCheck):
 
 
 def wheel_findings(facts: Wheels) -> Iterator[Finding]:
-    """Compare the installed wheels with the pinned ones."""
+    """
+    Compare the installed wheels with the pinned ones.
+
+    Parameters
+    ----------
+    facts
+        The versions, as `read_wheels` gives them; without pins only setuptools is examined.
+
+    Yields
+    ------
+    Finding
+        An error for missing wheels and for wheels of ROS of another version, a warning for others.
+
+    """
     missing = sorted(set(facts.pinned) - set(facts.installed))
     if missing:
         yield Finding(

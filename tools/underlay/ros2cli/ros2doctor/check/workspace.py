@@ -26,7 +26,21 @@ class WorkspaceCheck(DoctorCheck):
 
 
 def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
-    """Yield what has to be built or sourced in some workspaces."""
+    """
+    Report which workspaces and packages have to be built or sourced.
+
+    Parameters
+    ----------
+    facts
+        The workspaces; those that neither are sourced nor contain the current folder are skipped.
+
+    Yields
+    ------
+    Finding
+        An error for a workspace that is not built or not sourced at all, else a warning for each
+        package that is not built, not sourced, or older than its sources.
+
+    """
     for workspace in filter(_is_used, facts):
         built = [package for package in workspace.packages if package.is_built]
         if not built:

@@ -23,7 +23,19 @@ class DoctorCommand(VerbCommand):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the choice of checks and reports, then the verbs."""
+        """
+        Add the choice of checks and reports, then the verbs.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command, which they are added to.
+        cli_name
+            The words that call the command, such as `ros2 doctor`, for the help of its verbs.
+        argv
+            The words after these, which tell which verb is called; its arguments are added, too.
+
+        """
         add_either = parser.add_mutually_exclusive_group().add_argument
         add_either('-r', '--report', action='store_true', help='Print all reports')
         add_either(
@@ -52,7 +64,22 @@ class DoctorCommand(VerbCommand):
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Call the verb if there is one, else check or report."""
+        """
+        Call the verb if one was given; else print the reports, or run the checks.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command.
+        args : argparse.Namespace
+            What it has parsed.
+
+        Returns
+        -------
+        int or str or None
+            What the verb returns; without one 0, or 1 if a check failed.
+
+        """
         if hasattr(args, '_verb'):
             return super().main(parser=parser, args=args)
         from ros2doctor.api.examining import examine, print_reports

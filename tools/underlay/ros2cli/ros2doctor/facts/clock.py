@@ -16,9 +16,23 @@ PERIOD_S = 0.05
 
 def nodes_on_clock(node: Any, candidates: Iterable[str]) -> tuple[str, ...]:
     """
-    Return those of some nodes whose parameter use_sim_time is true, sorted.
+    Find the nodes whose parameter use_sim_time is true, by their parameter services.
 
-    All are asked at the same time, and none is waited for longer than a second.
+    All are asked at the same time, which takes a second at most; those that have not answered by
+    then are left out.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls the services.
+    candidates
+        Full names of the nodes to ask, of which the first 50 by name are.
+
+    Returns
+    -------
+    tuple of str
+        Their full names, sorted.
+
     """
     from rcl_interfaces.srv import GetParameters
 

@@ -24,10 +24,17 @@ class Complaint(NamedTuple):
 
 
 class DiagnosticsListener:
-    """Keeps the newest complaint of each part of a robot."""
+    """
+    Keeps the newest diagnostic status of each component of a robot.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes, once `listen_to` has been called.
+
+    """
 
     def __init__(self, node: Any) -> None:
-        """Begin without a topic."""
         self._node = node
         self._newest: dict[str, Complaint] = {}
         self._subscriptions: list[Any] = []
@@ -43,7 +50,15 @@ class DiagnosticsListener:
         return sorted(each for each in self._newest.values() if each.level >= WARN)
 
     def listen_to(self, types: Mapping[str, str]) -> None:
-        """Subscribe to those topics that carry diagnostics, where their type is installed."""
+        """
+        Subscribe to the topics that carry diagnostics, if diagnostic_msgs is installed.
+
+        Parameters
+        ----------
+        types
+            The name of the type of each topic, such as `std_msgs/msg/String`.
+
+        """
         topics = [topic for topic, name in types.items() if name == DIAGNOSTICS_TYPE]
         if not topics:
             return
@@ -60,7 +75,15 @@ class DiagnosticsListener:
         ]
 
     def take(self, message: Any) -> None:
-        """Take what a node says."""
+        """
+        Store the status of each component in a message, replacing its last one.
+
+        Parameters
+        ----------
+        message
+            A diagnostic_msgs/msg/DiagnosticArray.
+
+        """
         for status in message.status:
             level = int.from_bytes(status.level, 'little')
             self._newest[status.name] = Complaint(status.name, level, status.message)

@@ -42,7 +42,20 @@ class Environment:
     set_up: str
 
     def folders(self, variable: str) -> list[str]:
-        """Return the folders that a variable lists."""
+        """
+        List the folders in an environment variable such as PATH.
+
+        Parameters
+        ----------
+        variable
+            The name of the variable.
+
+        Returns
+        -------
+        list of str
+            The folders in their order, without empty ones; none if the variable is not set.
+
+        """
         return [text for text in self.variables.get(variable, '').split(os.pathsep) if text]
 
 

@@ -14,7 +14,22 @@ TOKEN_BYTES = 8
 
 
 def multicast_error(address: str) -> OSError | None:
-    """Return why no packet to the group of DDS comes back on the interface of an address."""
+    """
+    Test whether an interface delivers multicast, with a packet to the DDS discovery group.
+
+    The packet does not leave this machine.
+
+    Parameters
+    ----------
+    address
+        The IPv4 address of the interface.
+
+    Returns
+    -------
+    OSError or None
+        None if the packet came back, TimeoutError if not within 0.5 s, else what went wrong.
+
+    """
     try:
         with _receiver(address) as receiver, _sender(address) as sender:
             sender.sendto(os.urandom(TOKEN_BYTES), (DDS_GROUP, receiver.getsockname()[1]))

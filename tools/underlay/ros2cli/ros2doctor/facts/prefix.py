@@ -33,9 +33,20 @@ def python_version() -> str:
 
 def is_own(program: str) -> bool:
     """
-    Tell whether a program is in the folder of the environment's programs.
+    Check whether a program is in the `bin` folder of the environment.
 
     Folders are compared, because the Python of an environment is a link to that of the system.
+
+    Parameters
+    ----------
+    program
+        The path of the program, which itself may be a link.
+
+    Returns
+    -------
+    bool
+        Whether it is.
+
     """
     own = os.path.join(environment_prefix(), 'bin')
     return os.path.realpath(os.path.dirname(program)) == os.path.realpath(own)

@@ -42,7 +42,20 @@ def read_scripts() -> list[Script]:
 
 
 def read_script(path: Path) -> Script | None:
-    """Return what the first line of a file says, or None if it is no script."""
+    """
+    Read which interpreter a script names in its first line (`#!`).
+
+    Parameters
+    ----------
+    path
+        The path of a file, which need not exist.
+
+    Returns
+    -------
+    Script or None
+        None if the file cannot be read or is no script.
+
+    """
     try:
         with path.open('rb') as stream:
             line = os.fsdecode(stream.readline(LONGEST_LINE)).strip()

@@ -31,7 +31,20 @@ class SharedMemory:
 
 
 def read_shared_memory(folder: Path = FOLDER) -> SharedMemory | None:
-    """Return what there is; None if there is none, or none that may be written."""
+    """
+    Measure the shared memory that Fast DDS can use, and what killed processes have left in it.
+
+    Parameters
+    ----------
+    folder
+        Where it is mounted.
+
+    Returns
+    -------
+    SharedMemory or None
+        None if the folder does not exist or cannot be written.
+
+    """
     if not os.access(folder, os.W_OK):
         return None
     orphans = [lock for lock in sorted(folder.glob(LOCKS)) if _is_orphan(lock)]

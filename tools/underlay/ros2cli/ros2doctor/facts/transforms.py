@@ -25,10 +25,22 @@ class Transform(NamedTuple):
 
 
 class TransformListener:
-    """Collects the transforms of all topics that carry some."""
+    """
+    Collects the transforms of all topics that carry some.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes, once `listen_to` has been called.
+
+    Attributes
+    ----------
+    transforms
+        The edges received so far.
+
+    """
 
     def __init__(self, node: Any) -> None:
-        """Begin without a topic."""
         self.transforms: set[Transform] = set()
         self._node = node
         self._subscriptions: list[Any] = []
@@ -39,7 +51,15 @@ class TransformListener:
         return bool(self._subscriptions)
 
     def listen_to(self, types: Mapping[str, str]) -> None:
-        """Subscribe to those topics that carry transforms, where their type is installed."""
+        """
+        Subscribe to the topics that carry transforms, if tf2_msgs is installed.
+
+        Parameters
+        ----------
+        types
+            The name of the type of each topic, such as `tf2_msgs/msg/TFMessage`.
+
+        """
         topics = [topic for topic, name in types.items() if name == TRANSFORM_TYPE]
         if not topics:
             return

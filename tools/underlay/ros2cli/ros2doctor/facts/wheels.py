@@ -58,7 +58,21 @@ def install_command() -> str:
 
 
 def pins(requirements: str) -> dict[str, str]:
-    """Return the versions of a requirements file that are meant for the environment's Python."""
+    """
+    Parse the pinned versions (`==`) of a requirements file.
+
+    Parameters
+    ----------
+    requirements
+        The text of the file; lines of another form, or whose marker excludes the environment's
+        Python, are skipped.
+
+    Returns
+    -------
+    dict
+        The versions by normalised name of the distribution.
+
+    """
     python = python_version()
     found = (match.groups() for match in map(PIN.match, requirements.splitlines()) if match)
     return {
@@ -67,7 +81,20 @@ def pins(requirements: str) -> dict[str, str]:
 
 
 def normal_name(name: str) -> str:
-    """Return the one form of a distribution's name that pip compares."""
+    """
+    Normalise the name of a distribution, as pip does to compare names.
+
+    Parameters
+    ----------
+    name
+        The name, as in `ros_Jazzy.rclpy`.
+
+    Returns
+    -------
+    str
+        The name in lower case, with single hyphens, as `ros-jazzy-rclpy`.
+
+    """
     return re.sub(r'[-_.]+', '-', name).lower()
 
 

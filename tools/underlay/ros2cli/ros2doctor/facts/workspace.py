@@ -76,7 +76,26 @@ def _read_package(install: Path, source: SourcePackage, known: set[str]) -> Pack
 
 
 def changed_files(source: SourcePackage, prefix: Path) -> Iterator[str]:
-    """Yield the files of a package that were changed after it was built, relative to it."""
+    """
+    List the source files of a package that were changed after it was built.
+
+    A file whose installed copy is the same does not count; one without a copy counts if it is part
+    of the build, or if others of its kind are installed where its copy would be.
+
+    Parameters
+    ----------
+    source
+        The package in the source tree.
+    prefix
+        Where it is installed, which colcon marks with the time of the build; without that mark,
+        nothing is listed.
+
+    Yields
+    ------
+    str
+        The path of a file, relative to the folder of the package.
+
+    """
     marker = prefix / 'share' / 'colcon-core' / 'packages' / source.name
     if not marker.is_file():
         return

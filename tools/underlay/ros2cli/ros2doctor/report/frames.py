@@ -18,6 +18,14 @@ class FramesReport(GraphReport):
         return 'frames'
 
     def fill(self, report: Report, graph: Graph) -> None:
-        """Add each transform."""
+        """
+        Add each transform as `parent -> child`, with its topic.
+
+        Parameters
+        ----------
+        report, graph
+            As for `GraphReport.fill`.
+
+        """
         for tree, parent, child in sorted(graph.transforms):
             report.add_to_report(tree, f'{parent} -> {child}')

@@ -25,5 +25,20 @@ class GraphReport(DoctorReport):
         return report
 
     def fill(self, report: Report, graph: Graph) -> None:
-        """Add what there is to say about a graph."""
+        """
+        Add what there is to report about the graph.
+
+        Parameters
+        ----------
+        report
+            The section, with its title and without items.
+        graph
+            All that is known of the running nodes, which `read_graph` reads once for all reports.
+
+        Raises
+        ------
+        NotImplementedError
+            A subclass does not override it.
+
+        """
         raise NotImplementedError(f'{type(self).__name__} does not implement fill()')

@@ -20,7 +20,15 @@ class NodesReport(GraphReport):
         return 'nodes'
 
     def fill(self, report: Report, graph: Graph) -> None:
-        """Add the nodes, and the number of publishers and subscriptions of each topic."""
+        """
+        Add the nodes, and the number of publishers and subscriptions of each topic.
+
+        Parameters
+        ----------
+        report, graph
+            As for `GraphReport.fill`.
+
+        """
         for name in graph.nodes:
             report.add_to_report('node', name)
         counts = Counter((each.topic, each.is_publisher) for each in graph.endpoints)

@@ -19,7 +19,15 @@ class QosReport(GraphReport):
         return 'qos'
 
     def fill(self, report: Report, graph: Graph) -> None:
-        """Add each pair."""
+        """
+        Add each pair of a publisher and a subscription, and whether they are compatible.
+
+        Parameters
+        ----------
+        report, graph
+            As for `GraphReport.fill`.
+
+        """
         for publisher, subscription in pairs(graph.endpoints):
             reason = why_nothing_passes(publisher, subscription)
             report.add_to_report(

@@ -8,13 +8,24 @@ import argparse
 from ros2cli.argument_types import positive_number
 from ros2cli.node.arguments import add_node_arguments
 from ros2doctor.verb import VerbExtension
+from ros2multicast.api.arguments import time_to_live
 
 
 class HelloVerb(VerbExtension):
     """Check network connectivity between multiple hosts."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic, the periods and the reach."""
+        """
+        Add the topic, the periods and the TTL.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 doctor hello`; not used.
+
+        """
         add_node_arguments(parser)
         add = parser.add_argument
         add('-t', '--topic', default='/canyouhearme', help='Topic to greet on (%(default)s)')
@@ -34,11 +45,25 @@ class HelloVerb(VerbExtension):
             default=1.0,
             help='Time between two tables (%(default)s)',
         )
-        add('--ttl', metavar='N', type=int, default=1, help='Routers that multicast may pass')
+        add(
+            '--ttl',
+            metavar='N',
+            type=time_to_live,
+            default=1,
+            help='Hops of multicast; 1 stays in the local network (%(default)s)',
+        )
         add('-1', '--once', action='store_true', help='Print one table and end')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Greet the hosts that do the same, and print who was heard."""
+        """
+        Exchange greetings with hosts that run the same command, and print who was heard.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2doctor.api.greeting import greet
 

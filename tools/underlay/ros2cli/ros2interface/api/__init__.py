@@ -18,7 +18,27 @@ def get_interface_packages() -> list[str]:
 
 
 def get_interfaces(package: str, kinds: Iterable[str]) -> list[str]:
-    """Return a package's interfaces of some kinds as `package/kind/Type`, sorted."""
+    """
+    List the interfaces of some kinds that a package defines.
+
+    Parameters
+    ----------
+    package
+        The name of a package with interfaces.
+    kinds
+        Which kinds are wanted: 'msg', 'srv' or 'action'.
+
+    Returns
+    -------
+    list of str
+        Names as `package/kind/Type`, sorted.
+
+    Raises
+    ------
+    LookupError
+        The package is not installed, or defines no interfaces.
+
+    """
     wanted = set(kinds)
     files, _ = get_resource(RESOURCE, package)
     names = {line.rpartition('.')[0] for line in files.splitlines() if line}
@@ -26,7 +46,20 @@ def get_interfaces(package: str, kinds: Iterable[str]) -> list[str]:
 
 
 def unknown_package_text(package: str) -> str:
-    """Return the error text for a package without interfaces, with the cause if known."""
+    """
+    Format the error message for a package without interfaces.
+
+    Parameters
+    ----------
+    package
+        The name as it was given.
+
+    Returns
+    -------
+    str
+        The message, with the closest name or the cause in a further line if known.
+
+    """
     from ros2cli.suggest import did_you_mean
 
     hint = did_you_mean(package, get_interface_packages()) or _cause(package)

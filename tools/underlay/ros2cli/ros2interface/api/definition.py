@@ -19,7 +19,25 @@ class Definition(NamedTuple):
 
 
 def read_definition(name: str) -> Definition:
-    """Read the file of an interface; RuntimeError says which part of its name is wrong."""
+    """
+    Read the file that defines an interface.
+
+    Parameters
+    ----------
+    name
+        The name as `package/kind/Type`.
+
+    Returns
+    -------
+    Definition
+        The text of the .msg, .srv or .action file, or of the .idl file if there is no other.
+
+    Raises
+    ------
+    RuntimeError
+        There is no such interface; the text says which part of the name is wrong.
+
+    """
     package, kind, type_name = split_name(name)
     stem = os.path.join(get_share_directory(package), kind, type_name)
     for path in (f'{stem}.{kind}', f'{stem}.idl'):
@@ -30,7 +48,25 @@ def read_definition(name: str) -> Definition:
 
 
 def split_name(name: str) -> list[str]:
-    """Return the three parts of `package/kind/Type`, of which the package exists."""
+    """
+    Split the name of an interface into package, kind and type, and check that the package exists.
+
+    Parameters
+    ----------
+    name
+        The name as `package/kind/Type`.
+
+    Returns
+    -------
+    list of str
+        The three parts; whether the package has such a type is not checked.
+
+    Raises
+    ------
+    RuntimeError
+        The name does not have three parts, or the package defines no interfaces.
+
+    """
     parts = name.split('/')
     if len(parts) != 3 or not all(parts):
         raise RuntimeError(

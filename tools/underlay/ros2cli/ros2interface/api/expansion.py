@@ -20,7 +20,29 @@ TYPES_OF_OLD = {'Header': 'std_msgs/msg/Header'}
 def expand(
     definition: Definition, *, all_comments: bool = False, no_comments: bool = False
 ) -> Iterator[str]:
-    """Yield the lines of a definition and, with a tab before them, those of its fields."""
+    """
+    Expand a definition: below each field of a message type, that type's own definition.
+
+    Parameters
+    ----------
+    definition
+        The interface to show.
+    all_comments
+        Whether comments of the nested definitions are shown, too.
+    no_comments
+        Whether comments and empty lines are dropped everywhere; this overrides `all_comments`.
+
+    Yields
+    ------
+    str
+        The lines; nested ones begin with a tab for each level.
+
+    Raises
+    ------
+    RuntimeError
+        The type of a field is not installed.
+
+    """
     for line in definition.text.splitlines():
         shown = _without_comment(line) if no_comments else line
         if shown.strip() or not no_comments:
@@ -38,7 +60,23 @@ def _nested_lines(line: str, name: str, with_comments: bool) -> Iterator[str]:
 
 
 def field_type(line: str, package: str) -> str | None:
-    """Return the full name of the message that a field has, or None for all other lines."""
+    """
+    Find the message type of a field in a line of a definition.
+
+    Parameters
+    ----------
+    line
+        The line, possibly with a comment.
+    package
+        The package of the definition, to which types without a package belong.
+
+    Returns
+    -------
+    str or None
+        The type as `package/msg/Type`, without array bounds; None for fields of primitive types
+        and for all other lines.
+
+    """
     field = FIELD.match(_without_comment(line))
     if not field or field['type'] in PRIMITIVES:
         return None

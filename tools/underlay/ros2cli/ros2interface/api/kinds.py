@@ -9,7 +9,15 @@ HEADINGS = {'msg': 'Messages', 'srv': 'Services', 'action': 'Actions'}
 
 
 def add_kind_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add an option for each kind."""
+    """
+    Add an option for each kind of interface.
+
+    Parameters
+    ----------
+    parser
+        The parser of a verb, which they are added to.
+
+    """
     add = parser.add_argument
     add('-m', '--only-msgs', action='store_true', help='Only consider the message types')
     add('-s', '--only-srvs', action='store_true', help='Only consider the service types')
@@ -17,6 +25,19 @@ def add_kind_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def chosen_kinds(args: argparse.Namespace) -> list[str]:
-    """Return the kinds that the options choose; all if none is chosen."""
+    """
+    List the kinds of interface that the options choose.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        What a parser with the options of `add_kind_arguments` has parsed.
+
+    Returns
+    -------
+    list of str
+        Some of 'msg', 'srv' and 'action', in this order; all if none is chosen.
+
+    """
     wanted = {'msg': args.only_msgs, 'srv': args.only_srvs, 'action': args.only_actions}
     return [kind for kind in HEADINGS if wanted[kind]] or list(HEADINGS)

@@ -12,7 +12,25 @@ PARTS = {'srv': 'Request', 'action': 'Goal'}
 
 
 def create_prototype(name: str) -> Any:
-    """Return a message, or the request of a service or the goal of an action, with defaults."""
+    """
+    Create a message, the request of a service or the goal of an action, with default values.
+
+    Parameters
+    ----------
+    name
+        The interface as `package/kind/Type`.
+
+    Returns
+    -------
+    Any
+        The instance of the generated class.
+
+    Raises
+    ------
+    RuntimeError
+        There is no such interface, or its class cannot be imported.
+
+    """
     _, kind, _ = split_name(name)
     if kind not in KINDS:
         raise RuntimeError(f"Unknown kind of interface '{kind}' in '{name}': {', '.join(KINDS)}")

@@ -13,12 +13,35 @@ class PackageVerb(VerbExtension):
     """Output a list of available interface types within one package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the package and the choice of kinds."""
+        """
+        Add the package and the choice of kinds.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 interface package`; not used.
+
+        """
         add_kind_arguments(parser)
         parser.add_argument('package_name', help="Name of the ROS package (e.g. 'std_msgs')")
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the interfaces of the package."""
+        """
+        Print the interfaces of a package.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Returns
+        -------
+        str or None
+            The error message if there is no such package, or it defines no interfaces.
+
+        """
         from ros2interface.api import get_interface_packages, get_interfaces, unknown_package_text
 
         if args.package_name not in get_interface_packages():

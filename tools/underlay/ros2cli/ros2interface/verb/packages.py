@@ -13,11 +13,29 @@ class PackagesVerb(VerbExtension):
     """Output a list of packages that provide interfaces."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the choice of kinds."""
+        """
+        Add the choice of kinds.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 interface packages`; not used.
+
+        """
         add_kind_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the packages with an interface of one of the kinds."""
+        """
+        Print the packages with an interface of one of the chosen kinds.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        """
         from ros2interface.api import get_interface_packages, get_interfaces
 
         for package in get_interface_packages():

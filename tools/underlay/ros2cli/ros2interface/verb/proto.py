@@ -12,14 +12,37 @@ class ProtoVerb(VerbExtension):
     """Output an interface prototype."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the interface and the choice of quotes."""
+        """
+        Add the interface and the choice of quotes.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 interface proto`; not used.
+
+        """
         parser.add_argument(
             'type', help='Show an interface prototype (e.g. "example_interfaces/msg/String")'
         )
         parser.add_argument('--no-quotes', action='store_true', help='Output has no outer quotes')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print a message, a request or a goal with the default values as YAML."""
+        """
+        Print a message, a request or a goal with the default values as YAML.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Raises
+        ------
+        RuntimeError
+            There is no such interface.
+
+        """
         from ros2cli.messages.text import to_yaml
         from ros2interface.api.prototype import create_prototype
 

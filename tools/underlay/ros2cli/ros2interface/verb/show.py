@@ -15,7 +15,17 @@ class ShowVerb(VerbExtension):
     """Output the interface definition."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the interface and the choice of comments."""
+        """
+        Add the interface and the choice of comments.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 interface show`; not used.
+
+        """
         parser.add_argument(
             'type',
             help='Show an interface definition (e.g. "example_interfaces/msg/String"). '
@@ -32,7 +42,20 @@ class ShowVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the definition with those of its fields below them."""
+        """
+        Print the definition of an interface, with those of its fields' types below the fields.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Raises
+        ------
+        RuntimeError
+            There is no such interface, or none is named on standard input where it was to be.
+
+        """
         from ros2interface.api.definition import read_definition
         from ros2interface.api.expansion import expand
 

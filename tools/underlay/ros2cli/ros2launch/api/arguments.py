@@ -9,7 +9,26 @@ SEPARATOR = ':='
 
 
 def parse_launch_arguments(texts: Sequence[str]) -> list[tuple[str, str]]:
-    """Return names and values in the order of the command line; the last of a name wins."""
+    """
+    Parse launch arguments of the form `name:=value`.
+
+    Parameters
+    ----------
+    texts
+        The arguments as given on the command line.
+
+    Returns
+    -------
+    list of tuple
+        Name and value of each argument, in the order of the names' first use; the last value of a
+        name counts.
+
+    Raises
+    ------
+    RuntimeError
+        An argument is not of this form, or its name or value is empty.
+
+    """
     values: dict[str, str] = {}
     for text in texts:
         name, separator, value = text.partition(SEPARATOR)

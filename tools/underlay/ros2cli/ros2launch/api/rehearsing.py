@@ -26,9 +26,32 @@ def rehearse_launch_file(
     **options: bool,
 ) -> int:
     """
-    Print what a launch file would do; return the status, 1 if it cannot be launched.
+    Print what a launch file would do (a dry run).
 
-    The other arguments are those of LaunchOptions.
+    No process of the launch is started, but command substitutions are run, and functions in
+    launch files are called.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the launch file.
+    launch_file_arguments
+        Launch arguments as `name:=value`.
+    as_json
+        Whether it is printed as JSON, also if it fails; all other output then goes to stderr.
+    **options
+        Fields of `LaunchOptions`, other than `noninteractive`.
+
+    Returns
+    -------
+    int
+        The exit status: 0, or 1 if the file cannot be launched.
+
+    Raises
+    ------
+    RuntimeError
+        A launch argument is malformed.
+
     """
     service = make_service(
         launch_file_path, launch_file_arguments, LaunchOptions(**options, noninteractive=True)

@@ -39,9 +39,30 @@ def launch_a_launch_file(
     **options: bool,
 ) -> int:
     """
-    Run a launch file until everything that it started has ended; return the status.
+    Run a launch file until everything that it started has ended.
 
-    The other arguments are those of LaunchOptions.
+    Parameters
+    ----------
+    launch_file_path
+        The path of the launch file.
+    launch_file_arguments
+        Launch arguments as `name:=value`.
+    strict_exit
+        Whether the status tells of processes that failed.
+    **options
+        Fields of `LaunchOptions`.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if an exception occurred in the launch, else 0; with `strict_exit`, that
+        of the first process that failed (for a signal, 128 plus its number) instead of 0.
+
+    Raises
+    ------
+    RuntimeError
+        A launch argument is malformed, or this is not the main thread.
+
     """
     service = make_service(launch_file_path, launch_file_arguments, LaunchOptions(**options))
     status: int = service.run()
@@ -51,7 +72,29 @@ def launch_a_launch_file(
 
 
 def make_service(path: str, argument_texts: Sequence[str], options: LaunchOptions) -> Any:
-    """Return a launch service that is to visit a launch file, with its checks."""
+    """
+    Create the launch service for a launch file, with its checks, ready to be run or rehearsed.
+
+    Parameters
+    ----------
+    path
+        The path of the launch file, which is loaded when the service runs.
+    argument_texts
+        Launch arguments as `name:=value`.
+    options
+        How the launch is run.
+
+    Returns
+    -------
+    LaunchService
+        The service.
+
+    Raises
+    ------
+    RuntimeError
+        A launch argument is malformed.
+
+    """
     arguments = parse_launch_arguments(argument_texts)
     from launch import LaunchDescription, LaunchService
     from launch.actions import IncludeLaunchDescription

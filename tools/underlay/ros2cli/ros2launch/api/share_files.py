@@ -16,7 +16,31 @@ class MultipleLaunchFilesError(Exception):
 
 
 def get_share_file_path_from_package(*, package_name: str, file_name: str | None) -> str:
-    """Return the path of a file anywhere below a package's share directory."""
+    """
+    Find a file anywhere below the share directory of a package.
+
+    Parameters
+    ----------
+    package_name
+        The name of the package.
+    file_name
+        The name of the file, without folders; None is never found.
+
+    Returns
+    -------
+    str
+        The path of the file.
+
+    Raises
+    ------
+    PackageNotFoundError
+        There is no such package.
+    FileNotFoundError
+        The package has no such file.
+    MultipleLaunchFilesError
+        The package has several files of this name.
+
+    """
     from ros2pkg.api import get_share_directory
 
     share = get_share_directory(package_name)

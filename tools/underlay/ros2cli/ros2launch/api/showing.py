@@ -17,6 +17,19 @@ def print_arguments_of_launch_file(*, launch_file_path: str) -> None:
     Load a launch file and print its arguments, and those of the files that it includes.
 
     What the files themselves print while they are loaded comes below the heading.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the launch file.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    InvalidLaunchFileError
+        It cannot be loaded; what it printed until then has been printed.
+
     """
     printed = StringIO()
     try:
@@ -31,14 +44,49 @@ def print_arguments_of_launch_file(*, launch_file_path: str) -> None:
 
 
 def print_a_launch_file(*, launch_file_path: str) -> None:
-    """Load a launch file and print its description as a tree."""
+    """
+    Load a launch file and print its launch description as a tree.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the launch file.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    InvalidLaunchFileError
+        It cannot be loaded.
+
+    """
     from launch import LaunchIntrospector
 
     print(LaunchIntrospector().format_launch_description(load_launch_file(launch_file_path)))
 
 
 def load_launch_file(path: str) -> Any:
-    """Load a launch file and return its description, without visiting it."""
+    """
+    Load the launch description of a launch file, without visiting it.
+
+    Parameters
+    ----------
+    path
+        The path of the launch file, in any format.
+
+    Returns
+    -------
+    LaunchDescription
+        The description.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    InvalidLaunchFileError
+        It cannot be loaded.
+
+    """
     from launch import LaunchContext
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
@@ -46,7 +94,20 @@ def load_launch_file(path: str) -> Any:
 
 
 def argument_lines(arguments: list[Any]) -> Iterator[str]:
-    """Yield the lines that describe all arguments, below the heading."""
+    """
+    Format the launch arguments with their descriptions and default values.
+
+    Parameters
+    ----------
+    arguments : list[Any]
+        The `DeclareLaunchArgument` actions that `get_launch_arguments` of a description lists.
+
+    Yields
+    ------
+    str
+        The lines to print below the heading.
+
+    """
     if not arguments:
         yield from ('', '  No arguments.')
     for argument in arguments:

@@ -22,10 +22,21 @@ MAGIC = frozenset(
 
 
 class UnknownArguments:
-    """Compares the names that were given with those that the launch knows, once it is visited."""
+    """
+    Check of the launch arguments that were given against those that the launch declares or uses.
+
+    It is called with the context when the launch has been visited, before a process starts.
+
+    Parameters
+    ----------
+    given
+        The names of the arguments given; those that launch itself understands are not checked.
+    source
+        The `LaunchDescriptionSource` of the launch file.
+
+    """
 
     def __init__(self, given: Iterable[str], source: Any) -> None:
-        """Create the check of the names given for the launch file of a source."""
         self._given = [name for name in given if name not in MAGIC]
         self._source = source
 
@@ -41,7 +52,20 @@ class UnknownArguments:
             _warn(name)
 
     def hint(self, context: Any) -> str:
-        """Return what a failed visit may be due to: a misspelt name, or nothing."""
+        """
+        Find a misspelt argument that may be why a visit has failed.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, which tells what was declared and looked up so far.
+
+        Returns
+        -------
+        str
+            The error message; '' if no argument seems misspelt.
+
+        """
         unused = self._unused(context)
         if not unused:
             return ''
@@ -68,7 +92,22 @@ class UnknownArguments:
 
 
 def misspelt_argument_text(given: Iterable[str], declared: Iterable[str]) -> str:
-    """Return the error text about a name that is not declared but close to one that is."""
+    """
+    Format the error message about the first undeclared argument that is close to a declared one.
+
+    Parameters
+    ----------
+    given
+        The names of the arguments given.
+    declared
+        The names that launch files declare.
+
+    Returns
+    -------
+    str
+        The message, which suggests the closest name; '' if there is no such argument.
+
+    """
     from difflib import get_close_matches
 
     known = list(declared)

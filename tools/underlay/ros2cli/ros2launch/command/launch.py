@@ -19,13 +19,43 @@ class LaunchCommand(CommandExtension):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the options, the launch file and its arguments."""
+        """
+        Add the options, the launch file and its arguments.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command, which they are added to.
+        cli_name, argv
+            The words that call the command, and those after them; not used.
+
+        """
         add_launch_options(parser)
 
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Show the arguments of the launch file, or run it."""
+        """
+        Run the launch file, or show what it would do or which arguments it has.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command; not used.
+        args : argparse.Namespace
+            What it has parsed.
+
+        Returns
+        -------
+        int or str or None
+            The exit status, or the error message of a file that cannot be shown.
+
+        Raises
+        ------
+        RuntimeError
+            There is no such launch file, an argument is malformed, or options do not go together.
+
+        """
         from ros2launch.api.deferral import import_asyncio
 
         import_asyncio()

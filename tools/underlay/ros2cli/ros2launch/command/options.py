@@ -8,7 +8,15 @@ import sys
 
 
 def add_launch_options(parser: argparse.ArgumentParser) -> None:
-    """Add all options, then the launch file and its arguments."""
+    """
+    Add all options, then the launch file and its arguments.
+
+    Parameters
+    ----------
+    parser
+        The parser of the command, which they are added to.
+
+    """
     add = parser.add_argument
     add(
         '-n',
@@ -81,7 +89,25 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
 
 
 def prefix_arguments(args: argparse.Namespace) -> list[str]:
-    """Return the launch arguments that stand for the options --launch-prefix*."""
+    """
+    Convert the options --launch-prefix and --launch-prefix-filter to launch arguments.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        What a parser with these options has parsed.
+
+    Returns
+    -------
+    list of str
+        Launch arguments as `name:=value`, for the options that were given.
+
+    Raises
+    ------
+    RuntimeError
+        A filter was given without a prefix.
+
+    """
     if args.launch_prefix_filter is not None and args.launch_prefix is None:
         raise RuntimeError(
             '--launch-prefix must be specified if --launch-prefix-filter is provided'

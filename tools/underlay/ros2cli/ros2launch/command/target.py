@@ -16,7 +16,29 @@ def find_target(
     file_name: str | None,
     arguments: list[str],
 ) -> tuple[str, list[str]]:
-    """Return the path of the launch file and its arguments, or raise a RuntimeError."""
+    """
+    Find the launch file that the positional arguments of the command line name.
+
+    Parameters
+    ----------
+    package_or_path
+        The path of a launch file, which counts if it exists, or the name of a package.
+    file_name
+        The name of a launch file of the package; after a path the first launch argument, if any.
+    arguments : list[str]
+        The launch arguments that follow.
+
+    Returns
+    -------
+    tuple
+        The path of the launch file, and all launch arguments.
+
+    Raises
+    ------
+    RuntimeError
+        There is no such file or package, or several files of the package have this name.
+
+    """
     if os.path.isfile(package_or_path):
         first = [file_name] if file_name is not None else []
         return package_or_path, first + arguments

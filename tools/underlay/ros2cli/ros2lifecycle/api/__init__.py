@@ -25,14 +25,49 @@ STATE_TYPE = 'lifecycle_msgs/srv/GetState'
 
 
 def get_lifecycle_nodes(graph: Graph, *, include_hidden_nodes: bool) -> list[str]:
-    """Return the full names of the nodes with a life cycle, sorted."""
+    """
+    List the lifecycle nodes: those with a `get_state` service.
+
+    Parameters
+    ----------
+    graph
+        The graph to search.
+    include_hidden_nodes
+        Whether nodes are listed, too, of whose full name a part begins with an underscore.
+
+    Returns
+    -------
+    list of str
+        Their full names, sorted.
+
+    """
     return nodes_with_service(
         graph, STATE_SERVICE, STATE_TYPE, include_hidden_nodes=include_hidden_nodes
     )
 
 
 def find_lifecycle_node(node: Any, name: str) -> str:
-    """Return the full name of a node with a life cycle, or RuntimeError."""
+    """
+    Find a lifecycle node by name, hidden or not.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` whose graph is searched.
+    name
+        The name of the node; the leading slash may be missing.
+
+    Returns
+    -------
+    str
+        Its full name.
+
+    Raises
+    ------
+    RuntimeError
+        There is no such node, or it is no lifecycle node.
+
+    """
     full_name = find_node(node.watch, name)
     if full_name not in get_lifecycle_nodes(node.graph, include_hidden_nodes=True):
         raise RuntimeError(f"Node not found\nThe node '{full_name}' has no life cycle")
@@ -40,13 +75,50 @@ def find_lifecycle_node(node: Any, name: str) -> str:
 
 
 def get_state(node: Any, name: str, timeout_s: float = float('inf')) -> State:
-    """Return the present state of a node."""
+    """
+    Get the current state of a lifecycle node.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls the service.
+    name
+        The full name of the lifecycle node.
+    timeout_s
+        How long to wait for the answer, once the service is connected.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, does not answer in time, or goes away.
+
+    """
     service = f'{name}{STATE_SERVICE}'
     return call(node, GetState, service, GetState.Request(), timeout_s).current_state
 
 
 def get_transitions(node: Any, name: str, *, all_states: bool) -> list[TransitionDescription]:
-    """Return the transitions that a node can make now, or ever."""
+    """
+    List the transitions of a lifecycle node.
+
+    Parameters
+    ----------
+    node, name
+        As for `get_state`.
+    all_states
+        Whether the transitions from all states are listed, not only those from the current one.
+
+    Returns
+    -------
+    list of TransitionDescription
+        Each with its start state and its goal state.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, or goes away before it answers.
+
+    """
     kind = 'get_transition_graph' if all_states else 'get_available_transitions'
     request = GetAvailableTransitions.Request()
     response = call(node, GetAvailableTransitions, f'{name}/{kind}', request)
@@ -54,11 +126,39 @@ def get_transitions(node: Any, name: str, *, all_states: bool) -> list[Transitio
 
 
 def change_state(node: Any, name: str, transition: Transition) -> bool:
-    """Make a transition; return whether it has succeeded."""
+    """
+    Trigger a transition of a lifecycle node, and wait until it is over.
+
+    Parameters
+    ----------
+    node, name
+        As for `get_state`.
+    transition
+        The transition, as in the descriptions that `get_transitions` returns.
+
+    Returns
+    -------
+    bool
+        Whether it has succeeded.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, or goes away before it answers.
+
+    """
     request = ChangeState.Request(transition=transition)
     return bool(call(node, ChangeState, f'{name}/change_state', request).success)
 
 
 def state_text(state: State) -> str:
-    """Return a state as `unconfigured [1]`."""
+    """
+    Format a lifecycle state, as `unconfigured [1]`.
+
+    Parameters
+    ----------
+    state
+        The state, of which label and number are shown.
+
+    """
     return f'{state.label} [{state.id}]'

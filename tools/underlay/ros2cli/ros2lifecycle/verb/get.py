@@ -17,13 +17,36 @@ class GetVerb(VerbExtension):
     """Get lifecycle state for one or more nodes."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node."""
+        """
+        Add the node and the choice of hidden nodes.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 lifecycle get`; not used.
+
+        """
         add_strategy_arguments(parser)
         add_hidden_nodes_argument(parser)
         parser.add_argument('node_name', nargs='?', help='Name of the ROS node')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the state of one node, or of all with their names."""
+        """
+        Print the state of one lifecycle node, or of all with their names.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Raises
+        ------
+        RuntimeError
+            The node that was named is no lifecycle node, or does not answer.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2lifecycle.api import (
             find_lifecycle_node,

@@ -13,7 +13,17 @@ class ListVerb(VerbExtension):
     """Output a list of available transitions."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the choice of transitions."""
+        """
+        Add the node and the choice of transitions.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 lifecycle list`; not used.
+
+        """
         add_strategy_arguments(parser)
         add_hidden_nodes_argument(parser)
         parser.add_argument('node_name', help='Name of the ROS node')
@@ -22,7 +32,20 @@ class ListVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the transitions with the states that they lead from and to."""
+        """
+        Print the transitions with their start and goal states.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Raises
+        ------
+        RuntimeError
+            The node is no lifecycle node, or does not answer.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2lifecycle.api import find_lifecycle_node, get_transitions
 

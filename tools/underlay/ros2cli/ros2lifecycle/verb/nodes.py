@@ -14,13 +14,31 @@ class NodesVerb(VerbExtension):
     """Output a list of nodes with lifecycle."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the choice of nodes and of a mere count."""
+        """
+        Add the choice of hidden nodes and of a mere count.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 lifecycle nodes`; not used.
+
+        """
         add_strategy_arguments(parser)
         add_all_nodes_argument(parser)
         add_count_argument(parser, 'nodes')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print one full name a line, or the count."""
+        """
+        Print the full names of the lifecycle nodes, one a line, or only their number.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2lifecycle.api import get_lifecycle_nodes
 

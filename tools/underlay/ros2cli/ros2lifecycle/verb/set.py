@@ -14,14 +14,42 @@ class SetVerb(VerbExtension):
     """Trigger lifecycle state transition."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the transition."""
+        """
+        Add the node and the transition.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 lifecycle set`; not used.
+
+        """
         add_strategy_arguments(parser)
         add_hidden_nodes_argument(parser)
         parser.add_argument('node_name', help='Name of the ROS node')
         parser.add_argument('transition', help='The lifecycle transition, by its label or number')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Make the transition and print whether it has succeeded."""
+        """
+        Trigger a transition and print whether it has succeeded.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Returns
+        -------
+        str or None
+            The error message if the node cannot make the transition now, or it has failed.
+
+        Raises
+        ------
+        RuntimeError
+            The node is no lifecycle node, or does not answer.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2lifecycle.api import change_state, find_lifecycle_node, get_transitions
 

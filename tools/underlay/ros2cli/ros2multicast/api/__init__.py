@@ -15,7 +15,24 @@ PERIOD_S = 0.2
 
 
 def send(data: bytes, *, group: str, port: int, ttl: int) -> None:
-    """Send one packet to a group; RuntimeError says why the network does not take it."""
+    """
+    Send one UDP packet to a multicast group.
+
+    Parameters
+    ----------
+    data
+        The payload.
+    group, port
+        The IPv4 address of the group, and the UDP port.
+    ttl
+        Time to live (0 to 255): 0 stays on this machine, 1 in this network, each router takes one.
+
+    Raises
+    ------
+    RuntimeError
+        The network does not take the packet; the text says why.
+
+    """
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP) as sender:
             sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
@@ -25,7 +42,25 @@ def send(data: bytes, *, group: str, port: int, ttl: int) -> None:
 
 
 def receive(*, group: str, port: int) -> tuple[bytes, tuple[str, int]]:
-    """Wait for a packet of a group; return it with the address that it comes from."""
+    """
+    Join a multicast group and wait for one UDP packet, however long that takes.
+
+    Parameters
+    ----------
+    group, port
+        The IPv4 address of the group, and the UDP port.
+
+    Returns
+    -------
+    tuple
+        The payload, of which at most 4096 bytes are kept, and the address and port of the sender.
+
+    Raises
+    ------
+    RuntimeError
+        The group cannot be joined, or the port is taken; the text says why.
+
+    """
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP) as receiver:
             _join(receiver, group, port)

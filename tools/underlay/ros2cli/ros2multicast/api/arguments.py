@@ -11,7 +11,15 @@ DEFAULT_TTL = 255
 
 
 def add_group_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the group and the port."""
+    """
+    Add the multicast group and the port.
+
+    Parameters
+    ----------
+    parser
+        The parser of a verb, which they are added to.
+
+    """
     parser.add_argument(
         '-g',
         '--group',
@@ -29,7 +37,25 @@ def add_group_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def time_to_live(text: str) -> int:
-    """Return how many routers a packet may pass, or say why a text is no such number."""
+    """
+    Parse the time to live (TTL) of a packet, for argparse.
+
+    Parameters
+    ----------
+    text
+        The word on the command line.
+
+    Returns
+    -------
+    int
+        The TTL, 0 to 255.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is no such number.
+
+    """
     return _number(text, 0, 255)
 
 

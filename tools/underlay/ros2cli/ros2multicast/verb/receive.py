@@ -13,11 +13,34 @@ class ReceiveVerb(VerbExtension):
     """Receive a single UDP multicast packet."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the group and the port."""
+        """
+        Add the group and the port.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 multicast receive`; not used.
+
+        """
         add_group_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Wait for a packet and print it with its sender."""
+        """
+        Wait for a packet and print it with its sender.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Raises
+        ------
+        RuntimeError
+            The group cannot be joined, or the port is taken.
+
+        """
         from ros2multicast.api import receive
 
         print('Waiting for UDP multicast datagram...')

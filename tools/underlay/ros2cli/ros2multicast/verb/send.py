@@ -15,7 +15,17 @@ class SendVerb(VerbExtension):
     """Send a single UDP multicast packet."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the group, the port and how far the packet goes."""
+        """
+        Add the group, the port and the TTL.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, which they are added to.
+        cli_name
+            The words that call the verb, such as `ros2 multicast send`; not used.
+
+        """
         add_group_arguments(parser)
         parser.add_argument(
             '-t',
@@ -26,7 +36,20 @@ class SendVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Send a greeting."""
+        """
+        Send a greeting to the group.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            What the parser of the verb has parsed.
+
+        Raises
+        ------
+        RuntimeError
+            The network does not take the packet.
+
+        """
         from ros2multicast.api import send
 
         print('Sending one UDP multicast datagram...')

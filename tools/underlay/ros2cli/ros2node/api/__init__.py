@@ -34,7 +34,23 @@ class TopicInfo(NamedTuple):
 
 
 def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
-    """Return the names of all nodes, sorted, except for the one that asks."""
+    """
+    List the nodes of the graph, sorted by full name.
+
+    Parameters
+    ----------
+    node
+        A `Graph`, which leaves out the node that asks, or anything else with
+        `get_node_names_and_namespaces`.
+    include_hidden_nodes
+        Whether to include nodes with a leading underscore in the name or a part of the namespace.
+
+    Returns
+    -------
+    list of NodeName
+        One entry per node; nodes that share a name are listed as often as they exist.
+
+    """
     names = (
         NodeName(name, namespace, f'{namespace.rstrip("/")}/{name}')
         for name, namespace in node.get_node_names_and_namespaces()
@@ -46,7 +62,20 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
 
 
 def shared_names(names: list[NodeName]) -> list[str]:
-    """Return the full names that several nodes have."""
+    """
+    Find the full names that more than one node has.
+
+    Parameters
+    ----------
+    names
+        The nodes, as `get_node_names` lists them.
+
+    Returns
+    -------
+    list of str
+        Each of these full names once, sorted.
+
+    """
     counts = Counter(name.full_name for name in names)
     return sorted(name for name, count in counts.items() if count > 1)
 
@@ -56,7 +85,24 @@ def node_sections(
     remote: NodeName,
     include_hidden: bool = False,
 ) -> list[tuple[str, list[TopicInfo]]]:
-    """Return the headings of `node info`, each with what a node has under it."""
+    """
+    Collect the publishers, subscribers, services and actions of a node for `ros2 node info`.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    remote
+        The node to describe.
+    include_hidden
+        Whether to include topics, services and actions with a part that starts with an underscore.
+
+    Returns
+    -------
+    list of tuple of str and list of TopicInfo
+        The headings in the order of printing, each with its entries, sorted by name.
+
+    """
     of_node = (remote.name, remote.namespace)
     subscribers = node.get_subscriber_names_and_types_by_node(*of_node)
     publishers = node.get_publisher_names_and_types_by_node(*of_node)
@@ -79,7 +125,20 @@ def _visible(found: list[tuple[str, list[str]]], include_hidden: bool) -> list[T
 
 
 def actions_of(services: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
-    """Return the actions behind the hidden services that each action consists of."""
+    """
+    Derive actions from the hidden services that each action consists of.
+
+    Parameters
+    ----------
+    services
+        Names and types of services, as `Graph.get_service_names_and_types` returns them.
+
+    Returns
+    -------
+    list of tuple of str and list of str
+        The name of each action with its types, such as `tf2_msgs/action/LookupTransform`.
+
+    """
     suffix = '/_action/send_goal'
     return [
         (name[: -len(suffix)], [text.replace('_SendGoal', '') for text in types])

@@ -15,7 +15,17 @@ class InfoVerb(VerbExtension):
     """Output information about a node."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node's name and the choice of hidden names."""
+        """
+        Add the name of the node and the option for hidden names.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 node info`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument('node_name', help='Fully qualified node name to request information')
         parser.add_argument(
@@ -25,7 +35,20 @@ class InfoVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print what the node publishes, subscribes to, serves and calls."""
+        """
+        Print what the node publishes, subscribes to, serves and calls.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if there is no such node.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2node.api import get_node_names, node_sections, NodeName
 

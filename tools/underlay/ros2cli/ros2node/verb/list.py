@@ -15,13 +15,33 @@ class ListVerb(VerbExtension):
     """Output a list of available nodes."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the choice of nodes and of a mere count."""
+        """
+        Add the options for hidden nodes and for printing only a count.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 node list`; not used here.
+
+        """
         add_strategy_arguments(parser)
         add_all_nodes_argument(parser)
         add_count_argument(parser, 'nodes')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print one full name a line, or the count."""
+        """
+        Print the full names of the nodes, one per line, or their number.
+
+        With the names, a warning on stderr tells which of them several nodes share.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2node.api import get_node_names, shared_names
 

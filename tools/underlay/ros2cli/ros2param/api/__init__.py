@@ -28,14 +28,58 @@ LIST_TYPE = 'rcl_interfaces/srv/ListParameters'
 def list_parameters(
     node: Any, node_name: str, prefixes: Sequence[str] = (), timeout_s: float = float('inf')
 ) -> list[str]:
-    """Return the names of a node's parameters, sorted; all, or those with a prefix."""
+    """
+    List the names of a node's parameters, sorted.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    node_name
+        Full name of the node that has the parameters.
+    prefixes
+        Only names with one of these prefixes, as `a` for `a.b`; all names if it is empty.
+    timeout_s
+        How long to wait for the response once the service is connected, in s.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, disappears or does not respond in time.
+
+    """
     request = ListParameters.Request(prefixes=prefixes)
     response = call(node, ListParameters, f'{node_name}{LIST_SERVICE}', request, timeout_s)
     return sorted(response.result.names)
 
 
 def get_parameters(node: Any, node_name: str, names: list[str]) -> list[ParameterValue]:
-    """Return the values of parameters; that of an unknown one is not set."""
+    """
+    Get the values of parameters.
+
+    A node may return no values at all because one of the parameters is not declared; then each is
+    asked for separately.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    node_name
+        Full name of the node that has the parameters.
+    names
+        The parameters to get.
+
+    Returns
+    -------
+    list of ParameterValue
+        The values in the order of `names`; an unknown parameter has the type `PARAMETER_NOT_SET`.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, or disappears before it responds.
+
+    """
     request = GetParameters.Request(names=names)
     values = list(call(node, GetParameters, f'{node_name}/get_parameters', request).values)
     if len(values) == len(names):
@@ -46,7 +90,29 @@ def get_parameters(node: Any, node_name: str, names: list[str]) -> list[Paramete
 
 
 def describe_parameters(node: Any, node_name: str, names: list[str]) -> list[ParameterDescriptor]:
-    """Return the descriptors of those parameters that the node knows."""
+    """
+    Get the descriptors of parameters: type, description and constraints.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    node_name
+        Full name of the node that has the parameters.
+    names
+        Declared parameters, as `list_parameters` lists them.
+
+    Returns
+    -------
+    list of ParameterDescriptor
+        The descriptors, as the node returns them.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, or disappears before it responds.
+
+    """
     request = DescribeParameters.Request(names=names)
     response = call(node, DescribeParameters, f'{node_name}/describe_parameters', request)
     return list(response.descriptors)
@@ -55,19 +121,72 @@ def describe_parameters(node: Any, node_name: str, names: list[str]) -> list[Par
 def set_parameter(
     node: Any, node_name: str, name: str, value: ParameterValue
 ) -> SetParametersResult:
-    """Set a parameter, or delete it with a value that is not set; return what the node says."""
+    """
+    Set or delete a parameter of a node.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    node_name
+        Full name of the node that has the parameter.
+    name
+        The parameter.
+    value
+        Its new value; one of the type `PARAMETER_NOT_SET` deletes the parameter.
+
+    Returns
+    -------
+    SetParametersResult
+        Whether the node accepted the value, and its reason.
+
+    Raises
+    ------
+    RuntimeError
+        The service does not connect, or disappears before it responds.
+
+    """
     request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
     return call(node, SetParameters, f'{node_name}/set_parameters', request).results[0]
 
 
 def unknown_parameter_hint(node: Any, node_name: str, name: str) -> str:
-    """Return that a node has no such parameter and which one may be meant; '' if it has it."""
+    """
+    Explain that a node has no such parameter, and suggest the closest name.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that asks for the names.
+    node_name
+        Full name of the node.
+    name
+        The parameter as the user wrote it.
+
+    Returns
+    -------
+    str
+        The message, or '' if the node has the parameter.
+
+    """
     known = list_parameters(node, node_name)
     return '' if name in known else unknown_parameter_text(node_name, name, known)
 
 
 def unknown_parameter_text(node_name: str, name: str, known: Collection[str]) -> str:
-    """Return that a node has no such parameter, and which of its own may be meant."""
+    """
+    Format the message for an unknown parameter, with a suggestion if a known name is close.
+
+    Parameters
+    ----------
+    node_name
+        Full name of the node.
+    name
+        The parameter as the user wrote it.
+    known
+        The names of the node's parameters.
+
+    """
     from ros2cli.suggest import did_you_mean
 
     text = f"The node '{node_name}' has no parameter '{name}'."

@@ -12,7 +12,15 @@ DEFAULT_TIMEOUT_S = 1.0
 
 
 def add_param_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options for the node, and how long to wait for it."""
+    """
+    Add the options for discovery, hidden nodes and the timeout.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     add_strategy_arguments(parser)
     add_hidden_nodes_argument(parser)
     parser.add_argument(
@@ -25,10 +33,28 @@ def add_param_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_node_name_argument(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
-    """Add the name of the node."""
+    """
+    Add the positional argument `node_name`.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    optional
+        Whether it may be left out; `node_name` is None then.
+
+    """
     parser.add_argument('node_name', nargs='?' if optional else None, help='Name of the ROS node')
 
 
 def add_parameter_name_argument(parser: argparse.ArgumentParser) -> None:
-    """Add the name of the parameter."""
+    """
+    Add the positional argument `parameter_name`.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument('parameter_name', help='Name of the parameter')

@@ -10,7 +10,20 @@ from ros2param.api.values import type_name
 
 
 def description_lines(descriptor: ParameterDescriptor) -> Iterator[str]:
-    """Yield the lines about a parameter: its type, its description and its constraints."""
+    """
+    Format a parameter descriptor as lines: name, type, description and constraints.
+
+    Parameters
+    ----------
+    descriptor
+        What the node returns for the parameter.
+
+    Yields
+    ------
+    str
+        One line, without the line break.
+
+    """
     yield f'Parameter name: {descriptor.name}'
     yield f'  Type: {type_name(descriptor.type)}'
     if descriptor.description:

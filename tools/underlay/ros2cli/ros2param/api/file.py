@@ -19,7 +19,32 @@ WILDCARD = '*'
 def read_parameters(
     path: str, node_name: str, *, use_wildcard: bool = True
 ) -> dict[str, ParameterValue]:
-    """Return a node's parameters; what a file says for many nodes gives way to its own."""
+    """
+    Read a node's parameters from a YAML parameter file.
+
+    Of sections with wildcards in their names a later one overrides an earlier one, and the section
+    that names the node itself overrides them all.
+
+    Parameters
+    ----------
+    path
+        The parameter file.
+    node_name
+        Full name of the node.
+    use_wildcard
+        Whether sections with wildcards in their names apply, too.
+
+    Returns
+    -------
+    dict of str to ParameterValue
+        The values by the dotted names of the parameters.
+
+    Raises
+    ------
+    RuntimeError
+        The file cannot be read, has nothing for this node, or a value is missing or too large.
+
+    """
     try:
         sections = dict(_sections(_read(path), ''))
         chosen = _chosen(sections, node_name, use_wildcard=use_wildcard)
@@ -30,7 +55,18 @@ def read_parameters(
 
 
 def matches(pattern: str, node_name: str) -> bool:
-    """Tell if a name with `*` for one part and `**` for any number of parts fits a node."""
+    """
+    Test whether a node name matches a pattern with wildcards.
+
+    Parameters
+    ----------
+    pattern
+        Parts joined by slashes: `*` stands for one whole part, `**` for any number of them, also
+        none. Within a part an asterisk is an ordinary character.
+    node_name
+        Full name of the node, with the leading slash.
+
+    """
     tokens = {'*': '/[^/]+', '**': '(/[^/]+)*'}
     parts = pattern.strip('/').split('/')
     expression = ''.join(tokens.get(part, f'/{re.escape(part)}') for part in parts)

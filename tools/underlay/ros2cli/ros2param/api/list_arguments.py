@@ -8,7 +8,15 @@ import re
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of parameters and of their types."""
+    """
+    Add the options that filter the parameters and show their types.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument(
         '--param-prefixes',
         nargs='+',

@@ -15,7 +15,19 @@ ANSWER_TIMEOUT_S = 5.0
 
 
 def print_all(node: Any, args: argparse.Namespace) -> None:
-    """Print the parameters of all nodes; one that does not answer is named on stderr."""
+    """
+    Print the parameters of all nodes, each node's below its name.
+
+    A node that does not respond within 5 s is reported on stderr and skipped.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    args : argparse.Namespace
+        The parsed command line of `ros2 param list`.
+
+    """
     names = nodes_with_service(
         node.graph, LIST_SERVICE, LIST_TYPE, include_hidden_nodes=args.include_hidden_nodes
     )
@@ -31,7 +43,19 @@ def print_all(node: Any, args: argparse.Namespace) -> None:
 
 
 def print_one(node: Any, name: str, args: argparse.Namespace) -> None:
-    """Print the parameters of one node."""
+    """
+    Print the parameters of one node.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    name
+        Full name of the node.
+    args : argparse.Namespace
+        The parsed command line of `ros2 param list`.
+
+    """
     for line in _lines(node, name, args, float('inf')):
         print(line)
 

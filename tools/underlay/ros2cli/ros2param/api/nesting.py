@@ -10,7 +10,17 @@ SEPARATOR = '.'
 
 
 def nest(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a mapping in which `a.b` is `b` within `a`, unless `a` is a parameter itself."""
+    """
+    Nest values by their dotted names: `a.b` becomes `b` within `a`.
+
+    A name stays as it is if one of its prefixes is a parameter itself.
+
+    Parameters
+    ----------
+    values
+        The values by their dotted names.
+
+    """
     root: dict[str, Any] = {}
     for name, value in values.items():
         parts = name.split(SEPARATOR)
@@ -26,7 +36,22 @@ def nest(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def flatten(nested: Mapping[Any, Any], prefix: str = '') -> Iterator[tuple[str, Any]]:
-    """Yield the dotted names of nested values, with the values."""
+    """
+    Flatten nested mappings into dotted names.
+
+    Parameters
+    ----------
+    nested
+        Values or mappings by name; mappings may be nested to any depth.
+    prefix
+        Put in front of each name, with its final dot.
+
+    Yields
+    ------
+    tuple of str and Any
+        A dotted name and its value.
+
+    """
     for name, value in nested.items():
         if isinstance(value, Mapping):
             yield from flatten(value, f'{prefix}{name}{SEPARATOR}')

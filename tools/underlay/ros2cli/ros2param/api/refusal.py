@@ -11,7 +11,26 @@ from ros2param.api.values import to_plain_value, type_name, TYPES
 
 
 def refusal_hint(node: Any, node_name: str, name: str, value: ParameterValue, reason: str) -> str:
-    """Return what is wrong with a parameter's name, or with the type that a node refuses."""
+    """
+    Explain why a node may have rejected a parameter value: unknown name or wrong type.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    node_name
+        Full name of the node.
+    name, value
+        The parameter, and the value that was rejected.
+    reason
+        The node's own reason; types are only compared if it contains the word "type".
+
+    Returns
+    -------
+    str
+        The hint, with the way to write the value if that helps, or ''.
+
+    """
     current = get_parameters(node, node_name, [name])[0]
     if current.type not in TYPES:
         return unknown_parameter_hint(node, node_name, name)

@@ -17,7 +17,25 @@ from ros2param.api import LIST_SERVICE
 
 @contextmanager
 def remote_node(args: argparse.Namespace) -> Iterator[tuple[Any, str]]:
-    """Yield our own node and the full name of the one on the command line, or RuntimeError."""
+    """
+    Create a node for this command and find the one whose parameters it is about.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line, with `node_name` and `timeout` (s).
+
+    Yields
+    ------
+    tuple of DirectNode and str
+        The node of this command, and the full name of the other one.
+
+    Raises
+    ------
+    RuntimeError
+        The other node does not appear in time, or has no parameter services.
+
+    """
     with DirectNode(args) as node:
         name = find_node(node.watch, args.node_name, args.timeout)
         _require_services(node, name, args.timeout)

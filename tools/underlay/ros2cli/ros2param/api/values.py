@@ -54,12 +54,38 @@ LARGEST_INTEGER = 2**63
 
 
 def type_name(kind: int) -> str:
-    """Return the name of a type of parameter."""
+    """
+    Name a parameter type, such as `double array`.
+
+    Parameters
+    ----------
+    kind
+        A constant of `rcl_interfaces/msg/ParameterType`.
+
+    Returns
+    -------
+    str
+        The name; `not set` for `PARAMETER_NOT_SET` and unknown constants.
+
+    """
     return TYPES[kind].name if kind in TYPES else 'not set'
 
 
 def to_plain_value(value: ParameterValue) -> Any:
-    """Return a parameter's value as a plain value; None if it is not set."""
+    """
+    Convert a parameter value to a plain Python value.
+
+    Parameters
+    ----------
+    value
+        The value, of any type.
+
+    Returns
+    -------
+    bool, int, float, str, list or None
+        Arrays become lists; None if the value is not set.
+
+    """
     if value.type not in TYPES:
         return None
     plain = getattr(value, TYPES[value.type].field)
@@ -67,7 +93,25 @@ def to_plain_value(value: ParameterValue) -> Any:
 
 
 def parse_value(text: str) -> ParameterValue:
-    """Return the value that a text in YAML stands for; what is none of the types is a text."""
+    """
+    Parse a YAML string as a parameter value.
+
+    Parameters
+    ----------
+    text
+        The value as the user wrote it.
+
+    Returns
+    -------
+    ParameterValue
+        The value; a string parameter with the whole text if it is no YAML or fits no other type.
+
+    Raises
+    ------
+    RuntimeError
+        An integer needs more than 64 bits.
+
+    """
     try:
         plain = yaml.safe_load(text)
     except yaml.YAMLError:
@@ -76,10 +120,28 @@ def parse_value(text: str) -> ParameterValue:
 
 
 def to_value(plain: Any, text: str) -> ParameterValue:
-    """Return a plain value as that of a parameter; `text` if there is no type for it."""
+    """
+    Convert a plain Python value to a parameter value.
+
+    Lists of integers and floats become double arrays, and an empty list a boolean array.
+
+    Parameters
+    ----------
+    plain
+        The value: bool, int, float, str, or a list of these.
+    text
+        The string parameter that it becomes if it is of any other type, such as a mixed list.
+
+    Raises
+    ------
+    RuntimeError
+        An integer needs more than 64 bits.
+
+    """
     items = plain if isinstance(plain, list) else [plain]
     kinds = {type(item) for item in items}
     if kinds == {int, float}:
+        _check_range(items)
         items, kinds = [float(item) for item in items], {float}
     kind = kinds.pop() if len(kinds) == 1 else bool
     if kinds or kind not in SCALAR_TYPES:

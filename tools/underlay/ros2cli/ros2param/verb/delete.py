@@ -18,13 +18,33 @@ class DeleteVerb(VerbExtension):
     """Delete parameter."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the parameter."""
+        """
+        Add the names of the node and the parameter.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param delete`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser)
         add_parameter_name_argument(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print what the node says; a refusal is no error, but is told on stderr."""
+        """
+        Delete the parameter and print the node's answer.
+
+        A rejection goes to stderr, but the exit status stays 0.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from rcl_interfaces.msg import ParameterValue
         from ros2param.api import set_parameter, unknown_parameter_hint
         from ros2param.api.remote import remote_node

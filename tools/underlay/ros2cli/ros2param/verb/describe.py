@@ -14,13 +14,31 @@ class DescribeVerb(VerbExtension):
     """Show descriptive information about declared parameters."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the parameters."""
+        """
+        Add the names of the node and the parameters.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param describe`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser)
         parser.add_argument('parameter_names', nargs='+', help='Names of the parameters')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the description of each parameter that the node has."""
+        """
+        Print the descriptor of each parameter; unknown ones are reported on stderr.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2param.api import (
             describe_parameters,
             list_parameters,

@@ -13,12 +13,30 @@ class DumpVerb(VerbExtension):
     """Show all of the parameters of a node in a YAML format."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node."""
+        """
+        Add the name of the node.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param dump`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the parameters as a parameter file."""
+        """
+        Print all parameters of the node as a YAML parameter file.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.messages.text import plain_to_yaml
         from ros2param.api import get_parameters, list_parameters
         from ros2param.api.file import PARAMETERS

@@ -17,14 +17,37 @@ class GetVerb(VerbExtension):
     """Get parameter."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the parameter."""
+        """
+        Add the names of the node and the parameter, and the option to hide the type.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param get`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser)
         add_parameter_name_argument(parser)
         parser.add_argument('--hide-type', action='store_true', help='Hide the type information')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the value with its type, or alone."""
+        """
+        Print the value of the parameter, with or without its type.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if the parameter is not set.
+
+        """
         from ros2param.api import get_parameters, unknown_parameter_hint
         from ros2param.api.remote import remote_node
         from ros2param.api.values import to_plain_value, TYPES

@@ -14,13 +14,31 @@ class ListVerb(VerbExtension):
     """Output a list of available parameters."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the choice of parameters."""
+        """
+        Add the name of the node and the options that filter the parameters.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param list`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser, optional=True)
         add_list_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the parameters of one node, or of all under the names of their nodes."""
+        """
+        Print the parameters of one node, or those of all nodes below their names.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.node.direct import DirectNode
         from ros2param.api.listing import print_all, print_one
         from ros2param.api.remote import remote_node

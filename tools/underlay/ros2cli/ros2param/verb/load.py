@@ -15,7 +15,17 @@ class LoadVerb(VerbExtension):
     """Load parameter file for a node."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node and the file."""
+        """
+        Add the name of the node, the parameter file and the option for wildcards.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param load`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser)
         parser.add_argument('parameter_file', help='Parameter file')
@@ -26,7 +36,15 @@ class LoadVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Set the parameters one by one and print what the node says to each."""
+        """
+        Set the parameters of the file one by one and print the node's answer to each.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2param.api.file import read_parameters
         from ros2param.api.remote import remote_node
 

@@ -18,14 +18,34 @@ class SetVerb(VerbExtension):
     """Set parameter."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the node, the parameter and its value."""
+        """
+        Add the names of the node and the parameter, and the value.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 param set`; not used here.
+
+        """
         add_param_arguments(parser)
         add_node_name_argument(parser)
         add_parameter_name_argument(parser)
         parser.add_argument('value', help='Value of the parameter, in YAML')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print what the node says; a refusal is no error, but is told on stderr."""
+        """
+        Set the parameter and print the node's answer.
+
+        A rejection goes to stderr, but the exit status stays 0.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2param.api import set_parameter
         from ros2param.api.refusal import refusal_hint
         from ros2param.api.remote import remote_node

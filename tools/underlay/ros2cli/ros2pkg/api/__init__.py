@@ -25,7 +25,25 @@ def get_package_names() -> list[str]:
 
 
 def get_package_prefix(package_name: str) -> str:
-    """Return a package's prefix; a name that cannot exist is a package that does not exist."""
+    """
+    Find the install prefix of a package.
+
+    Parameters
+    ----------
+    package_name
+        The package.
+
+    Returns
+    -------
+    str
+        The folder that holds the package's `share` and `lib`.
+
+    Raises
+    ------
+    PackageNotFoundError
+        The package is not installed, or its name is no valid one.
+
+    """
     try:
         return str(_get_package_prefix(package_name))
     except ValueError as error:
@@ -33,12 +51,50 @@ def get_package_prefix(package_name: str) -> str:
 
 
 def get_share_directory(package_name: str) -> str:
-    """Return a package's share directory."""
+    """
+    Find the share directory of a package.
+
+    Parameters
+    ----------
+    package_name
+        The package.
+
+    Returns
+    -------
+    str
+        The path `<prefix>/share/<package_name>`, whether it exists or not.
+
+    Raises
+    ------
+    PackageNotFoundError
+        As for `get_package_prefix`.
+
+    """
     return os.path.join(get_package_prefix(package_name), 'share', package_name)
 
 
 def get_executable_paths(*, package_name: str) -> list[str]:
-    """Return the paths of a package's executables, sorted."""
+    """
+    List the executables of a package: those in `lib/<package_name>` and below.
+
+    Hidden subfolders are left out.
+
+    Parameters
+    ----------
+    package_name
+        The package.
+
+    Returns
+    -------
+    list of str
+        Their paths, sorted.
+
+    Raises
+    ------
+    PackageNotFoundError
+        As for `get_package_prefix`.
+
+    """
     return _executables(get_package_prefix(package_name), package_name)
 
 

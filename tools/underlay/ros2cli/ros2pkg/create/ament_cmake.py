@@ -43,7 +43,17 @@ int main(int argc, char ** argv)
 
 
 def write_sources(description: PackageDescription, writer: Writer) -> None:
-    """Write everything but the manifest."""
+    """
+    Write the files of an ament_cmake package, except for its manifest and licence.
+
+    Parameters
+    ----------
+    description
+        The package; a node gets a C++ source and its CMake rules.
+    writer
+        Writes below the package's folder.
+
+    """
     print('creating source and include folder')
     writer.folder('src')
     writer.folder(f'include/{description.name}')

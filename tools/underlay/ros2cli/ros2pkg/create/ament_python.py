@@ -55,7 +55,17 @@ if __name__ == '__main__':
 
 
 def write_sources(description: PackageDescription, writer: Writer) -> None:
-    """Write everything but the manifest."""
+    """
+    Write the files of an ament_python package, except for its manifest and licence.
+
+    Parameters
+    ----------
+    description
+        The package; a node gets a module and an entry point, a library a package of its own.
+    writer
+        Writes below the package's folder.
+
+    """
     name = description.name
     print('creating source folder')
     writer.folder(name)

@@ -11,7 +11,22 @@ import sys
 
 
 def refusal(args: argparse.Namespace, package_folder: str) -> str:
-    """Return why the package cannot be created, or ''."""
+    """
+    Check that a package can be created.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line of `ros2 pkg create`.
+    package_folder
+        The folder of the package, which must not exist yet.
+
+    Returns
+    -------
+    str
+        The error message with the remedy, or '' if nothing is wrong.
+
+    """
     if os.path.isdir(package_folder):
         return (
             f'\nAborted!\nThe directory already exists: {package_folder}\nEither remove the '
@@ -81,7 +96,20 @@ def _better_name(name: str) -> str:
 
 
 def renamed_node(node_name: str | None, library_name: str | None) -> str | None:
-    """Return the node's name, made different from the library's, with a warning if it was."""
+    """
+    Rename a node that has the same name as the library, with a warning on stderr.
+
+    Parameters
+    ----------
+    node_name, library_name
+        As given on the command line; None if left out.
+
+    Returns
+    -------
+    str or None
+        The node's name, with `_node` appended if it had to be changed.
+
+    """
     if not node_name or node_name != library_name:
         return node_name
     print(

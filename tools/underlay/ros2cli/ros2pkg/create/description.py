@@ -22,7 +22,20 @@ class PackageDescription(NamedTuple):
     version: str = '0.0.0'
 
     def summary(self, destination: str) -> str:
-        """Return the lines that tell the user what is about to be created."""
+        """
+        Summarize the package for the user before it is created.
+
+        Parameters
+        ----------
+        destination
+            The folder in which the folder of the package is created.
+
+        Returns
+        -------
+        str
+            Several lines, one per property.
+
+        """
         maintainer = f'{self.maintainer_name} <{self.maintainer_email}>'
         lines = [
             f'package name: {self.name}',

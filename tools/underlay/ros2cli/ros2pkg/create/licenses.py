@@ -15,7 +15,22 @@ def known_licenses() -> list[str]:
 
 
 def license_text(identifier: str, holder: str) -> str | None:
-    """Return a licence's text with year and holder filled in, or None if it is unknown."""
+    """
+    Load the text of a licence.
+
+    Parameters
+    ----------
+    identifier
+        Its SPDX identifier.
+    holder
+        The copyright holder; with the current year, it is filled into MIT and BSD licences.
+
+    Returns
+    -------
+    str or None
+        The text, or None for a licence that is not known.
+
+    """
     if identifier not in known_licenses():
         return None
     text = (TEXTS / f'{identifier}.txt').read_text(encoding='utf-8')
@@ -25,7 +40,15 @@ def license_text(identifier: str, holder: str) -> str | None:
 
 
 def unknown_license_warning(identifier: str) -> str:
-    """Return the warning about a licence without a text."""
+    """
+    Format the warning about a licence that is not known, with a list of those that are.
+
+    Parameters
+    ----------
+    identifier
+        The licence as the user wrote it.
+
+    """
     choices = '\n'.join(known_licenses())
     return (
         f"\n[WARNING]: Unknown license '{identifier}'.  This has been set in the package.xml, "

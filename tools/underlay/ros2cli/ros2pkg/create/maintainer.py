@@ -7,7 +7,20 @@ import subprocess
 
 
 def default_email(name: str) -> str:
-    """Return the address that git knows, else one that is obviously to be replaced."""
+    """
+    Determine the maintainer's email address when none is given.
+
+    Parameters
+    ----------
+    name
+        The maintainer's name.
+
+    Returns
+    -------
+    str
+        Git's `user.email`, or else the placeholder `<name>@todo.todo`.
+
+    """
     try:
         result = subprocess.run(
             ['git', 'config', '--get', 'user.email'], capture_output=True, text=True, check=False

@@ -12,7 +12,15 @@ SCHEMA = 'http://download.ros.org/schema/package_format{}.xsd'
 
 
 def manifest_text(description: PackageDescription) -> str:
-    """Return the manifest of a package."""
+    """
+    Generate the content of `package.xml`.
+
+    Parameters
+    ----------
+    description
+        The package.
+
+    """
     groups = [_facts(description), _dependencies(description), _tests(description)]
     body = '\n\n'.join('\n'.join(f'  {line}' for line in group) for group in groups if group)
     schema = SCHEMA.format(description.package_format)

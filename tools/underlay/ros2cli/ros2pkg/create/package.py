@@ -16,7 +16,22 @@ LAYOUTS = {
 
 
 def create_package(description: PackageDescription, package_folder: str) -> None:
-    """Create all files of a package in a folder that does not exist yet."""
+    """
+    Create a package: manifest, sources, and the licence if its text is known.
+
+    Parameters
+    ----------
+    description
+        The package; its build type is `ament_cmake` or `ament_python`.
+    package_folder
+        Where to create it; the folder itself is created, too.
+
+    Raises
+    ------
+    OSError
+        A folder or file cannot be written.
+
+    """
     writer = Writer(package_folder)
     writer.file('package.xml', manifest_text(description))
     LAYOUTS[description.build_type](description, writer)

@@ -7,19 +7,59 @@ import os
 
 
 class Writer:
-    """Creates the files of one package below its folder."""
+    """
+    Creates the folders and files of a package, and prints the path of each.
+
+    Parameters
+    ----------
+    package_folder
+        The folder of the package, which is created if need be.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be created.
+
+    """
 
     def __init__(self, package_folder: str) -> None:
-        """Create the package's folder."""
         self.package_folder = package_folder
         self._make(package_folder)
 
     def folder(self, relative: str) -> None:
-        """Create a folder, if it does not exist yet."""
+        """
+        Create a folder and its parents, unless it exists.
+
+        Parameters
+        ----------
+        relative
+            Path from the package's folder.
+
+        Raises
+        ------
+        OSError
+            The folder cannot be created.
+
+        """
         self._make(os.path.join(self.package_folder, relative))
 
     def file(self, relative: str, text: str = '') -> None:
-        """Create a file with its text."""
+        """
+        Write a text file, in a folder that exists.
+
+        Parameters
+        ----------
+        relative
+            Path from the package's folder.
+        text
+            The content, written as UTF-8.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+
+        """
         path = os.path.join(self.package_folder, relative)
         print(f'creating {path}')
         with open(path, 'w', encoding='utf-8') as stream:

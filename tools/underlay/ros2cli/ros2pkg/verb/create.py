@@ -23,7 +23,17 @@ class CreateVerb(VerbExtension):
     """Create a new ROS 2 package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the package's name and its properties."""
+        """
+        Add the name of the package and the options for its properties.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb, kept for usage errors that `main` finds.
+        cli_name
+            The words that call the verb, `ros2 pkg create`, kept for the same.
+
+        """
         self._parser, self._cli_name = parser, cli_name
         add = parser.add_argument
         add('package_name', nargs='?', help='The package name')
@@ -69,7 +79,20 @@ class CreateVerb(VerbExtension):
         add('--library-name', help='name of the empty library')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Create the package, unless something speaks against it."""
+        """
+        Create the package, or list the licences that are known for `--license ?`.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        int or str
+            0, or the error message if the package cannot be created.
+
+        """
         if args.license == '?':
             print('\n'.join(['Supported licenses:', *known_licenses()]))
             return 0

@@ -18,14 +18,37 @@ class ExecutablesVerb(VerbExtension):
     """Output a list of package specific executables."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the package's name and the choice of full paths."""
+        """
+        Add the name of the package and the option for full paths.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 pkg executables`; not used here.
+
+        """
         parser.add_argument('package_name', nargs='?', help='The package name')
         parser.add_argument(
             '--full-path', action='store_true', help='Show the full path of each executable'
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the executables of one package, or of all."""
+        """
+        Print the executables of one package, or of all.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if there is no such package.
+
+        """
         name = args.package_name
         try:
             found = {name: get_executable_paths(package_name=name)} if name is not None else None

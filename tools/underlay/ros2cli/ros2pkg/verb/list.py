@@ -13,7 +13,15 @@ class ListVerb(VerbExtension):
     """Output a list of available packages."""
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print one name a line."""
+        """
+        Print the names of all packages, one per line.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         names = get_package_names()
         if names:
             print('\n'.join(names))

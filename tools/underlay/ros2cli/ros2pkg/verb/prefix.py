@@ -13,14 +13,37 @@ class PrefixVerb(VerbExtension):
     """Output the prefix path of a package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the package's name and the choice of the share folder."""
+        """
+        Add the name of the package and the option for its share directory.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 pkg prefix`; not used here.
+
+        """
         parser.add_argument('package_name', help='The package name')
         parser.add_argument(
             '--share', action='store_true', help='show share directory for the package'
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the folder."""
+        """
+        Print the install prefix or the share directory of the package.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if there is no such package.
+
+        """
         find = get_share_directory if args.share else get_package_prefix
         try:
             print(find(args.package_name))

@@ -16,12 +16,35 @@ class XmlVerb(VerbExtension):
     """Output the XML of the package manifest or a specific tag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the package's name and the choice of one tag."""
+        """
+        Add the name of the package and the option for a single tag.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 pkg xml`; not used here.
+
+        """
         parser.add_argument('package_name', help='The package name')
         parser.add_argument('-t', '--tag', help='The XML tag to output')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the manifest, or the texts of all elements with the tag."""
+        """
+        Print the manifest, or the text of each of its top-level elements with the tag.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if the package, its manifest or the tag is missing, or it is no XML.
+
+        """
         try:
             manifest = Path(get_share_directory(args.package_name), 'package.xml')
         except PackageNotFoundError:

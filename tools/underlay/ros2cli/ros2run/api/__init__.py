@@ -20,7 +20,27 @@ class MultipleExecutables(Exception):
 
 
 def get_executable_path(*, package_name: str, executable_name: str) -> str | None:
-    """Return the path of an executable, or None; PackageNotFoundError for no such package."""
+    """
+    Find an executable of a package by its file name.
+
+    Parameters
+    ----------
+    package_name, executable_name
+        The package, and the name of the file in or below its `lib/<package_name>`.
+
+    Returns
+    -------
+    str or None
+        The path, or None if the package has no such executable.
+
+    Raises
+    ------
+    PackageNotFoundError
+        The package is not installed.
+    MultipleExecutables
+        Several executables have this name.
+
+    """
     from ros2pkg.api import get_executable_paths
 
     paths = [
@@ -34,5 +54,27 @@ def get_executable_path(*, package_name: str, executable_name: str) -> str | Non
 
 
 def run_executable(*, path: str, argv: list[str], prefix: list[str] | None = None) -> int:
-    """Run an executable and return its exit status, negative after a signal."""
+    """
+    Run an executable in the foreground until it ends.
+
+    Parameters
+    ----------
+    path
+        The executable.
+    argv
+        Its arguments.
+    prefix
+        The words to put in front, such as those of `gdb -ex run --args`.
+
+    Returns
+    -------
+    int
+        The exit status, or minus the number of the signal that ended it.
+
+    Raises
+    ------
+    RuntimeError
+        The executable, or the first word of the prefix, cannot be run.
+
+    """
     return run_child([*(prefix or ()), path, *argv])

@@ -14,10 +14,26 @@ SENT_BY_KERNEL = 0x80
 
 def run_child(command: list[str]) -> int:
     """
-    Run a command until it ends; return its exit status, or minus the signal's number.
+    Run a command in the foreground until it ends, and forward signals to it.
 
     The child stays in the terminal's foreground group, so that it can read the keyboard. A
     Ctrl-C reaches it from the terminal, and is therefore not passed on a second time.
+
+    Parameters
+    ----------
+    command
+        The program, searched for in `PATH` if it has no slash, and its arguments.
+
+    Returns
+    -------
+    int
+        The exit status, or minus the number of the signal that ended it.
+
+    Raises
+    ------
+    RuntimeError
+        The program cannot be run.
+
     """
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     waited = {*FORWARDED, signal.SIGCHLD}

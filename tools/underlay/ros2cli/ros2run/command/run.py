@@ -15,7 +15,17 @@ class RunCommand(CommandExtension):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the arguments; all that follows the executable's name belongs to it."""
+        """
+        Add the arguments of `ros2 run`; everything after the executable's name is passed on to it.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command.
+        cli_name, argv
+            The words that call the command, `ros2 run`, and those after them; not used here.
+
+        """
         parser.add_argument(
             '--prefix',
             type=_split,
@@ -31,7 +41,22 @@ class RunCommand(CommandExtension):
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
-        """Find the executable and run it until it ends."""
+        """
+        Find the executable and run it until it ends.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command; not used here.
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        int or str or None
+            The exit status of the executable, negative after a signal, or the error message.
+
+        """
         from ros2pkg.api import PackageNotFoundError
         from ros2run.api import get_executable_path, MultipleExecutables, run_executable
 

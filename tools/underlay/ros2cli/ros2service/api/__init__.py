@@ -20,7 +20,23 @@ def get_service_names_and_types(
     node: Any,
     include_hidden_services: bool = False,
 ) -> list[tuple[str, list[str]]]:
-    """Return the services that others offer or call, sorted, with their types."""
+    """
+    List the services of the graph with their types, sorted by name.
+
+    Parameters
+    ----------
+    node
+        A `Graph`, which leaves out the node that asks, or anything else with
+        `get_service_names_and_types`.
+    include_hidden_services
+        Whether to include services with a part that starts with an underscore.
+
+    Returns
+    -------
+    list of tuple of str and list of str
+        The services that have a server or a client.
+
+    """
     return sorted(
         (name, types)
         for name, types in node.get_service_names_and_types()
@@ -29,19 +45,59 @@ def get_service_names_and_types(
 
 
 def get_service_types(node: Any, service: str) -> list[str]:
-    """Return the types of one service, hidden or not; none if nobody uses it."""
+    """
+    Look up the types of a service, hidden or not.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    service
+        Full name of the service.
+
+    Returns
+    -------
+    list of str
+        The types; empty if the service has neither a server nor a client.
+
+    """
     found = get_service_names_and_types(node=node, include_hidden_services=True)
     return dict(found).get(service, [])
 
 
 def unknown_service_text(node: Any, service: str) -> str:
-    """Return the error text for an unknown service, with a name that comes close."""
+    """
+    Format the error message for an unknown service, with a suggestion if a name is close.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    service
+        The service as the user wrote it.
+
+    """
     hint = closest(service, _offered(node))
     return '\n'.join([f"Unknown service '{service}'", hint]).rstrip()
 
 
 def service_hint(node: Any, service: str, type_name: str) -> str:
-    """Return why a service may not answer: it has another name or another type, or ''."""
+    """
+    Explain why a service may not respond: it has another type or another name.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    service, type_name
+        The full name and the type that the client uses.
+
+    Returns
+    -------
+    str
+        The message, or '' if nothing is known to be wrong.
+
+    """
     others = [name for name in get_service_types(node, service) if name != type_name]
     if others and node.count_services(service):
         return f"'{service}' has the type '{others[0]}', not '{type_name}'."

@@ -15,10 +15,23 @@ from ros2service.api import get_service_types, service_hint
 
 
 class Caller:
-    """The client of one service."""
+    """
+    Calls a service, and prints the requests and responses.
+
+    The client is created at once, but may connect later: call `wait_for_service` first.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    service_type
+        The class of the service.
+    name
+        Full name of the service.
+
+    """
 
     def __init__(self, node: Any, service_type: Any, name: str) -> None:
-        """Create the client; it may connect later."""
         self._node = node
         self._client = node.create_client(service_type, name)
         self._name = name
@@ -32,7 +45,22 @@ class Caller:
         wait_until(self._node, self._client.service_is_ready, patience)
 
     def call_repeatedly(self, request: OutgoingMessage, rate_hz: float | None) -> None:
-        """Call once, or for ever if there is a rate."""
+        """
+        Call the service once, or endlessly at a rate.
+
+        Parameters
+        ----------
+        request
+            The request; its time stamps are set anew for each call.
+        rate_hz
+            Calls per second, each after the response to the last one; None for a single call.
+
+        Raises
+        ------
+        RuntimeError
+            The service disappears before it responds.
+
+        """
         next_s = time.monotonic()
         while True:
             self._call(request.stamped(self._node.get_clock().now().to_msg()))

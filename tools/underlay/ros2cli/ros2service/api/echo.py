@@ -24,7 +24,24 @@ EVENT_NAMES = {
 
 
 def echo(node: Any, service: str, args: argparse.Namespace) -> None:
-    """Print the requests and responses of a service for ever."""
+    """
+    Print the introspection events of a service endlessly: its requests and responses.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes.
+    service
+        Full name of the service.
+    args : argparse.Namespace
+        The parsed command line; without `service_type` the type is taken from the graph.
+
+    Raises
+    ------
+    RuntimeError
+        The type is invalid, not known yet, or not the only one of the service.
+
+    """
     type_name = args.service_type or _discovered_type(node, service)
     event_type = get_passed_type(type_name, 'srv').Event
     topic = f'{service}{EVENT_SUFFIX}'
@@ -42,7 +59,20 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
 
 
 def event_formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
-    """Return the function that turns an event into the text that the options ask for."""
+    """
+    Create the function that formats service events as the options ask for.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line with the options of `add_form_arguments`.
+
+    Returns
+    -------
+    callable
+        Takes the event message and its message info; returns the text, YAML or CSV.
+
+    """
     shortening = chosen_shortening(args)
 
     def format_event(event: Any, info: Any) -> str:

@@ -15,7 +15,17 @@ class CallVerb(VerbExtension):
     """Call a service."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the service, the values of the request and the rate of calls."""
+        """
+        Add the service, the values of the request and the rate of the calls.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 service call`; not used here.
+
+        """
         parser.add_argument(
             'service_name', help="Name of the ROS service to call to (e.g. '/add_two_ints')"
         )
@@ -33,7 +43,15 @@ class CallVerb(VerbExtension):
         add_node_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Call the service once, or at a rate until the user stops it."""
+        """
+        Call the service once, or at a rate until the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.messages.lookup import get_passed_type
         from ros2cli.messages.outgoing import OutgoingMessage
         from ros2cli.messages.values_arguments import values_text

@@ -15,7 +15,17 @@ class EchoVerb(VerbExtension):
     """Echo a service."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the service, the quality of service and the form of the output."""
+        """
+        Add the service, the quality of service and the output format.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 service echo`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'service_name', help="Name of the ROS service to echo (e.g. '/add_two_ints')"
@@ -28,7 +38,15 @@ class EchoVerb(VerbExtension):
         parser.set_defaults(filter=None, no_lost_messages=True, once=False, raw=False)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the requests and responses until the user stops it."""
+        """
+        Print the requests and responses until the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2service.api.echo import echo

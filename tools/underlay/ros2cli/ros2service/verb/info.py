@@ -14,14 +14,37 @@ class InfoVerb(VerbExtension):
     """Print information about a service."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the service's name."""
+        """
+        Add the name of the service.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 service info`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'service_name', help="Name of the ROS service to get info (e.g. '/add_two_ints')"
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the type and the numbers of clients and servers."""
+        """
+        Print the type of the service and the numbers of its clients and servers.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if the service is unknown.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2service.api import get_service_types, unknown_service_text
 

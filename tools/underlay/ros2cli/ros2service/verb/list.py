@@ -20,14 +20,32 @@ class ListVerb(VerbExtension):
     """Output a list of available services."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add what to show of each service."""
+        """
+        Add the options for types, for hidden services and for printing only a count.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 service list`; not used here.
+
+        """
         add_strategy_arguments(parser)
         add_types_argument(parser, 'service')
         add_count_argument(parser, 'services')
         add_hidden_argument(parser, 'services')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the services, or their count."""
+        """
+        Print the names of the services, with their types if wanted, or their number.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2service.api import get_service_names_and_types
 

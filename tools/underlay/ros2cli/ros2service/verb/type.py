@@ -14,14 +14,37 @@ class TypeVerb(VerbExtension):
     """Output a service's type."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the service's name."""
+        """
+        Add the name of the service.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 service type`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'service_name', help="Name of the ROS service to get type (e.g. '/add_two_ints')"
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print all types of the service; without one the status is 1."""
+        """
+        Print all types of the service, one per line.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        int
+            The exit status: 1 if the service is unknown.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2service.api import get_service_types
 

@@ -15,7 +15,23 @@ def get_topic_names_and_types(
     node: Any,
     include_hidden_topics: bool = False,
 ) -> list[tuple[str, list[str]]]:
-    """Return the topics that others publish or subscribe to, sorted, with their types."""
+    """
+    List the topics of the graph with their types.
+
+    Parameters
+    ----------
+    node
+        A `Graph`, which leaves out the node that asks, or anything else with
+        `get_topic_names_and_types`.
+    include_hidden_topics
+        Whether to include topics with a part that starts with an underscore.
+
+    Returns
+    -------
+    list of tuple of str and list of str
+        The topics that have a publisher or a subscription; those of a `Graph` are sorted.
+
+    """
     return [
         (name, types)
         for name, types in node.get_topic_names_and_types()
@@ -24,16 +40,56 @@ def get_topic_names_and_types(
 
 
 def get_topic_types(node: Any, topic: str) -> list[str]:
-    """Return the types of one topic, hidden or not; none if nobody uses it."""
+    """
+    Look up the types of a topic, hidden or not.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    topic
+        Full name of the topic.
+
+    Returns
+    -------
+    list of str
+        The types; empty if the topic has neither a publisher nor a subscription.
+
+    """
     return dict(get_topic_names_and_types(node=node, include_hidden_topics=True)).get(topic, [])
 
 
 def unknown_topic_text(node: Any, topic: str) -> str:
-    """Return the error text for an unknown topic, with a name that comes close."""
+    """
+    Format the error message for an unknown topic, with a suggestion if a name is close.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    topic
+        The topic as the user wrote it.
+
+    """
     return '\n'.join([f"Unknown topic '{topic}'", closest_topic(node, topic)]).rstrip()
 
 
 def closest_topic(node: Any, topic: str) -> str:
-    """Return a question that names the topic which is meant, or '' if none is close."""
+    """
+    Suggest the known topic that is closest to a name.
+
+    Parameters
+    ----------
+    node
+        The `Graph`.
+    topic
+        The topic as the user wrote it; it does not count as known.
+
+    Returns
+    -------
+    str
+        A question such as `Did you mean '/chatter'?`, or '' if no name is close.
+
+    """
     known = [name for name, _ in get_topic_names_and_types(node=node)]
     return closest(topic, [name for name in known if name != topic])

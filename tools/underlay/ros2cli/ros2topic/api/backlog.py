@@ -22,7 +22,22 @@ class Backlog:
         self._start_ns: int | None = None
 
     def has(self, info: Mapping[str, int]) -> bool:
-        """Tell if a message, by the times that rclpy gives with it, is a repeated one."""
+        """
+        Check whether a message was published before the subscription was connected.
+
+        Call once for each message, in the order of arrival.
+
+        Parameters
+        ----------
+        info
+            The message info of rclpy, with `source_timestamp` and `received_timestamp` in ns.
+
+        Returns
+        -------
+        bool
+            Whether the message was delivered late, as part of the backlog.
+
+        """
         received_ns, source_ns = info['received_timestamp'], info['source_timestamp']
         if self._start_ns is None:
             self._start_ns = received_ns

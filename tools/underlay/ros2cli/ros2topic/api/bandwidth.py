@@ -7,18 +7,48 @@ from collections import deque
 
 
 class BandwidthMeter:
-    """Keeps the times and sizes of the last messages."""
+    """
+    Measures the bandwidth of a topic over the last messages.
+
+    Parameters
+    ----------
+    window
+        The number of messages to keep.
+
+    """
 
     def __init__(self, window: int) -> None:
-        """Keep up to `window` messages."""
         self._messages: deque[tuple[float, int]] = deque(maxlen=window)
 
     def add(self, now_s: float, size: int) -> None:
-        """Count a message."""
+        """
+        Count a message.
+
+        Parameters
+        ----------
+        now_s
+            When it arrived, in s, on the clock that `report` is called with.
+        size
+            Its serialized size in bytes.
+
+        """
         self._messages.append((now_s, size))
 
     def report(self, now_s: float) -> str:
-        """Return the two lines of a report, or '' as long as there are too few messages."""
+        """
+        Format the bandwidth and the sizes of the messages in the window.
+
+        Parameters
+        ----------
+        now_s
+            The present time in s; the bandwidth is the mean from the oldest message on.
+
+        Returns
+        -------
+        str
+            Two lines, or '' as long as there are fewer than two messages.
+
+        """
         if len(self._messages) < 2 or now_s <= self._messages[0][0]:
             return ''
         sizes = [size for _, size in self._messages]
@@ -31,7 +61,15 @@ class BandwidthMeter:
 
 
 def human_bytes(count: float) -> str:
-    """Return a number of bytes in B, KB or MB."""
+    """
+    Format a number of bytes in B, KB or MB, with powers of 1000.
+
+    Parameters
+    ----------
+    count
+        The number of bytes, or of bytes per second.
+
+    """
     if count < 1e3:
         return f'{count:.0f} B'
     return f'{count / 1e3:.2f} KB' if count < 1e6 else f'{count / 1e6:.2f} MB'

@@ -8,15 +8,30 @@ from math import sqrt
 
 
 class DelayMeter:
-    """Keeps the last delays and reports their average, extremes and spread."""
+    """
+    Measures the mean, extremes and standard deviation of the last delays.
+
+    Parameters
+    ----------
+    window
+        The number of delays to keep.
+
+    """
 
     def __init__(self, window: int) -> None:
-        """Keep up to `window` delays."""
         self._delays_s: deque[float] = deque(maxlen=window)
         self._changed = False
 
     def add(self, delay_s: float) -> None:
-        """Count a message."""
+        """
+        Count a message.
+
+        Parameters
+        ----------
+        delay_s
+            From its header's time stamp to its arrival, in s.
+
+        """
         self._delays_s.append(delay_s)
         self._changed = True
 

@@ -10,7 +10,20 @@ MOST_AT_ONCE = 500
 
 
 def drain(subscription: Any) -> Iterator[tuple[Any, Any]]:
-    """Yield the waiting messages with their info; not all of an endless stream."""
+    """
+    Take the messages that are waiting in a subscription, at most 500 of them.
+
+    Parameters
+    ----------
+    subscription
+        The subscription of rclpy.
+
+    Yields
+    ------
+    tuple
+        The message, as bytes if the subscription is raw, and its message info.
+
+    """
     handle = subscription.handle
     with handle:
         for _ in range(MOST_AT_ONCE):

@@ -22,7 +22,26 @@ PERIOD_S = 0.1
 
 
 def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> None:
-    """Print messages until one has come, if that is enough, or until the time is over."""
+    """
+    Print the messages of a topic until the first one or the timeout, if the options say so.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes.
+    topic
+        Full name of the topic.
+    message_type
+        The class of the messages.
+    args : argparse.Namespace
+        The parsed command line of `ros2 topic echo`, with `timeout` in s or None.
+
+    Raises
+    ------
+    RuntimeError
+        The filter or the chosen field does not fit the messages.
+
+    """
     end = time.monotonic() + (args.timeout if args.timeout is not None else float('inf'))
     listener = Listener(node, topic, message_type, args)
 
@@ -38,7 +57,33 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
 
 
 class Listener:
-    """A subscription that prints what it receives."""
+    """
+    Subscribes to a topic and prints the messages that it receives.
+
+    Unless the options say otherwise, the quality of service is what all publishers offer.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes.
+    topic
+        Full name of the topic.
+    message_type
+        The class of the messages.
+    args : argparse.Namespace
+        The parsed command line: the options of `add_qos_arguments` and `add_form_arguments`, and
+        `filter`, `no_lost_messages`, `once` and `raw`.
+    format_message
+        Formats a message and its message info; by default `formatter(args)`.
+
+    Attributes
+    ----------
+    count
+        How many messages have been printed.
+    has_received
+        Whether any message has come, also one that the filter rejects.
+
+    """
 
     def __init__(
         self,
@@ -48,7 +93,6 @@ class Listener:
         args: argparse.Namespace,
         format_message: Callable[[Any, Any], str] | None = None,
     ) -> None:
-        """Subscribe with the quality of service that the publishers offer."""
         profile, notices = choose_qos(args, node.graph.get_publishers_info_by_topic(topic))
         for notice in notices:
             print(notice)
@@ -75,7 +119,17 @@ class Listener:
         )
 
     def listen(self, end_s: float, patience: Patience) -> None:
-        """Print until a moment of the monotonic clock, or until one message if that is enough."""
+        """
+        Spin and print messages until the end, or until the first one if `once` is set.
+
+        Parameters
+        ----------
+        end_s
+            When to stop, in s of the monotonic clock.
+        patience
+            Reports the wait on stderr if nothing has been printed for a while.
+
+        """
         while time.monotonic() < end_s and not (self._once and self.count):
             self._node.spin_once(min(PERIOD_S, max(0.0, end_s - time.monotonic())))
             self._incompatibility.check()

@@ -12,14 +12,30 @@ DEFAULT_TRUNCATE_LENGTH = 128
 
 
 def add_echo_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of what to print, and how long."""
+    """
+    Add the options for the output format, the selection of messages and the end.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     add_form_arguments(parser)
     _add_selection(parser)
     _add_limits(parser)
 
 
 def add_form_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the choice between YAML and commas, and of what is left out."""
+    """
+    Add the options for the output format: YAML or CSV, and how much of arrays and strings.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     add = parser.add_argument
     add(
         '--csv',

@@ -9,7 +9,17 @@ from typing import Any
 
 
 def add_filter_argument(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the condition for the messages that count."""
+    """
+    Add the option `--filter`, a condition that messages must fulfil.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        What the verb does with the messages, for the help, such as `echo`.
+
+    """
     parser.add_argument(
         '--filter',
         type=_message_filter,

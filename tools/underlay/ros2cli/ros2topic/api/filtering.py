@@ -66,10 +66,24 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
 
 
 class MessageFilter:
-    """Tells whether a message fulfils the condition that the user wrote."""
+    """
+    A condition on messages, compiled from an expression that the user wrote.
+
+    Call it with a message to find out whether the condition holds.
+
+    Parameters
+    ----------
+    text
+        The expression in Python's notation; the message is `m`.
+
+    Raises
+    ------
+    ArgumentTypeError
+        The text is no expression, or a part of it is not allowed in a filter.
+
+    """
 
     def __init__(self, text: str) -> None:
-        """Compile the condition; ArgumentTypeError says which part of it is not allowed."""
         self._text = text
         try:
             self._condition = _compile(ast.parse(text.strip(), mode='eval').body, {'m'})

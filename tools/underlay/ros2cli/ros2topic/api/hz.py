@@ -12,7 +12,24 @@ from ros2topic.api.watching import subscribe_when_published
 
 
 def print_rate(node: Any, topic: str, args: argparse.Namespace) -> None:
-    """Print the rate of a topic about once a second, for ever."""
+    """
+    Print the rate of a topic about once a second, endlessly.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes.
+    topic
+        Full name of the topic.
+    args : argparse.Namespace
+        The parsed command line of `ros2 topic hz`.
+
+    Raises
+    ------
+    RuntimeError
+        The topic has several types, or the filter does not fit the messages.
+
+    """
     meter = RateMeter(args.window)
     clock = node.get_clock() if args.use_sim_time and not args.wall_time else None
 

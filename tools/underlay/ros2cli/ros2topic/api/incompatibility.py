@@ -14,12 +14,28 @@ DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
 
 
 class Incompatibility:
-    """Tells on stderr which nodes do not connect with a publisher or subscription of ours."""
+    """
+    Reports on stderr which nodes cannot connect because of incompatible quality of service.
+
+    Nothing is looked up before the middleware reports a mismatch: pass `on_event` to rclpy as the
+    callback for incompatible QoS, and call `check` regularly.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that has the publisher or subscription.
+    topic
+        Full name of the topic.
+    profile
+        The profile of the publisher or subscription.
+    publishes
+        Whether it is a publisher.
+
+    """
 
     def __init__(
         self, node: Any, topic: str, profile: QoSProfile, *, publishes: bool = False
     ) -> None:
-        """Remember our end; nothing is looked up before the middleware reports a mismatch."""
         self._node = node
         self._topic = topic
         self._profile = as_discovered(profile)
@@ -28,7 +44,15 @@ class Incompatibility:
         self._is_due = False
 
     def on_event(self, _: Any) -> None:
-        """Remember that there is a mismatch; the name may not be known yet."""
+        """
+        Note that the middleware has reported a mismatch, for the next `check`.
+
+        Parameters
+        ----------
+        _
+            The event of rclpy; not used, since it does not name the other node.
+
+        """
         self._is_due = True
 
     def check(self) -> None:
@@ -80,7 +104,20 @@ def _full_name(info: Any) -> str:
 
 
 def as_discovered(profile: QoSProfile) -> QoSProfile:
-    """Return a profile of ours as others see it: what is left open there has a value."""
+    """
+    Complete a QoS profile the way other nodes discover it.
+
+    Parameters
+    ----------
+    profile
+        The profile of a publisher or subscription; it stays as it is.
+
+    Returns
+    -------
+    QoSProfile
+        A copy: durations that are not set are infinite, liveliness by default is automatic.
+
+    """
     seen = copy_profile(profile)
     for name in DURATIONS:
         if getattr(seen, name) == Duration():

@@ -9,20 +9,45 @@ from typing import Any
 
 class LossCounter:
     """
-    Counts the gaps in the numbers that a publisher gives its messages.
+    Counts the gaps in the sequence numbers that a publisher gives its messages.
 
     A queue that overflows because the reader is slow drops messages without an event. The numbers
     tell, as long as they all come from one publisher.
+
+    Parameters
+    ----------
+    has_one_publisher
+        Whether the topic has exactly one publisher; only called when there is a gap.
+
+    Attributes
+    ----------
+    total
+        How many messages have been lost so far.
+
     """
 
     def __init__(self, has_one_publisher: Callable[[], bool]) -> None:
-        """Start; the publishers are only looked at when there is a gap."""
         self._has_one_publisher = has_one_publisher
         self._last: int | None = None
         self.total = 0
 
     def report_gap(self, info: Mapping[str, Any]) -> str:
-        """Return the text about the messages missing before this one, or ''."""
+        """
+        Count the messages missing before this one, and format the report.
+
+        Call once for each message, in the order of arrival.
+
+        Parameters
+        ----------
+        info
+            The message info of rclpy, with `publication_sequence_number`, which may be None.
+
+        Returns
+        -------
+        str
+            The report, or '' if nothing is known to be missing.
+
+        """
         number = info['publication_sequence_number']
         if number is None:
             return ''
@@ -35,5 +60,13 @@ class LossCounter:
 
 
 def lost_text(change: int, total: int) -> str:
-    """Return the block of text that stands between messages for those that are lost."""
+    """
+    Format the report of lost messages that is printed between messages.
+
+    Parameters
+    ----------
+    change, total
+        How many messages were lost since the last report, and in all.
+
+    """
     return f'A message was lost!!!\n\ttotal count change:{change}\n\ttotal count: {total}---\n'

@@ -15,7 +15,21 @@ SEPARATOR = '---'
 
 
 def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
-    """Return the function that turns a message and its info into what the options ask for."""
+    """
+    Create the function that formats messages as the options ask for.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line of `ros2 topic echo`.
+
+    Returns
+    -------
+    callable
+        Takes a message, as bytes if `raw` is set, and its message info; returns the text with the
+        separator. It raises RuntimeError if the messages lack the chosen field.
+
+    """
     shortening = chosen_shortening(args)
     end = '\n' if args.csv and not args.raw else f'{SEPARATOR}\n'
 
@@ -28,13 +42,36 @@ def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
 
 
 def chosen_shortening(args: argparse.Namespace) -> Shortening:
-    """Return the limits of texts and arrays that the options choose."""
+    """
+    Read the limits for strings and arrays from the options.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line with the options of `add_form_arguments`.
+
+    """
     length = None if args.full_length else args.truncate_length
     return Shortening(length, args.no_arr, args.no_str)
 
 
 def nested_field(message: Any, path: str) -> Any:
-    """Return the value of a field, named with dots between the levels."""
+    """
+    Get the value of a nested field of a message.
+
+    Parameters
+    ----------
+    message
+        The message.
+    path
+        The names of the fields on the way, joined by dots, such as `pose.position`.
+
+    Raises
+    ------
+    RuntimeError
+        The message has no such field; the error suggests one if a name is close.
+
+    """
     value = message
     for name in path.split('.'):
         if name not in getattr(value, 'get_fields_and_field_types', dict)():
@@ -47,7 +84,24 @@ def nested_field(message: Any, path: str) -> Any:
 
 
 def value_text(value: Any, shortening: Shortening, args: argparse.Namespace) -> str:
-    """Return a message or the value of a field as YAML or with commas."""
+    """
+    Format a message or the value of a field as YAML or CSV.
+
+    Parameters
+    ----------
+    value
+        The message, the value of a field, or the bytes of a serialized message.
+    shortening
+        The limits for strings and arrays.
+    args : argparse.Namespace
+        The parsed command line: `csv`, `raw` and `flow_style` choose the format.
+
+    Returns
+    -------
+    str
+        The text, with a final line break unless it is CSV.
+
+    """
     if args.csv and not args.raw:
         return to_csv(value, shortening)
     if isinstance(value, bytes):

@@ -23,7 +23,24 @@ SETTLE_S = 0.25
 
 
 def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> None:
-    """Wait for subscriptions if need be, then publish until enough is published."""
+    """
+    Publish a message as often and as fast as the options say.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that publishes; it spins for `keep_alive` s after the last message.
+    message
+        The message; its time stamps are set anew each time.
+    args : argparse.Namespace
+        The parsed command line of `ros2 topic pub`.
+
+    Raises
+    ------
+    RuntimeError
+        Fewer subscriptions than wanted match within `max_wait_time_secs`.
+
+    """
     publication = Publication(node, message, args)
     publication.wait_for_subscriptions()
     print('publisher: beginning loop')
@@ -32,10 +49,21 @@ def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> No
 
 
 class Publication:
-    """The publisher of a message and how often it publishes."""
+    """
+    Publishes a message with the rate, count and quality of service of the command line.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that publishes.
+    message
+        The message; its time stamps are set anew each time.
+    args : argparse.Namespace
+        The parsed command line of `ros2 topic pub`.
+
+    """
 
     def __init__(self, node: Any, message: OutgoingMessage, args: argparse.Namespace) -> None:
-        """Create the publisher with the quality of service that the options ask for."""
         profile = copy_profile(QoSPresetProfiles.get_from_short_key(args.qos_profile or 'default'))
         override(profile, args)
         topic = node.resolve_topic_name(args.topic_name)

@@ -10,7 +10,15 @@ from ros2cli.messages.values_arguments import add_values_arguments
 
 
 def add_pub_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the message and how often to publish it."""
+    """
+    Add the topic, the message, how often to publish it, and what to wait for.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     parser.add_argument('topic_name', help="Name of the ROS topic to publish to (e.g. '/chatter')")
     parser.add_argument('message_type', help="Type of the ROS message (e.g. 'std_msgs/String')")
     add_values_arguments(parser, 'message')

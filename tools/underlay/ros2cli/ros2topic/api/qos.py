@@ -26,7 +26,22 @@ POLICY_TYPES: dict[str, Any] = {
 
 
 def choose_qos(args: argparse.Namespace, publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
-    """Return the profile for a subscription, and notices about publishers that differ."""
+    """
+    Choose the QoS profile of a subscription.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line with the options of `add_qos_arguments`.
+    publishers
+        The endpoint infos of the topic's publishers, which the profile follows if none is chosen.
+
+    Returns
+    -------
+    tuple of QoSProfile and list of str
+        The profile, and notices about policies that only some publishers offer.
+
+    """
     notices: list[str] = []
     if args.qos_profile:
         profile = copy_profile(QoSPresetProfiles.get_from_short_key(args.qos_profile))
@@ -37,7 +52,22 @@ def choose_qos(args: argparse.Namespace, publishers: list[Any]) -> tuple[QoSProf
 
 
 def matching_qos(publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
-    """Return the strongest profile that still connects to all publishers, with notices."""
+    """
+    Find the strongest QoS profile that is compatible with all publishers of a topic.
+
+    It is reliable, or transient local, only if all publishers are.
+
+    Parameters
+    ----------
+    publishers
+        Their endpoint infos, as `get_publishers_info_by_topic` returns them.
+
+    Returns
+    -------
+    tuple of QoSProfile and list of str
+        The profile, and notices about policies that only some publishers offer.
+
+    """
     profile = copy_profile(QoSPresetProfiles.get_from_short_key('sensor_data'))
     profile.depth = QUEUE_DEPTH
     profiles = [info.qos_profile for info in publishers]
@@ -55,7 +85,17 @@ def matching_qos(publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
 
 
 def override(profile: QoSProfile, args: argparse.Namespace) -> None:
-    """Apply the single policies of the command line to a profile."""
+    """
+    Apply the single QoS policies of the command line to a profile.
+
+    Parameters
+    ----------
+    profile
+        The profile, which is changed in place.
+    args : argparse.Namespace
+        The parsed command line with the options of `add_qos_arguments`.
+
+    """
     for name, policy_type in POLICY_TYPES.items():
         short_key = getattr(args, f'qos_{name}')
         if short_key:
@@ -83,7 +123,15 @@ def _name(policy: Any) -> str:
 
 
 def copy_profile(profile: Any) -> QoSProfile:
-    """Return a profile of one's own, since the presets are shared."""
+    """
+    Copy a QoS profile; the presets are shared and must not be changed.
+
+    Parameters
+    ----------
+    profile
+        The profile to copy.
+
+    """
     names = (
         'history',
         'depth',

@@ -28,13 +28,24 @@ LONGEST_LEASE_S = 1e9
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
-    """Add the profile and the single policies of a publisher or subscription."""
+    """
+    Add the options for the QoS preset profile and for its single policies.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    role
+        Whose profile it is, for the help: `publisher` or `subscription`.
+
+    """
+    by_default = 'is `default`' if role == 'publisher' else 'follows the other side'
     parser.add_argument(
         '--qos-profile',
         metavar='PROFILE',
         choices=PROFILES,
         help=f'Quality of service preset profile of the {role}: %(choices)s; by default it '
-        'follows the other side',
+        f'{by_default}',
     )
     parser.add_argument(
         '--qos-depth', metavar='N', type=_queue_depth, help=f'Queue size setting of the {role}'

@@ -8,18 +8,34 @@ from math import sqrt
 
 
 class RateMeter:
-    """Keeps the last periods and reports their average, extremes and spread."""
+    """
+    Measures the mean rate of events, with the extremes and standard deviation of the periods.
+
+    Parameters
+    ----------
+    window
+        The number of periods to keep.
+
+    """
 
     def __init__(self, window: int) -> None:
-        """Keep up to `window` periods."""
         self._periods_s: deque[float] = deque(maxlen=window)
         self._last_s: float | None = None
         self._changed = False
 
     def add(self, now_s: float) -> None:
-        """Count an event; a clock that goes back starts the measurement anew."""
+        """
+        Count an event; a clock that jumps back restarts the measurement.
+
+        Parameters
+        ----------
+        now_s
+            When it happened, in s, on any clock.
+
+        """
         if self._last_s is not None and now_s < self._last_s:
             self._periods_s.clear()
+            self._changed = False
         elif self._last_s is not None:
             self._periods_s.append(now_s - self._last_s)
             self._changed = True

@@ -17,7 +17,21 @@ PERIOD_S = 1.0
 def report_for_ever(
     node: Any, topic: str, report: Callable[[], str], incompatibility: Incompatibility
 ) -> None:
-    """Print what `report()` returns, if anything; say so when there is nothing for long."""
+    """
+    Print a report about a topic once a second, endlessly.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` to spin in between.
+    topic
+        Full name of the topic, for the message that nothing has come for long.
+    report
+        Returns the text, or '' if there is nothing new.
+    incompatibility
+        Checked once per period for nodes that cannot connect.
+
+    """
     patience = Patience(f"messages on '{topic}'")
     while True:
         spin_until(node, time.monotonic() + PERIOD_S)

@@ -12,7 +12,26 @@ from ros2topic.api.type_mismatch import type_mismatch
 
 
 def resolve_type(node: Any, topic: str, name: str | None) -> Any:
-    """Return the class of a topic's messages; RuntimeError says why it cannot be known."""
+    """
+    Find the message class for a subscription.
+
+    Without a name it is the type in the graph, where the topic may appear within the spin time.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that is to subscribe.
+    topic
+        Full name of the topic.
+    name
+        The type that the user named, if any; a warning tells if others only use other types.
+
+    Raises
+    ------
+    RuntimeError
+        The named type is invalid; or, without a name, the topic has no type yet or several.
+
+    """
     if not name:
         return get_passed_type(_discovered_type(node, topic), 'msg')
     message_type = get_passed_type(name, 'msg')

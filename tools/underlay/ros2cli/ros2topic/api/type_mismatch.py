@@ -13,7 +13,24 @@ if TYPE_CHECKING:
 
 
 def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:
-    """Return a sentence if others use a topic with other types only, or ''."""
+    """
+    Check whether a topic is only used with other types than one's own.
+
+    Parameters
+    ----------
+    graph
+        The graph, which does not contain the node that asks.
+    topic
+        Full name of the topic.
+    message_type
+        The class of one's own messages.
+
+    Returns
+    -------
+    str
+        The message, or '' if somebody uses this type or nobody uses the topic.
+
+    """
     types = get_topic_types(graph, topic)
     name = type_name(message_type)
     if not types or name in types:

@@ -26,10 +26,33 @@ def subscribe_when_published(
     check: Callable[[Any], object] = bool,
 ) -> Incompatibility:
     """
-    Wait for a topic as long as it takes, subscribe to it and return what may be wrong.
+    Wait until a topic is published, then subscribe to it.
 
-    The callback is given each message and the time at which it arrived, in seconds since 1970;
-    `check` is given the class of the messages first, and may raise RuntimeError.
+    Messages that were published before the subscription was connected are left out.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that subscribes.
+    topic
+        Full name of the topic.
+    callback
+        Takes each message and its time of arrival, in s since 1970.
+    raw
+        Whether the callback gets serialized messages (bytes).
+    check
+        Takes the message class before the subscription is made, and may raise RuntimeError.
+
+    Returns
+    -------
+    Incompatibility
+        To be checked regularly for publishers that cannot connect.
+
+    Raises
+    ------
+    RuntimeError
+        The topic has several types, or one that is not installed.
+
     """
     _wait_until_published(node, topic)
     message_type = resolve_type(node, topic, None)

@@ -33,7 +33,19 @@ class TopicCommand(VerbCommand):
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
-        """Add the option that all verbs share, then the verbs."""
+        """
+        Add the option that all verbs share, then the verbs.
+
+        Parameters
+        ----------
+        parser
+            The parser of the command.
+        cli_name
+            The words that call the command, `ros2 topic`.
+        argv
+            The words after those; the first that is no option chooses the verb to import.
+
+        """
         parser.add_argument(
             '--include-hidden-topics', action='store_true', help='Consider hidden topics as well'
         )

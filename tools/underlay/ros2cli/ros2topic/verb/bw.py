@@ -19,7 +19,17 @@ class BwVerb(VerbExtension):
     """Display bandwidth used by topic."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic and the number of messages to look at."""
+        """
+        Add the topic and the number of messages to measure over.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic bw`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument('topic_name', help='Topic name to monitor for bandwidth utilization')
         parser.add_argument(
@@ -33,7 +43,15 @@ class BwVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print a report every second until the user stops it."""
+        """
+        Print the bandwidth of the topic every second until the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.reporting import report_for_ever

@@ -18,7 +18,17 @@ class DelayVerb(VerbExtension):
     """Display delay of topic from timestamp in header."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic and the number of messages to look at."""
+        """
+        Add the topic and the number of messages to measure over.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic delay`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument('topic_name', help='Topic name to calculate the delay for')
         parser.add_argument(
@@ -32,7 +42,15 @@ class DelayVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print a report every second until the user stops it."""
+        """
+        Print the delay since the header's time stamp every second until the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.reporting import report_for_ever

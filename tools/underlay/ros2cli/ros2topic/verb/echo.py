@@ -15,7 +15,17 @@ class EchoVerb(VerbExtension):
     """Output messages from a topic."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic, the quality of service and the form of the output."""
+        """
+        Add the topic, the quality of service and the output format.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic echo`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
@@ -27,7 +37,15 @@ class EchoVerb(VerbExtension):
         add_echo_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print messages until enough have come or the user stops it."""
+        """
+        Print messages until enough have come or the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.echo import echo

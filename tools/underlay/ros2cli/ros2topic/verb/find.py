@@ -14,7 +14,17 @@ class FindVerb(VerbExtension):
     """Output a list of available topics of a given type."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the type and the choice of a mere count."""
+        """
+        Add the message type and the options for hidden topics and for printing only a count.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic find`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'topic_type',
@@ -24,7 +34,15 @@ class FindVerb(VerbExtension):
         add_hidden_argument(parser, 'topics')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the topics of the type, or their number."""
+        """
+        Print the topics of the type, or their number.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_names_and_types
 

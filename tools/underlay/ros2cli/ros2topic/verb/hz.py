@@ -17,7 +17,17 @@ class HzVerb(VerbExtension):
     """Print the average publishing rate to screen."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic and the measurement's properties."""
+        """
+        Add the topic, the number of messages to measure over, the filter and the clock.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic hz`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
@@ -38,7 +48,15 @@ class HzVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print a report every second until the user stops it."""
+        """
+        Print the rate of the topic every second until the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.hz import print_rate

@@ -14,7 +14,17 @@ class InfoVerb(VerbExtension):
     """Print information about a topic."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic's name and the choice of details."""
+        """
+        Add the name of the topic and the option for details.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic info`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'topic_name', help="Name of the ROS topic to get info (e.g. '/chatter')"
@@ -28,7 +38,20 @@ class InfoVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the type and the endpoints."""
+        """
+        Print the type of the topic and its publishers and subscriptions.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        str or None
+            The error message if the topic is unknown.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_types, unknown_topic_text
 

@@ -21,7 +21,17 @@ class ListVerb(VerbExtension):
     """Output a list of available topics."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add what to show of each topic."""
+        """
+        Add the options for types, details, hidden topics and for printing only a count.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic list`; not used here.
+
+        """
         add_strategy_arguments(parser)
         add_types_argument(parser, 'topic')
         add_count_argument(parser, 'topics')
@@ -31,7 +41,15 @@ class ListVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the topics, or their count."""
+        """
+        Print the names of the topics, with types or details if wanted, or their number.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_names_and_types
 

@@ -17,13 +17,31 @@ class PubVerb(VerbExtension):
     """Publish a message to a topic."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the message, the rate and the quality of service."""
+        """
+        Add the message, the rate and the quality of service.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic pub`; not used here.
+
+        """
         add_pub_arguments(parser)
         add_qos_arguments(parser, 'publisher')
         add_node_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Publish until enough is published or the user stops it."""
+        """
+        Publish until enough is published or the user stops it.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         from ros2cli.messages.lookup import get_passed_type
         from ros2cli.messages.outgoing import OutgoingMessage
         from ros2cli.messages.values_arguments import values_text

@@ -14,14 +14,37 @@ class TypeVerb(VerbExtension):
     """Print a topic's type."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the topic's name."""
+        """
+        Add the name of the topic.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The words that call the verb, `ros2 topic type`; not used here.
+
+        """
         add_strategy_arguments(parser)
         parser.add_argument(
             'topic_name', help="Name of the ROS topic to get type (e.g. '/chatter')"
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print all types of the topic; without one the status is 1."""
+        """
+        Print all types of the topic, one per line.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        int
+            The exit status: 1 if the topic is unknown.
+
+        """
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_types
 

@@ -7,10 +7,21 @@ __all__ = ['ConfigError']
 
 
 class ConfigError(ValueError):
-    """A file that cannot be read or written, with the place and the reason."""
+    """
+    A file that cannot be read or written, with the place and the reason.
+
+    Parameters
+    ----------
+    source
+        The file, or where else the text is from.
+    line
+        The line of the error, from 1 on; None if it concerns the whole file.
+    reason
+        What is wrong, as a message for the user.
+
+    """
 
     def __init__(self, source: str, line: int | None, reason: str) -> None:
-        """Begin the sentence with the place."""
         self.source = source
         self.line = line
         self.reason = reason

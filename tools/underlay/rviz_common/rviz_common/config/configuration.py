@@ -40,10 +40,33 @@ TOO_LARGE = f'The file is larger than {LARGEST // 1_000_000} MB.'
 
 
 class Configuration:
-    """What a .rviz file says, by its sections; what is not understood is kept."""
+    """
+    The contents of a .rviz file, by its sections; what is not understood is kept.
+
+    Parameters
+    ----------
+    document
+        The values of the file, and their lines.
+
+    Raises
+    ------
+    ConfigError
+        A section or an entry does not have the form of a .rviz file.
+
+    Attributes
+    ----------
+    displays, saved_views
+        The entries of these sections, none without such a section.
+    panels, tools
+        The entries of these sections, those of the default configuration without such a section.
+    options
+        The global options.
+    view
+        The current view.
+
+    """
 
     def __init__(self, document: Document) -> None:
-        """Check the outer form of a file, or raise ConfigError."""
         self.document = document
         self._has(document.values, dict, ())
         defaults: Any = default_values()
@@ -70,7 +93,20 @@ class Configuration:
 
     @classmethod
     def read(cls, path: str) -> Configuration:
-        """Return what a file says, or raise ConfigError."""
+        """
+        Read a .rviz file.
+
+        Parameters
+        ----------
+        path
+            The path of the file, which must be a regular one of at most 10 MB.
+
+        Raises
+        ------
+        ConfigError
+            The file cannot be read, or is no configuration of RViz.
+
+        """
         try:
             text = _text_of(path)
         except OSError as error:
@@ -81,14 +117,42 @@ class Configuration:
 
     @classmethod
     def parse(cls, text: str, source: str) -> Configuration:
-        """Return what the text of a file says, or raise ConfigError."""
+        """
+        Parse the text of a .rviz file.
+
+        Parameters
+        ----------
+        text
+            The YAML.
+        source
+            Where the text is from, for error messages.
+
+        Raises
+        ------
+        ConfigError
+            The text is no YAML, is empty, or does not have the form of a .rviz file.
+
+        """
         document = read_yaml(text, source)
         if document.values is None:
             raise ConfigError(source, None, 'The file is empty: this is no configuration of RViz.')
         return cls(document)
 
     def text(self, sections: Mapping[Place, Any]) -> str:
-        """Return the text of the file with sections as they are now; what is as it was is kept."""
+        """
+        Format the file with the current sections; what has not changed is kept as it was.
+
+        Parameters
+        ----------
+        sections
+            The values of sections by place, such as `DISPLAYS`.
+
+        Returns
+        -------
+        str
+            The YAML.
+
+        """
         values = self.document.values
         for place, section in sections.items():
             if section != self._given[place]:
@@ -96,7 +160,22 @@ class Configuration:
         return write_yaml(values)
 
     def save(self, path: str, sections: Mapping[Place, Any]) -> None:
-        """Write the file, or raise ConfigError and leave it as it is."""
+        """
+        Write the file with the current sections, atomically.
+
+        Parameters
+        ----------
+        path
+            The file to replace.
+        sections
+            The values of sections by place, such as `DISPLAYS`.
+
+        Raises
+        ------
+        ConfigError
+            The file cannot be written; it is as it was.
+
+        """
         replace_file(path, self.text(sections))
 
     def _entries(self, place: Place, default: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -21,13 +21,34 @@ class Document:
     lines: dict[Place, int] = field(default_factory=dict)
 
     def line(self, place: Place) -> int | None:
-        """Return the line of a value, or of the nearest one around it that has a line."""
+        """
+        Find the line of a value, or else that of the nearest value around it.
+
+        Parameters
+        ----------
+        place
+            The keys and indices that lead to the value.
+
+        Returns
+        -------
+        int | None
+            The line, from 1 on; None without any lines, as for the default configuration.
+
+        """
         for length in range(len(place), -1, -1):
             if place[:length] in self.lines:
                 return self.lines[place[:length]]
         return None
 
     def where(self, place: Place) -> str:
-        """Return the file and the line of a value."""
+        """
+        Format the file and the line of a value, as `FILE:LINE`.
+
+        Parameters
+        ----------
+        place
+            The keys and indices that lead to the value.
+
+        """
         line = self.line(place)
         return self.source if line is None else f'{self.source}:{line}'

@@ -14,7 +14,22 @@ __all__ = ['replace_file']
 
 
 def replace_file(path: str, text: str) -> None:
-    """Replace what a file has, or raise ConfigError and leave it as it is."""
+    """
+    Replace the contents of a file atomically, and keep its permissions.
+
+    Parameters
+    ----------
+    path
+        The file. If it is a symbolic link, the file that it leads to is replaced.
+    text
+        The new contents, written as UTF-8.
+
+    Raises
+    ------
+    ConfigError
+        The file cannot be written; it is as it was.
+
+    """
     path = os.path.realpath(path)  # the file behind a link, not the link
     try:
         _replace(path, text.encode())

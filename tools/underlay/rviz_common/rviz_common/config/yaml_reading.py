@@ -29,7 +29,27 @@ Loader = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
 
 
 def read_yaml(text: str, source: str) -> Document:
-    """Return the values of a text, or raise ConfigError."""
+    """
+    Parse YAML, and remember the line of each value.
+
+    Parameters
+    ----------
+    text
+        A single YAML document, without aliases or duplicate keys.
+    source
+        Where the text is from, for error messages.
+
+    Returns
+    -------
+    Document
+        Mappings, lists and scalars; the values are None for an empty text.
+
+    Raises
+    ------
+    ConfigError
+        The text cannot be parsed, is nested too deeply, or is too large.
+
+    """
     reader = _Reader(text, source)
     try:
         return Document(source, reader.document(), reader.lines)
@@ -41,7 +61,15 @@ def read_yaml(text: str, source: str) -> Document:
 
 
 def scalar_value(text: str) -> Any:
-    """Return what a text without quotes means."""
+    """
+    Convert a scalar without quotes: null, true, false and numbers; all else remains text.
+
+    Parameters
+    ----------
+    text
+        The scalar, as it stands in the file.
+
+    """
     if text.lower() in WORDS:
         return WORDS[text.lower()]
     if LEADING_ZERO.match(text):

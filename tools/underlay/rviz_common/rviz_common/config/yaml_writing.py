@@ -12,7 +12,15 @@ __all__ = ['write_yaml']
 
 
 def write_yaml(values: Any) -> str:
-    """Return the text of values."""
+    """
+    Format values as YAML in the style of RViz.
+
+    Parameters
+    ----------
+    values
+        Nested dicts and lists of scalars.
+
+    """
     text: str = yaml.dump(
         values,
         Dumper=_Dumper,

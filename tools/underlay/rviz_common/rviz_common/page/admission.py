@@ -44,7 +44,22 @@ class Admission:
     def refusal(
         self, path: str, host: str, origin: str | None, cookies: str | None
     ) -> Refusal | None:
-        """Return why a request with these headers is refused, or None if it is not."""
+        """
+        Decide on a request from its path and headers.
+
+        Parameters
+        ----------
+        path
+            The path of the request, with its query.
+        host, origin, cookies
+            The headers `Host`, `Origin` and `Cookie`; the latter two are None if missing.
+
+        Returns
+        -------
+        Refusal | None
+            Why the request is rejected, None if it is admitted.
+
+        """
         if not all(map(_is_address, (path, origin or ''))):
             return Refusal(HTTPStatus.BAD_REQUEST, 'This is no address.')
         if origin is not None and urlsplit(origin).netloc != host:
@@ -76,7 +91,20 @@ class Admission:
         return f'{self.cookie}={quote(self.token, safe="")}; HttpOnly; SameSite=Strict; Path=/'
 
     def brings_token(self, path: str) -> bool:
-        """Tell if the address has the token, which from then on a cookie is to hold."""
+        """
+        Whether a request has a token in its query, which from then on a cookie is to hold.
+
+        Parameters
+        ----------
+        path
+            The path of the request, with its query.
+
+        Returns
+        -------
+        bool
+            Always False if the page needs no token.
+
+        """
         return bool(self.token and _token_in(path))
 
     def _refusal_of_name(self, host: str) -> Refusal | None:
@@ -105,7 +133,20 @@ def _is_address(text: str) -> bool:
 
 
 def without_token(path: str) -> str:
-    """Return the address of a request without its token, on this host."""
+    """
+    Remove the token from the path of a request, to redirect a browser there.
+
+    Parameters
+    ----------
+    path
+        The path, with its query.
+
+    Returns
+    -------
+    str
+        The path on this host, with what else is in the query.
+
+    """
     # Two slashes at the beginning would lead elsewhere.
     place, _, query = path.partition('#')[0].partition('?')
     rest = [each for each in query.split('&') if each and each.partition('=')[0] != 'token']

@@ -19,13 +19,31 @@ _PACE = Pace(REPEAT_S)
 
 
 def complain(sentence: str) -> None:
-    """Log a sentence, if none has been logged lately."""
+    """
+    Log a warning, unless one has been logged within the last 10 s.
+
+    Parameters
+    ----------
+    sentence
+        The message.
+
+    """
     if _PACE.is_due():
         LOGGER.warning(sentence)
 
 
 def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) -> None:
-    """Log what a task of the page has failed with."""
+    """
+    Log the failure of a task of the page; an exception handler for an asyncio event loop.
+
+    Parameters
+    ----------
+    loop
+        The event loop.
+    about
+        The context of the failure, with the keys `exception` and `message` of asyncio.
+
+    """
     error = about.get('exception')
     said = described_error(error) if isinstance(error, Exception) else about.get('message', '')
     complain(f'What a browser has sent failed: {said}')

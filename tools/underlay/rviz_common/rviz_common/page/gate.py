@@ -40,7 +40,38 @@ def gated(
     uploads: Uploads,
     options_of: OptionsOf,
 ) -> Iterator[None]:
-    """Give the server that is started meanwhile a socket, a title, an admission and limits."""
+    """
+    Secure the viser server that is started in a `with` block.
+
+    It gives the server a socket, a title, an admission control and limits. For this it replaces
+    `websockets.asyncio.server.serve` meanwhile.
+
+    Parameters
+    ----------
+    bound
+        The listening socket that the server is to use.
+    title
+        The title of the browser's tab.
+    admission
+        Decides who may use the page.
+    routes
+        What is served besides the page of viser.
+    uploads
+        Limits the files that browsers upload.
+    options_of
+        Finds the options of a widget of choices.
+
+    Yields
+    ------
+    None
+        While the server can be started, once.
+
+    Raises
+    ------
+    RuntimeError
+        No server has been started in this way, or a second one.
+
+    """
     serve = websockets.asyncio.server.serve
     used: list[bool] = []
 

@@ -22,9 +22,20 @@ class PortError(RuntimeError):
 
 def listen(settings: PageSettings) -> socket.socket:
     """
-    Return a socket that listens at the port of the settings or, without one, at a free one.
+    Open a listening socket at the port of the settings or, without one, at a free one.
 
     It listens already: two programs may bind the same port as long as neither of them does.
+
+    Parameters
+    ----------
+    settings
+        The host, and the port or None for the first free one from 8080 on.
+
+    Raises
+    ------
+    PortError
+        The host or the port cannot be used, or 100 ports are taken; the message says why.
+
     """
     if settings.port is not None:
         return _listen(settings.host, settings.port)
@@ -65,11 +76,19 @@ def _reason(host: str, port: int, number: int) -> str:
 
 def reachable(host: str) -> list[str]:
     """
-    Return the addresses at which a page is reached that is served at a host.
+    List the addresses at which others reach a page that is served at a host.
 
-    One that means all addresses of this machine stands for those of its interfaces: first the one
-    that leads to other networks, as far as there is a way there, and the loopback's if there is
-    no other.
+    Parameters
+    ----------
+    host
+        An IP address. The unspecified one, such as 0.0.0.0, stands for those of all interfaces.
+
+    Returns
+    -------
+    list[str]
+        Addresses; first the one that leads to other networks, if there is a way there. That of
+        the loopback interface is listed only if there is no other.
+
     """
     address = ipaddress.ip_address(host)
     if not address.is_unspecified:

@@ -25,10 +25,38 @@ __all__ = ['Page']
 
 
 class Page:
-    """A page with a scene and widgets, which are those of `viser`."""
+    """
+    A page with a scene and widgets, which are those of `viser`; it is served from the beginning.
+
+    Parameters
+    ----------
+    title
+        The title of the browser's tab.
+    settings
+        Where it is served, and with which token; by default at 127.0.0.1. A token that is empty
+        is made up.
+
+    Raises
+    ------
+    PortError
+        The host or the port cannot be used.
+    RuntimeError
+        This version of viser starts its server in a way that cannot be secured.
+
+    Attributes
+    ----------
+    port
+        The port at which it is served.
+    routes
+        What is served besides the page itself.
+    uploads
+        Limits the files that browsers upload.
+    viser
+        The `viser.ViserServer`, with the scene and the widgets.
+
+    """
 
     def __init__(self, title: str, settings: PageSettings | None = None) -> None:
-        """Serve an empty page, or raise PortError."""
         from rviz_common.page.gate import gated
 
         settings = settings or PageSettings()
@@ -70,9 +98,15 @@ class Page:
 
     def end_upload(self, start: FileTransferStartUpload) -> None:
         """
-        Make browsers show a file that was refused no longer as being on its way.
+        Make browsers stop showing the progress of an upload that was rejected.
 
         They would show it as uploaded instead, so that what they say about it is removed too.
+
+        Parameters
+        ----------
+        start
+            The announcement of the file by the browser.
+
         """
         complete = FileTransferPartAck(
             start.source_component_uuid,

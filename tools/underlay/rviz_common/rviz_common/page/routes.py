@@ -29,19 +29,54 @@ class Routes:
     """Routes by path, such as `/drive`; they can be added while the page is served."""
 
     def __init__(self) -> None:
-        """Begin without any."""
         self._by_path: dict[str, Route] = {}
 
     def add(self, path: str, route: Route) -> None:
-        """Serve something at a path, or raise ValueError if something is there already."""
+        """
+        Serve a route at a path.
+
+        Parameters
+        ----------
+        path
+            The path, such as `/drive`, without a slash at its end.
+        route
+            What to serve there.
+
+        Raises
+        ------
+        ValueError
+            There is a route at this path already.
+
+        """
         if path in self._by_path:
             raise ValueError(f"There is something at '{path}' already.")
         self._by_path[path] = route
 
     def remove(self, path: str) -> None:
-        """Serve it no longer; connections that are open stay."""
+        """
+        Stop serving the route at a path; connections that are open stay.
+
+        Parameters
+        ----------
+        path
+            The path that it was added with.
+
+        """
         self._by_path.pop(path, None)
 
     def find(self, target: str) -> Route | None:
-        """Return what is at the path of a request."""
+        """
+        Find the route of a request.
+
+        Parameters
+        ----------
+        target
+            The target of the request: a path, perhaps with a query and a slash at its end.
+
+        Returns
+        -------
+        Route | None
+            None if the request is for the page itself.
+
+        """
         return self._by_path.get(unquote(urlsplit(target).path).rstrip('/'))

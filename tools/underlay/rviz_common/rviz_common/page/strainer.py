@@ -39,12 +39,25 @@ OptionsOf = Callable[[str], Optional[Collection[str]]]
 
 
 class Strained:
-    """A connection that gives out only messages that a page sends; others are left out."""
+    """
+    A connection whose `recv` returns only valid messages of the page; others are dropped.
+
+    All else is as the connection has it.
+
+    Parameters
+    ----------
+    connection
+        The connection to a browser.
+    uploads
+        Limits the files that it uploads.
+    options_of
+        Finds the options of a widget, so that only values that it offers are accepted.
+
+    """
 
     def __init__(
         self, connection: ServerConnection, uploads: Uploads, options_of: OptionsOf
     ) -> None:
-        """Take the connection to a browser, what limits its files, and what widgets offer."""
         self._connection = connection
         self._uploads = uploads
         self._options_of = options_of
@@ -74,7 +87,20 @@ class Strained:
 
 
 def decoded(received: bytes | str) -> _messages.Message | str:
-    """Return a message as a page sends it, or in words why no page sends this."""
+    """
+    Decode a message, and validate that the page sends such messages.
+
+    Parameters
+    ----------
+    received
+        A frame of the WebSocket; only binary ones are valid.
+
+    Returns
+    -------
+    _messages.Message | str
+        The message, or a description of what is wrong with it.
+
+    """
     if not isinstance(received, bytes):
         return 'a text'
     try:

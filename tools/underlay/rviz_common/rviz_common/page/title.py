@@ -15,7 +15,17 @@ OF_VISER = b'<title>Viser</title>'
 
 
 def entitle(response: Response, title: str) -> None:
-    """Replace the title of an answer, if it is the page."""
+    """
+    Replace the title of the page in a response; responses that are not HTML stay as they are.
+
+    Parameters
+    ----------
+    response
+        The response of viser, perhaps compressed with gzip; it is changed in place.
+    title
+        The title of the browser's tab, as plain text.
+
+    """
     if not response.headers.get('Content-Type', '').startswith('text/html'):
         return
     is_packed = response.headers.get('Content-Encoding') == 'gzip'

@@ -61,7 +61,15 @@ class Uploads:
         return True
 
     def leave(self, owner: object) -> None:
-        """Forget the uploads of a connection that has ended."""
+        """
+        Drop the uploads of a connection that has ended.
+
+        Parameters
+        ----------
+        owner
+            The connection, as given to `admits`.
+
+        """
         for key in [key for key, each in self._running.items() if each.owner is owner]:
             del self._running[key]
 

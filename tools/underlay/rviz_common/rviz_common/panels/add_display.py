@@ -13,10 +13,17 @@ NO_TOPIC = '(none)'
 
 
 class AddDisplay:
-    """Widgets to add a display of a class, with a topic that fits it."""
+    """
+    Widgets to add a display of a class, with a topic that fits it.
+
+    Parameters
+    ----------
+    context
+        The page, and the visualizer to which displays are added.
+
+    """
 
     def __init__(self, context: Context) -> None:
-        """Add the widgets."""
         self._context = context
         names = plugin_names(DISPLAYS)
         gui = context.gui
@@ -52,7 +59,22 @@ class AddDisplay:
 
 
 def topics_for(context: Context, class_name: str) -> list[str]:
-    """Return the topics of a type that displays of a class show."""
+    """
+    List the topics that a display of a class can show, sorted.
+
+    Parameters
+    ----------
+    context
+        Its node knows the topics.
+    class_name
+        The class of the display, such as `rviz_default_plugins/Path`.
+
+    Returns
+    -------
+    list[str]
+        The topics with a type of its messages; none for an unknown class.
+
+    """
     try:
         properties = load_plugin(DISPLAYS, class_name).PROPERTIES
     except (LookupError, ImportError):

@@ -20,10 +20,24 @@ NAME = Text('Name', '', 'What it is called here and in the file.')
 
 
 class EntryFolder:
-    """A folder with a box to enable a display, its status and its properties."""
+    """
+    A folder with a box to enable a display, its status and its properties.
+
+    Parameters
+    ----------
+    context
+        The page, and the visualizer from which the entry can be removed.
+    entry
+        A display or a group; the folder of a group has those of its displays inside.
+
+    Attributes
+    ----------
+    folder
+        The handle that viser has for the folder.
+
+    """
 
     def __init__(self, context: Context, entry: Entry) -> None:
-        """Add the folder."""
         self._context = context
         self._entry = entry
         self._label = self._wanted_label()

@@ -23,10 +23,17 @@ LONGEST_NAME = 100
 
 
 class FileFolder:
-    """Widgets to save what is shown to a file, to download it, and to load another one."""
+    """
+    Widgets to save what is shown to a file, to download it, and to load another one.
+
+    Parameters
+    ----------
+    context
+        The page, and the visualizer that saves and loads.
+
+    """
 
     def __init__(self, context: Context) -> None:
-        """Add the widgets."""
         self._context = context
         self._visualizer = context.visualizer
         path = self._visualizer.path or os.path.join(os.getcwd(), 'saved.rviz')

@@ -17,12 +17,25 @@ MOST = 200
 
 
 class FlagsFolder:
-    """A folder with a box for each name of a property."""
+    """
+    A folder with a box for each name of a property.
+
+    Parameters
+    ----------
+    context
+        The page.
+    of
+        The property.
+    values
+        Holds its value.
+    change
+        Called with the path of the property and the new flags by name, when a user clicks a box.
+
+    """
 
     def __init__(
         self, context: Context, of: Flags, values: Values, change: Callable[[str, Any], None]
     ) -> None:
-        """Add the folder; `change` takes the path and the value that a person gives."""
         self._context = context
         self._path = of.path
         self._values = values

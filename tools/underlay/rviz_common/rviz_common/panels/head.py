@@ -22,10 +22,19 @@ MOVE = 'Move Camera'
 
 
 class Head:
-    """How things are at a glance, and a button for each tool."""
+    """
+    The status at a glance, and a button for each tool, at the top of the page.
+
+    Parameters
+    ----------
+    context
+        The page.
+    visualizer
+        Has the status, the displays and the tools.
+
+    """
 
     def __init__(self, context: Context, visualizer: Visualizer) -> None:
-        """Add the widgets."""
         self._visualizer = visualizer
         self._pace = Pace()
         self._text = context.gui.add_markdown('', order=STATUS_ORDER)

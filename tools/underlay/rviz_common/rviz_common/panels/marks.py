@@ -15,12 +15,28 @@ LONGEST = 500
 
 
 def printable(text: str) -> str:
-    """Return a text that can be sent; names of files may have bytes that are no letters."""
+    """
+    Replace what cannot be encoded as UTF-8: names of files may have bytes that are no letters.
+
+    Parameters
+    ----------
+    text
+        Any text.
+
+    """
     return text.encode(errors='replace').decode()
 
 
 def escaped(text: str) -> str:
-    """Return a text in which nothing means anything to Markdown."""
+    """
+    Escape a text for Markdown, as one line.
+
+    Parameters
+    ----------
+    text
+        Any text; only the first 500 characters are kept.
+
+    """
     text = printable(text)
     if len(text) > LONGEST:
         text = f'{text[:LONGEST]} ...'
@@ -28,7 +44,15 @@ def escaped(text: str) -> str:
 
 
 def status_text(status: Statuses) -> str:
-    """Return what a display has to say, as Markdown."""
+    """
+    Format the messages of a display as Markdown, a paragraph for each subject.
+
+    Parameters
+    ----------
+    status
+        The status of the display.
+
+    """
     return '\n\n'.join(
         f'{MARKS[level]} **{escaped(subject)}**: {escaped(sentence)}'
         for subject, level, sentence in status.items()

@@ -29,10 +29,17 @@ class PanelTabs:
 
     Panels on demand that the file does not list appear when there is something that they are
     for, and stay; they are not written to the file.
+
+    Parameters
+    ----------
+    context
+        What the panels work with.
+    entries
+        The entries of the section `Panels` of the file.
+
     """
 
     def __init__(self, context: Context, entries: Sequence[Mapping[str, Any]]) -> None:
-        """Add the panels that a file lists."""
         self._context = context
         self._logger = context.node.get_logger()
         self._entries: list[Panel | Mapping[str, Any]] = [self._made(entry) for entry in entries]

@@ -20,7 +20,21 @@ QUIET_S = 0.6
 
 
 class PropertyEditor:
-    """Widgets for some properties; those whose paths have several names are in folders."""
+    """
+    Widgets for some properties; those whose paths have several names are in folders.
+
+    Parameters
+    ----------
+    context
+        The page.
+    values
+        The properties and their values.
+    change
+        Sets a property: called with its path and the value of a user; may raise ValueError.
+    without
+        Paths of properties that get no widget.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +43,6 @@ class PropertyEditor:
         change: Callable[[str, Any], None],
         without: Iterable[str] = (),
     ) -> None:
-        """Add the widgets; `change` takes the path and the value that a person gives."""
         self._values = values
         self._change = change
         self._context = context

@@ -13,7 +13,24 @@ __all__ = ['add_widget']
 
 
 def add_widget(gui: GuiApi, of: Property, value: Any) -> Any:
-    """Add a widget for a property, and return it."""
+    """
+    Add the widget for a kind of property.
+
+    Parameters
+    ----------
+    gui
+        Where to add it.
+    of
+        The property, whose type decides on the kind of widget.
+    value
+        Its value.
+
+    Returns
+    -------
+    Any
+        The handle that viser has for the widget.
+
+    """
     label, hint = of.path.rpartition('/')[2], of.description or None
     if isinstance(of, Flag):
         return gui.add_checkbox(label, value, hint=hint)

@@ -31,11 +31,33 @@ class Property:
     description: str = ''
 
     def read(self, value: Any) -> Any:
-        """Return the value that a file or a widget gives, or raise ValueError with the reason."""
+        """
+        Validate a value from a file or a widget, and convert it.
+
+        Parameters
+        ----------
+        value
+            The value: as YAML has it, or as a widget of the page does.
+
+        Raises
+        ------
+        ValueError
+            The value cannot be used. The message goes on after the name of the property, such as
+            "must be a number, and not 'x'".
+
+        """
         return value
 
     def write(self, value: Any) -> Any:
-        """Return the value as the file has it."""
+        """
+        Convert a value to the form that it has in a .rviz file.
+
+        Parameters
+        ----------
+        value
+            The value of the property, as `read` returns it.
+
+        """
         return value
 
 
@@ -44,7 +66,20 @@ class Flag(Property):
     """Yes or no."""
 
     def read(self, value: Any) -> bool:
-        """Return the value, or raise ValueError."""
+        """
+        Validate a truth value.
+
+        Parameters
+        ----------
+        value
+            True or False; no other value stands for them.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         if not isinstance(value, bool):
             raise ValueError(f"must be true or false, and not '{value}'")
         return value
@@ -55,7 +90,20 @@ class Flags(Property):
     """Yes or no for each of some names that only turn up later, such as those of namespaces."""
 
     def read(self, value: Any) -> dict[str, bool]:
-        """Return the values by name, or raise ValueError."""
+        """
+        Validate truth values by name.
+
+        Parameters
+        ----------
+        value
+            A dict of names to True or False.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         if not isinstance(value, dict):
             raise ValueError(f"must be true or false for each of some names, and not '{value}'")
         flag = Flag('', True)
@@ -70,7 +118,20 @@ class Number(Property):
     maximum: float = math.inf
 
     def read(self, value: Any) -> float:
-        """Return the value, or raise ValueError."""
+        """
+        Validate a number.
+
+        Parameters
+        ----------
+        value
+            An int or float from `minimum` to `maximum`; bool and NaN are rejected.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
             raise ValueError(f"must be a number, and not '{value}'")
         if not self.minimum <= value <= self.maximum:
@@ -78,7 +139,15 @@ class Number(Property):
         return float(value)
 
     def write(self, value: Any) -> Any:
-        """Return a whole number without its point, as RViz writes it."""
+        """
+        Convert a whole number to int, since RViz writes those without a decimal point.
+
+        Parameters
+        ----------
+        value
+            As for `Property.write`.
+
+        """
         return int(value) if float(value).is_integer() else value
 
 
@@ -87,7 +156,20 @@ class Whole(Number):
     """A whole number with limits."""
 
     def read(self, value: Any) -> int:
-        """Return the value, or raise ValueError."""
+        """
+        Validate a whole number.
+
+        Parameters
+        ----------
+        value
+            An int, or a float without a fraction, from `minimum` to `maximum`.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         number = super().read(value)
         if not number.is_integer():
             raise ValueError(f'must be a whole number, and not {value}')
@@ -99,7 +181,15 @@ class Text(Property):
     """Any text."""
 
     def read(self, value: Any) -> str:
-        """Return the value, which YAML may have taken for something else."""
+        """
+        Convert a value to text, as YAML may have taken it for a number, a truth value or null.
+
+        Parameters
+        ----------
+        value
+            Anything; None becomes ''.
+
+        """
         return '' if value is None else str(value)
 
 
@@ -122,7 +212,20 @@ class Choice(Text):
     choices: tuple[str, ...] = ()
 
     def read(self, value: Any) -> str:
-        """Return the value, or raise ValueError."""
+        """
+        Validate a text as one of the choices.
+
+        Parameters
+        ----------
+        value
+            The text, exactly as in `choices`.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         if value not in self.choices:
             raise ValueError(f"must be one of {', '.join(self.choices)}, and not '{value}'")
         return str(value)
@@ -133,7 +236,25 @@ class ColorOf(Property):
     """Red, green and blue, each from 0 to 255."""
 
     def read(self, value: Any) -> tuple[int, int, int]:
-        """Return the value, which a file has as `255; 0; 0`, or raise ValueError."""
+        """
+        Validate a colour.
+
+        Parameters
+        ----------
+        value
+            A text such as `255; 0; 0`, as in .rviz files, or three numbers.
+
+        Returns
+        -------
+        tuple[int, int, int]
+            Red, green and blue, each from 0 to 255.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         try:
             words = value.split(';') if isinstance(value, str) else value
             red, green, blue = (int(word) for word in words)
@@ -144,7 +265,15 @@ class ColorOf(Property):
         return red, green, blue
 
     def write(self, value: Any) -> str:
-        """Return the value as the file has it."""
+        """
+        Format a colour as in .rviz files, such as `255; 0; 0`.
+
+        Parameters
+        ----------
+        value
+            Red, green and blue, each from 0 to 255.
+
+        """
         return '; '.join(str(part) for part in value)
 
 
@@ -153,7 +282,25 @@ class Vector(Property):
     """Three numbers: x, y and z."""
 
     def read(self, value: Any) -> tuple[float, float, float]:
-        """Return the value, which a file has as X, Y and Z, or raise ValueError."""
+        """
+        Validate a vector.
+
+        Parameters
+        ----------
+        value
+            A dict with X, Y and Z, as in .rviz files, each 0 if missing; or three numbers.
+
+        Returns
+        -------
+        tuple[float, float, float]
+            x, y and z, all finite.
+
+        Raises
+        ------
+        ValueError
+            As for `Property.read`.
+
+        """
         parts = [value.get(axis, 0.0) for axis in 'XYZ'] if isinstance(value, dict) else value
         try:
             x, y, z = (float(part) for part in parts)
@@ -164,6 +311,14 @@ class Vector(Property):
         return x, y, z
 
     def write(self, value: Any) -> dict[str, Any]:
-        """Return the value as the file has it."""
+        """
+        Convert a vector to a dict with X, Y and Z, as in .rviz files.
+
+        Parameters
+        ----------
+        value
+            x, y and z.
+
+        """
         number = Number('', 0.0)
         return {axis: number.write(part) for axis, part in zip('XYZ', value)}

@@ -27,7 +27,23 @@ def topic_properties(
     depth: int = 5,
     durability: str = VOLATILE,
 ) -> tuple[Property, ...]:
-    """Return the properties of a topic that messages of a type come from."""
+    """
+    Define the properties of a topic: its name, and the quality of service.
+
+    Parameters
+    ----------
+    type_name
+        The type of its messages, such as `nav_msgs/msg/Path`.
+    topic
+        The default topic.
+    path
+        The path in the file below which the properties are.
+    depth
+        The default depth of the queue, in messages.
+    durability
+        The default durability, as files name it: `Volatile` or `Transient Local`.
+
+    """
     return (
         Topic(f'{path}/Value', topic, 'The topic of the messages.', type_name),
         Whole(f'{path}/Depth', depth, 'How many messages may wait.', 1, 100000),
@@ -53,12 +69,35 @@ def topic_properties(
 
 
 def topic_path(properties: Iterable[Property]) -> str:
-    """Return the path of the first property that is the name of a topic, or an empty one."""
+    """
+    Find the path of the first property that is the name of a topic.
+
+    Parameters
+    ----------
+    properties
+        The properties to look through.
+
+    Returns
+    -------
+    str
+        Such as `Topic/Value`; '' if there is none.
+
+    """
     return next((each.path for each in properties if isinstance(each, Topic)), '')
 
 
 def qos_of(values: Values, path: str = 'Topic') -> QoSProfile:
-    """Return the quality of service that the properties of a topic ask for."""
+    """
+    Make the QoS profile that the properties of a topic ask for.
+
+    Parameters
+    ----------
+    values
+        The values of the properties.
+    path
+        Where those of the topic are, as for `topic_properties`.
+
+    """
     from rclpy import qos
 
     reliability = {

@@ -14,20 +14,31 @@ __all__ = ['Values']
 
 class Values:
     """
-    The values of some properties, by path; those that a file does not give have their defaults.
+    Values of properties, by path; those that a file does not give have their defaults.
 
     What a file has besides is kept, so that a file is written back without losses: of what a file
     gives, only what has been changed since is written anew.
+
+    Parameters
+    ----------
+    properties
+        The properties that there are.
+    given
+        The section of the file. With None, all properties are written to the file; otherwise
+        what it had, with those that have been changed.
+
+    Attributes
+    ----------
+    properties
+        The properties by path.
+    refusals
+        A message for each value of the file that cannot be used.
+
     """
 
     def __init__(
         self, properties: Iterable[Property], given: Mapping[str, Any] | None = None
     ) -> None:
-        """
-        Take the values that a file gives; `refusals` says which of them cannot be used.
-
-        Without any, all are new to the file, and are written.
-        """
         self.properties = {each.path: each for each in properties}
         self._given: dict[str, Any] = copy.deepcopy(dict(given or {}))
         self._values = {path: each.default for path, each in self.properties.items()}
@@ -56,7 +67,15 @@ class Values:
         return written
 
     def unknown(self, known: Iterable[str]) -> list[str]:
-        """Return the paths that a file gives, but that are no properties and not below `known`."""
+        """
+        List the top-level names in the section of the file that belong to no property.
+
+        Parameters
+        ----------
+        known
+            Other top-level names that are expected there.
+
+        """
         tops = {path.partition('/')[0] for path in self.properties} | set(known)
         return [name for name in self._given if name not in tops]
 

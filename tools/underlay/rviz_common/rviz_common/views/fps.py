@@ -29,7 +29,15 @@ class Fps(ViewKind):
     )
 
     def camera(self, values: Values) -> CameraPose:
-        """Return where the camera is."""
+        """
+        Place the camera by position, yaw and pitch.
+
+        Parameters
+        ----------
+        values
+            As for `ViewKind.camera`.
+
+        """
         x, y, z = values['Position']
         yaw = values['Yaw']
         pitch = min(max(values['Pitch'], -STEEPEST), STEEPEST)
@@ -38,7 +46,20 @@ class Fps(ViewKind):
         return CameraPose((x, y, z), look_at, near=values['Near Clip Distance'])
 
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
-        """Return the properties of a camera."""
+        """
+        Find position, yaw and pitch for a camera.
+
+        Parameters
+        ----------
+        camera
+            As for `ViewKind.properties`.
+
+        Returns
+        -------
+        Mapping[str, Any]
+            Values by path: the position in m, the angles in rad.
+
+        """
         dx, dy, dz = (b - a for a, b in zip(camera.position, camera.look_at))
         return {
             'Position': camera.position,

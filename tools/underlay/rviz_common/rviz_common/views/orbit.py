@@ -31,7 +31,15 @@ class Orbit(ViewKind):
     )
 
     def camera(self, values: Values) -> CameraPose:
-        """Return where the camera is."""
+        """
+        Place the camera around the focal point.
+
+        Parameters
+        ----------
+        values
+            As for `ViewKind.camera`.
+
+        """
         focus = self.focus(values['Focal Point'])
         yaw, distance = values['Yaw'], values['Distance']
         pitch = min(max(values['Pitch'], -STEEPEST), STEEPEST)
@@ -44,7 +52,20 @@ class Orbit(ViewKind):
         return CameraPose(position, focus, near=values['Near Clip Distance'])
 
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
-        """Return the properties of a camera."""
+        """
+        Find the focal point, distance, yaw and pitch for a camera.
+
+        Parameters
+        ----------
+        camera
+            As for `ViewKind.properties`.
+
+        Returns
+        -------
+        Mapping[str, Any]
+            Values by path: the point and the distance in m, the angles in rad.
+
+        """
         focus = self.seen(camera)
         dx, dy, dz = (a - b for a, b in zip(camera.position, focus))
         distance = math.sqrt(dx * dx + dy * dy + dz * dz)
@@ -56,11 +77,37 @@ class Orbit(ViewKind):
         }
 
     def focus(self, point: Point) -> Point:
-        """Return the point that is looked at."""
+        """
+        Constrain the focal point; here it may be anywhere.
+
+        Parameters
+        ----------
+        point
+            The focal point as it has been set, in m from the origin of the target frame.
+
+        Returns
+        -------
+        Point
+            The point that the camera looks at.
+
+        """
         return point
 
     def seen(self, camera: CameraPose) -> Point:
-        """Return the point that a camera looks at."""
+        """
+        Find the focal point of a camera.
+
+        Parameters
+        ----------
+        camera
+            The camera, relative to the origin of the target frame.
+
+        Returns
+        -------
+        Point
+            The point that it looks at, in m from the origin of the target frame.
+
+        """
         return camera.look_at
 
 
@@ -71,11 +118,32 @@ class XYOrbit(Orbit):
     NAME = 'XYOrbit'
 
     def focus(self, point: Point) -> Point:
-        """Return the point that is looked at."""
+        """
+        Project the focal point onto the plane z = 0 of the target frame.
+
+        Parameters
+        ----------
+        point
+            As for `Orbit.focus`.
+
+        """
         return point[0], point[1], 0.0
 
     def seen(self, camera: CameraPose) -> Point:
-        """Return the point of the ground that a camera looks at, if it looks at any."""
+        """
+        Intersect the line of sight of a camera with the plane z = 0 of the target frame.
+
+        Parameters
+        ----------
+        camera
+            As for `Orbit.seen`.
+
+        Returns
+        -------
+        Point
+            The intersection; the projection of `look_at` if the camera does not look at the plane.
+
+        """
         (x, y, z), (to_x, to_y, to_z) = camera.position, camera.look_at
         drop = z - to_z
         share = z / drop if abs(drop) > 1e-6 else -1.0

@@ -33,7 +33,15 @@ class TopDown(ViewKind):
     )
 
     def camera(self, values: Values) -> CameraPose:
-        """Return where the camera is."""
+        """
+        Place the camera above the ground, far away and with a narrow field of view.
+
+        Parameters
+        ----------
+        values
+            As for `ViewKind.camera`.
+
+        """
         x, y, angle = values['X'], values['Y'], values['Angle']
         height = PIXELS / values['Scale'] / 2.0 / math.tan(NARROW / 2.0)
         up = (-math.sin(angle), math.cos(angle), 0.0)
@@ -42,7 +50,20 @@ class TopDown(ViewKind):
         )
 
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
-        """Return the properties of a camera."""
+        """
+        Find scale, angle and centre of the map for a camera.
+
+        Parameters
+        ----------
+        camera
+            As for `ViewKind.properties`.
+
+        Returns
+        -------
+        Mapping[str, Any]
+            Values by path: the scale in pixels per m, the angle in rad, x and y in m.
+
+        """
         height = max(camera.position[2] - camera.look_at[2], 0.01)
         metres = 2.0 * height * math.tan(camera.fov / 2.0)
         return {

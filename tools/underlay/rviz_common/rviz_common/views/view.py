@@ -21,10 +21,27 @@ KINDS: dict[str, ViewKind] = {
 
 
 class View:
-    """How the page looks at the scene, as an entry of a file says it."""
+    """
+    How the page looks at the scene: a kind of view, such as an orbit, and its properties.
+
+    Parameters
+    ----------
+    given
+        Its entry of the .rviz file, None or empty for the default. A class that is not known
+        is taken for an orbit.
+
+    Attributes
+    ----------
+    kind, is_known
+        The kind of view, and whether it is that of the file.
+    name
+        What it is called in the file.
+    values
+        The properties.
+
+    """
 
     def __init__(self, given: Mapping[str, Any] | None = None) -> None:
-        """Take what a file gives; an unknown class is taken for an orbit."""
         self._given = dict(given or {})
         self.class_name = str(self._given.get('Class') or Orbit.CLASS)
         self.is_known = self.class_name in KINDS
@@ -39,11 +56,22 @@ class View:
         return str(self.values['Target Frame'])
 
     def camera(self) -> CameraPose:
-        """Return where the camera is, from the target frame on."""
+        """Compute the camera, relative to the origin of the target frame."""
         return self.kind.camera(self.values)
 
     def like(self, kind: ViewKind, camera: CameraPose | None = None) -> View:
-        """Return a view of another kind that shows about the same."""
+        """
+        Make a view of another kind that shows about the same.
+
+        Parameters
+        ----------
+        kind
+            The kind of the new view.
+        camera
+            What it is to show, relative to the origin of the target frame; by default what this
+            view shows.
+
+        """
         given = {
             'Class': kind.CLASS,
             'Name': self.name,
@@ -55,18 +83,47 @@ class View:
         return view
 
     def take(self, camera: CameraPose) -> None:
-        """Look from where a camera looks."""
+        """
+        Set the properties so that the view shows what a camera does.
+
+        Parameters
+        ----------
+        camera
+            The camera, relative to the origin of the target frame.
+
+        """
         self._is_default = False
         for path, value in self.kind.properties(camera).items():
             self.values[path] = value
 
     def change(self, path: str, value: Any) -> None:
-        """Set a property, or raise ValueError with the reason."""
+        """
+        Set a property.
+
+        Parameters
+        ----------
+        path, value
+            The path of the property, such as `Distance`, and its new value.
+
+        Raises
+        ------
+        ValueError
+            The value cannot be used; the message is that of `Property.read`.
+
+        """
         self.values[path] = value
         self._is_default = False
 
     def copy(self, name: str) -> View:
-        """Return the same view under another name."""
+        """
+        Copy the view under another name.
+
+        Parameters
+        ----------
+        name
+            The name of the copy.
+
+        """
         return View({**self.to_file(), 'Name': name})
 
     def to_file(self) -> dict[str, Any]:

@@ -28,8 +28,36 @@ class ViewKind(ABC):
 
     @abstractmethod
     def camera(self, values: Values) -> CameraPose:
-        """Return where the camera is."""
+        """
+        Compute the camera from the properties of a view.
+
+        Parameters
+        ----------
+        values
+            The values of `PROPERTIES`.
+
+        Returns
+        -------
+        CameraPose
+            The camera, relative to the origin of the target frame, along the axes of the fixed
+            frame.
+
+        """
 
     @abstractmethod
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
-        """Return the properties of a camera, as well as it can be said."""
+        """
+        Compute the properties of a view from a camera, as far as the kind can express it.
+
+        Parameters
+        ----------
+        camera
+            The camera, relative to the origin of the target frame, along the axes of the fixed
+            frame.
+
+        Returns
+        -------
+        Mapping[str, Any]
+            Values by path, for those of `PROPERTIES` that the camera decides.
+
+        """

@@ -16,6 +16,12 @@ class Background:
     A background of one color.
 
     It is a picture, for which viser loads a library of 15 MB: that waits until somebody looks.
+
+    Parameters
+    ----------
+    server
+        The server of the page.
+
     """
 
     def __init__(self, server: ViserServer) -> None:
@@ -24,7 +30,15 @@ class Background:
         self._painted: tuple[int, int, int] | None = None
 
     def choose(self, color: tuple[int, int, int]) -> None:
-        """Have another color from the next update on."""
+        """
+        Set the color of the background, which the next `update` paints.
+
+        Parameters
+        ----------
+        color
+            Red, green and blue, each from 0 to 255.
+
+        """
         self._color = color
 
     def update(self) -> None:

@@ -18,14 +18,28 @@ WORLD = '/world'
 
 class Cameras:
     """
-    Has browsers look at the scene as a view says.
+    Set the cameras of all browsers as a view says.
 
     A camera that follows a frame rests, and the world moves the other way: so whoever turns the
     scene meanwhile is not disturbed.
+
+    Parameters
+    ----------
+    context
+        The page, and the transforms.
+    view
+        The first view; browsers that come later begin with the latest one.
+
+    Attributes
+    ----------
+    view
+        The view that is shown.
+    reason
+        Why the target frame cannot be followed, '' if it can.
+
     """
 
     def __init__(self, context: Context, view: View) -> None:
-        """Look as a view says; browsers that come later do so from the beginning."""
         self._context = context
         self._world = context.scene.add_frame(WORLD, show_axes=False)
         self._at = Pose().position
@@ -38,7 +52,15 @@ class Cameras:
         return self._at
 
     def show(self, view: View) -> None:
-        """Have all browsers look as a view says."""
+        """
+        Set the cameras of all browsers, and of those that come later, as a view says.
+
+        Parameters
+        ----------
+        view
+            The view.
+
+        """
         self.view = view
         pose = view.camera()
         initial = self._context.server.initial_camera
@@ -62,7 +84,20 @@ class Cameras:
             self._world.position = (-x, -y, -z)
 
     def seen_by(self, client_id: int | None) -> CameraPose | None:
-        """Return how a browser looks at the scene, the first one by default."""
+        """
+        Read the camera of a browser, which its user may have moved.
+
+        Parameters
+        ----------
+        client_id
+            The browser; if it is None or gone, the first one that is connected.
+
+        Returns
+        -------
+        CameraPose | None
+            Relative to the origin of the target frame; None if no browser is connected.
+
+        """
         clients = self._context.server.get_clients()
         client = clients.get(client_id) if client_id is not None else None
         client = client or next(iter(clients.values()), None)

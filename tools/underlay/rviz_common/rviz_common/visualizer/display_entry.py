@@ -16,10 +16,17 @@ __all__ = ['DisplayEntry']
 
 
 class DisplayEntry(Entry):
-    """A display, which is started and stopped as it is enabled; one that fails is stopped."""
+    """
+    A display, which is started and stopped as it is enabled; one that fails is stopped.
+
+    Parameters
+    ----------
+    display
+        A display that has not been started.
+
+    """
 
     def __init__(self, display: Display) -> None:
-        """Take a display that has not been started."""
         self.display = display
         self.class_name = display.CLASS
         self._is_running = False
@@ -32,6 +39,15 @@ class DisplayEntry(Entry):
 
     @name.setter
     def name(self, name: str) -> None:
+        """
+        Rename the display.
+
+        Parameters
+        ----------
+        name
+            The name for the user and the file.
+
+        """
         self.display.name = name
 
     @property
@@ -50,12 +66,28 @@ class DisplayEntry(Entry):
         return self.display.status
 
     def enable(self, is_enabled: bool) -> None:
-        """Start or stop the display; a failed one gets another chance."""
+        """
+        Enable or disable the display; one that has failed is started again.
+
+        Parameters
+        ----------
+        is_enabled
+            As for `Entry.enable`.
+
+        """
         self.display.values['Enabled'] = is_enabled
         self.appear(self._is_shown_above)
 
     def appear(self, is_shown_above: bool) -> None:
-        """Start or stop the display."""
+        """
+        Start or stop the display, as it is enabled and shown above.
+
+        Parameters
+        ----------
+        is_shown_above
+            As for `Entry.appear`.
+
+        """
         self._is_shown_above = is_shown_above
         is_wanted = is_shown_above and self.is_enabled
         if is_wanted and not self._is_running:
@@ -67,7 +99,20 @@ class DisplayEntry(Entry):
             self._is_running = False
 
     def change(self, path: str, value: Any) -> None:
-        """Set a property, or raise ValueError with the reason."""
+        """
+        Set a property, and apply it if the display runs.
+
+        Parameters
+        ----------
+        path, value
+            The path of the property, such as `Shape/Color`, and its new value.
+
+        Raises
+        ------
+        ValueError
+            The value cannot be used; the message is that of `Property.read`.
+
+        """
         before = self.display.values[path]
         self.display.values[path] = value
         if self._is_running and self.display.values[path] != before:

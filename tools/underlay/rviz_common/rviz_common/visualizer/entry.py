@@ -34,11 +34,27 @@ class Entry(ABC):
 
     @abstractmethod
     def enable(self, is_enabled: bool) -> None:
-        """Have it shown, or no longer."""
+        """
+        Enable or disable the entry, as the user does.
+
+        Parameters
+        ----------
+        is_enabled
+            Whether it is to be shown.
+
+        """
 
     @abstractmethod
     def appear(self, is_shown_above: bool) -> None:
-        """Show it if it is enabled and so is all above it; else show it no longer."""
+        """
+        Show the entry if it is enabled and all groups above it are; hide it otherwise.
+
+        Parameters
+        ----------
+        is_shown_above
+            Whether all groups above it are shown.
+
+        """
 
     @abstractmethod
     def update(self) -> None:

@@ -18,20 +18,37 @@ FASTEST_HZ = 60.0
 
 class FrameLoop:
     """
-    Does something for each frame, in the thread in which the node works.
+    Timer that calls a function for each frame, in the thread in which the node works.
 
     The clock is a steady one, so that frames go on while a simulator rests.
+
+    Parameters
+    ----------
+    node
+        The node that spins the timer.
+    frame
+        Draws a frame.
+    rate_hz
+        The frame rate, limited to 1 to 60 Hz.
+
     """
 
     def __init__(self, node: Node, frame: Callable[[], None], rate_hz: float) -> None:
-        """Begin to draw frames, as soon as the node works."""
         self._node = node
         self._frame = frame
         self._clock = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(_period_s(rate_hz), frame, clock=self._clock)
 
     def set_rate(self, rate_hz: float) -> None:
-        """Draw so many frames in a second from now on, up to 60."""
+        """
+        Change the frame rate.
+
+        Parameters
+        ----------
+        rate_hz
+            The frame rate, limited to 1 to 60 Hz.
+
+        """
         period_ns = int(_period_s(rate_hz) * 1e9)
         if period_ns != self._timer.timer_period_ns:
             self._timer.timer_period_ns = period_ns

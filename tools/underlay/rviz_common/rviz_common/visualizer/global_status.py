@@ -24,10 +24,21 @@ SHOWN = 4
 
 
 class FrameWatch:
-    """Says whether frames can be placed in the fixed frame, and what is missing."""
+    """
+    Reports whether frames can be placed in the fixed frame, and which transforms are missing.
+
+    Parameters
+    ----------
+    node
+        Counts the publishers of transforms.
+    frames
+        The transforms, and the fixed frame.
+    status
+        Receives the message, with the subject `Fixed Frame`.
+
+    """
 
     def __init__(self, node: Node, frames: Frames, status: Statuses) -> None:
-        """Say it in a status."""
         self._node = node
         self._frames = frames
         self._status = status

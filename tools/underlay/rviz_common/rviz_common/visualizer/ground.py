@@ -22,6 +22,18 @@ class Ground:
     An invisible plane below the scene, which says where it is clicked and dragged.
 
     It is there only while somebody wants to know; else a drag turns the scene.
+
+    Parameters
+    ----------
+    context
+        The page, and the queue by which calls get into the thread of the node.
+    origin
+        Returns where the target frame of the camera is, in m in the fixed frame.
+    click
+        Called with the point of a click, in m in the fixed frame.
+    drag
+        Called for each movement of a drag with its start, where it is now, and whether it is over.
+
     """
 
     def __init__(
@@ -31,7 +43,6 @@ class Ground:
         click: Callable[[Point], None],
         drag: Callable[[Point, Point, bool], None],
     ) -> None:
-        """Take who is to know of clicks and drags; `origin` is what the camera follows."""
         self._context = context
         self._origin = origin
         self._click = click
@@ -40,7 +51,15 @@ class Ground:
         self._scene: Any = context.scene
 
     def watch(self, is_wanted: bool) -> None:
-        """Begin or cease to say where the pointer is."""
+        """
+        Add or remove the plane, and with it the reports of clicks and drags.
+
+        Parameters
+        ----------
+        is_wanted
+            Whether clicks and drags are to be reported from now on.
+
+        """
         if is_wanted and self._plane is None:
             self._plane = self._add()
             # Not of the plane: what can be clicked is painted over where the pointer is.
@@ -85,7 +104,22 @@ class Ground:
 
 
 def ground_point(origin: Sequence[float], direction: Sequence[float]) -> Point | None:
-    """Return where a ray meets the plane z = 0, or None if it does not."""
+    """
+    Intersect a ray with the ground, the plane z = 0.
+
+    Parameters
+    ----------
+    origin
+        Where the ray starts, in m.
+    direction
+        Its direction, of any length.
+
+    Returns
+    -------
+    Point | None
+        None if the ray does not meet the plane, or only beyond 100 km in x or y.
+
+    """
     if abs(direction[2]) < 1e-9:
         return None
     length = -origin[2] / direction[2]

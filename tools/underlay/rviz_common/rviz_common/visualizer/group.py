@@ -14,12 +14,21 @@ __all__ = ['Group']
 
 
 class Group(Entry):
-    """Displays that are shown together, in the order of the list."""
+    """
+    Displays that are shown together, in the order of the list.
+
+    Parameters
+    ----------
+    given
+        Its entry of the .rviz file, empty for the group at the top.
+    children
+        The displays and groups in it.
+
+    """
 
     CLASS = 'rviz_common/Group'
 
     def __init__(self, given: Mapping[str, Any], children: list[Entry]) -> None:
-        """Take what the file says, and the displays."""
         self._given = copy.deepcopy({k: v for k, v in given.items() if k != 'Displays'})
         self._places = list(given)
         self._nothing: list[Any] | None = [] if given.get('Displays') == [] else None
@@ -46,12 +55,28 @@ class Group(Entry):
         return max((each.level for each in self.children if each.is_enabled), default=Level.OK)
 
     def enable(self, is_enabled: bool) -> None:
-        """Have the displays shown, or no longer."""
+        """
+        Enable or disable the group, and so show or hide the displays in it.
+
+        Parameters
+        ----------
+        is_enabled
+            As for `Entry.enable`.
+
+        """
         self._is_enabled = is_enabled
         self.appear(self._is_shown_above)
 
     def appear(self, is_shown_above: bool) -> None:
-        """Show the displays if the group is enabled and so is all above it."""
+        """
+        Show the displays if the group is enabled and so is all above it.
+
+        Parameters
+        ----------
+        is_shown_above
+            As for `Entry.appear`.
+
+        """
         self._is_shown_above = is_shown_above
         for child in self.children:
             child.appear(is_shown_above and self._is_enabled)
@@ -62,12 +87,33 @@ class Group(Entry):
             child.update()
 
     def add(self, entry: Entry) -> None:
-        """Add a display at the end."""
+        """
+        Append an entry, and show it if the group is shown.
+
+        Parameters
+        ----------
+        entry
+            A display or a group.
+
+        """
         self.children.append(entry)
         entry.appear(self._is_shown_above and self._is_enabled)
 
     def remove(self, entry: Entry) -> bool:
-        """Remove an entry that is anywhere below; return whether it was there."""
+        """
+        Remove an entry that is anywhere below the group, and hide it.
+
+        Parameters
+        ----------
+        entry
+            A display or a group.
+
+        Returns
+        -------
+        bool
+            Whether it was there.
+
+        """
         if entry in self.children:
             entry.appear(False)
             self.children.remove(entry)

@@ -18,16 +18,38 @@ __all__ = ['Maker']
 
 
 class Maker:
-    """Makes entries of what a file gives; each display has a path of the scene for itself."""
+    """
+    Factory of entries; each display gets a path of the scene for itself.
+
+    Parameters
+    ----------
+    context
+        What the displays draw with.
+    root
+        The path of the scene below which they draw.
+
+    """
 
     def __init__(self, context: Context, root: str) -> None:
-        """Take the path of the scene below which all is drawn."""
         self._context = context
         self._root = root
         self._numbers = itertools.count(1)
 
     def entry(self, given: Mapping[str, Any]) -> Entry:
-        """Return the entry that a file gives; it is not shown yet."""
+        """
+        Make an entry, with all below it, from a .rviz file; it is not shown yet.
+
+        Parameters
+        ----------
+        given
+            The entry of the file, with its `Class`.
+
+        Returns
+        -------
+        Entry
+            A display or a group; an `UnknownEntry` if the display cannot be made.
+
+        """
         if given['Class'] == Group.CLASS:
             below = given.get('Displays') or []
             return Group(given, [self.entry(each) for each in below])
@@ -47,7 +69,22 @@ class Maker:
             )
 
     def new(self, class_name: str) -> DisplayEntry:
-        """Return a display of a class with its defaults, or raise LookupError."""
+        """
+        Make a display of a class with its defaults.
+
+        Parameters
+        ----------
+        class_name
+            The class, such as `rviz_default_plugins/Grid`.
+
+        Raises
+        ------
+        LookupError
+            No installed package offers it.
+        ImportError
+            The module of the class cannot be imported.
+
+        """
         return DisplayEntry(load_plugin(DISPLAYS, class_name)(self._context, self._path()))
 
     def _path(self) -> str:

@@ -22,7 +22,20 @@ __all__ = ['surprises']
 
 
 def surprises(shown: Visualizer) -> Iterator[str]:
-    """Return a sentence for all of a file that is not known, or cannot be used."""
+    """
+    Format a warning for all of a file that is not known, or cannot be used.
+
+    Parameters
+    ----------
+    shown
+        The visualizer that shows the file.
+
+    Yields
+    ------
+    str
+        A message with the file and, for displays, the line.
+
+    """
     source = shown.configuration.document.source
     view = shown.cameras.view
     yield from _about_displays(shown.configuration, shown.displays.children)

@@ -24,7 +24,24 @@ BUILT_IN = tuple(
 
 
 class ToolBox:
-    """The tools of a file, one of which may be in use; other entries are kept for the file."""
+    """
+    The tools of a file, one of which may be in use; other entries are kept for the file.
+
+    Parameters
+    ----------
+    context
+        What the tools work with.
+    origin
+        Returns where the target frame of the camera is, in m in the fixed frame.
+    entries
+        The entries of the section `Tools` of the file.
+
+    Attributes
+    ----------
+    in_use
+        The tool that the pointer works with, if any.
+
+    """
 
     def __init__(
         self,
@@ -32,7 +49,6 @@ class ToolBox:
         origin: Callable[[], Point],
         entries: Sequence[Mapping[str, Any]],
     ) -> None:
-        """Make the tools that a file lists; `origin` is what the camera follows."""
         self._logger = context.node.get_logger()
         self._entries: list[Tool | Mapping[str, Any]] = [
             self._made(context, f'{WORLD}/tools/{number}', entry)
@@ -55,7 +71,15 @@ class ToolBox:
         return [each for each in classes if each not in BUILT_IN]
 
     def use(self, tool: Tool | None) -> None:
-        """Use a tool, or none; the one that was in use is laid down."""
+        """
+        Activate a tool, and deactivate the one before.
+
+        Parameters
+        ----------
+        tool
+            One of `tools`; None for none, so that the pointer turns the scene.
+
+        """
         if self.in_use is not None:
             self.in_use.lay_down()
         self.in_use = tool

@@ -14,10 +14,19 @@ __all__ = ['UnknownEntry']
 
 
 class UnknownEntry(Entry):
-    """A display of a class that no package offers: it is kept for the file."""
+    """
+    A display that cannot be made, as that of an unknown class: it is kept for the file.
+
+    Parameters
+    ----------
+    given
+        Its entry of the .rviz file.
+    reason
+        Why it cannot be shown, for the status.
+
+    """
 
     def __init__(self, given: Mapping[str, Any], reason: str) -> None:
-        """Take what the file says, and why it cannot be shown."""
         self._given = copy.deepcopy(dict(given))
         self.class_name = str(given['Class'])
         self._first_name = self.name = str(given.get('Name') or self.class_name)
@@ -35,11 +44,27 @@ class UnknownEntry(Entry):
         return self._status
 
     def enable(self, is_enabled: bool) -> None:
-        """Have the file say so."""
+        """
+        Set what the file says of the display.
+
+        Parameters
+        ----------
+        is_enabled
+            As for `Entry.enable`.
+
+        """
         self._given['Enabled'] = self._given['Value'] = is_enabled
 
     def appear(self, is_shown_above: bool) -> None:
-        """Show nothing."""
+        """
+        Do nothing, since there is nothing to show.
+
+        Parameters
+        ----------
+        is_shown_above
+            As for `Entry.appear`.
+
+        """
 
     def update(self) -> None:
         """Draw nothing."""

@@ -58,9 +58,38 @@ __all__ = ['Visualizer']
 
 class Visualizer:
     """
-    Shows what a file says, in a page.
+    Shows the displays, tools, views and panels of a .rviz file in a page.
 
     All is done in the thread in which the node works, from the moment when it does.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes, and whose executor draws the frames.
+    page
+        The page, without any widgets yet.
+    configuration
+        What to show.
+    path
+        The file that it is from, '' for none.
+    may_rest
+        Whether it draws nothing, and hears nothing that moves, while no page is open.
+
+    Attributes
+    ----------
+    context
+        What displays, tools and panels work with.
+    status
+        The global status, which says whether the fixed frame is known.
+    options
+        The global options.
+    displays, tools, panels
+        What is shown.
+    cameras, saved_views
+        The cameras of browsers, which show the current view; and views to choose from.
+    revision
+        A number that grows whenever a display is added or removed.
+
     """
 
     def __init__(
@@ -71,12 +100,6 @@ class Visualizer:
         path: str = '',
         may_rest: bool = False,
     ) -> None:
-        """
-        Show what a configuration says.
-
-        :param path: the file that it is from
-        :param may_rest: draw nothing, and hear nothing that moves, while no page is open
-        """
         self._buffer = Buffer()
         self._listener = FrameListener(self._buffer, node)
         frames = Frames(self._buffer)
@@ -98,13 +121,36 @@ class Visualizer:
         page.viser.on_client_connect(lambda _: self._rouse())
 
     def load(self, configuration: Configuration, path: str = '') -> None:
-        """Show what another file says, and no longer what the last one said."""
+        """
+        Show another configuration, in place of the present one.
+
+        Parameters
+        ----------
+        configuration
+            What to show.
+        path
+            The file that it is from, '' for none.
+
+        """
         self._close()
         self._open(configuration, path)
         self._set_rate()
 
     def save(self, path: str) -> None:
-        """Write what is shown to a file, or raise ConfigError."""
+        """
+        Write what is shown to a .rviz file.
+
+        Parameters
+        ----------
+        path
+            The file, which becomes `self.path`; `~` stands for the home directory.
+
+        Raises
+        ------
+        ConfigError
+            The name does not end with .rviz, or the file cannot be written.
+
+        """
         path = os.path.expanduser(path.strip())
         if not path.endswith('.rviz'):
             raise ConfigError(path or 'The file', None, 'Its name must end with .rviz.')
@@ -116,12 +162,47 @@ class Visualizer:
         return self.configuration.text(self._sections())
 
     def set_option(self, path: str, value: Any) -> None:
-        """Set an option, or raise ValueError with the reason."""
+        """
+        Set a global option, and apply it.
+
+        Parameters
+        ----------
+        path, value
+            The name of the option, such as `FIXED_FRAME`, and its new value.
+
+        Raises
+        ------
+        ValueError
+            The value cannot be used; the message is that of `Property.read`.
+
+        """
         self.options[path] = value
         self._apply(path)
 
     def add(self, class_name: str, topic: str = '') -> Entry:
-        """Add a display of a class with its defaults, or raise LookupError."""
+        """
+        Add a display with its defaults, and show it.
+
+        Parameters
+        ----------
+        class_name
+            The class, such as `rviz_default_plugins/Grid`.
+        topic
+            The topic to show, '' for the default one.
+
+        Returns
+        -------
+        Entry
+            The entry of the display.
+
+        Raises
+        ------
+        LookupError
+            No installed package offers the class.
+        ImportError
+            The module of the class cannot be imported.
+
+        """
         entry = self._maker.new(class_name)
         path = topic_path(entry.display.PROPERTIES)
         if topic and path:
@@ -131,7 +212,15 @@ class Visualizer:
         return entry
 
     def remove(self, entry: Entry) -> None:
-        """Remove a display or a group."""
+        """
+        Remove a display or a group.
+
+        Parameters
+        ----------
+        entry
+            Its entry, anywhere in the tree.
+
+        """
         if self.displays.remove(entry):
             self.revision += 1
 
@@ -153,7 +242,15 @@ class Visualizer:
             self.panels.update()
 
     def notify(self, title: str, text: str) -> None:
-        """Show a message in all browsers, and log it."""
+        """
+        Show a notification in all browsers for 10 s, and log it.
+
+        Parameters
+        ----------
+        title, text
+            The headline, and the message.
+
+        """
         self._logger.info(f'{title}: {text}')
         for client in self.context.server.get_clients().values():
             client.add_notification(title, printable(text), auto_close_seconds=10.0)

@@ -14,15 +14,38 @@ __all__ = ['Brightness']
 
 
 class Brightness:
-    """Turns numbers into grays between limits, which may be those of the last pictures."""
+    """
+    Maps numbers to greys between limits, which may be those of the last images.
+
+    Parameters
+    ----------
+    limits
+        The values that are black and white; None to find them in the images.
+    window
+        The number of images over whose minima and maxima the medians are taken as limits.
+
+    """
 
     def __init__(self, limits: tuple[float, float] | None = None, window: int = 5) -> None:
-        """Take fixed limits, or the medians of those of so many pictures."""
         self._limits = limits
         self._seen: deque[tuple[float, float]] = deque(maxlen=max(1, window))
 
     def apply(self, values: NDArray[Any]) -> NDArray[np.uint8]:
-        """Return grays; what is not finite is black."""
+        """
+        Map the values of an image to greys.
+
+        Parameters
+        ----------
+        values
+            Numbers in an array of any shape. Without fixed limits, theirs go into the medians.
+
+        Returns
+        -------
+        NDArray[np.uint8]
+            Greys of the same shape. What is not finite is black, and so is all if the limits are
+            equal.
+
+        """
         numbers = values.astype(np.float32)
         finite = np.isfinite(numbers)
         low, high = self._limits or self._found(numbers[finite])

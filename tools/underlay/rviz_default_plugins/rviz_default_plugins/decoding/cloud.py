@@ -35,6 +35,14 @@ class Cloud:
         return self if somewhere.all() else self[somewhere]
 
     def thinned(self, most: int) -> Cloud:
-        """Return each n-th point, so that there are not more than some."""
+        """
+        Downsample the cloud: keep each n-th point.
+
+        Parameters
+        ----------
+        most
+            The largest number of points to keep.
+
+        """
         step = -(-len(self) // most)
         return self[::step] if step > 1 else self

@@ -33,7 +33,20 @@ class Scale:
     colors: tuple[Sequence[int], Sequence[int]] = ((0, 0, 0), (255, 255, 255))
 
     def paint(self, values: NDArray[Any]) -> Colors:
-        """Return a colour for each value; what is no number is at the lower end."""
+        """
+        Map values to colours.
+
+        Parameters
+        ----------
+        values
+            A number for each of N points; NaN counts as the minimum.
+
+        Returns
+        -------
+        Colors
+            Red, green and blue (N, 3).
+
+        """
         parts = self._parts(np.asarray(values, dtype=np.float64))
         if self.is_rainbow:
             return rainbow(parts if self.is_inverted else 1.0 - parts)
@@ -61,14 +74,40 @@ class Scale:
 
 
 def rainbow(parts: NDArray[np.float64]) -> Colors:
-    """Return colours from magenta at 0 to red at 1."""
+    """
+    Map numbers to the colours of the rainbow, from magenta at 0 to red at 1.
+
+    Parameters
+    ----------
+    parts
+        N numbers from 0 to 1.
+
+    Returns
+    -------
+    Colors
+        Red, green and blue (N, 3).
+
+    """
     channels = [np.interp(parts, _STOPS, stops) for stops in (_RED, _GREEN, _BLUE)]
     colors: Colors = (np.stack(channels, axis=-1) * 255.0).round().astype(np.uint8)
     return colors
 
 
 def colors_rgb8(cloud: Cloud) -> Colors | None:
-    """Return the colours that the field `rgb` or `rgba` has, as the bytes of a number."""
+    """
+    Unpack the colours of the field `rgb` or `rgba`, which has them as bytes of a number.
+
+    Parameters
+    ----------
+    cloud
+        A cloud of N points.
+
+    Returns
+    -------
+    Colors | None
+        Red, green and blue (N, 3); None without such a field of 32 bits.
+
+    """
     packed = cloud.channels.get('rgb', cloud.channels.get('rgba'))
     if packed is None or packed.dtype.itemsize != 4:
         return None
@@ -78,7 +117,20 @@ def colors_rgb8(cloud: Cloud) -> Colors | None:
 
 
 def colors_rgbf32(cloud: Cloud) -> Colors | None:
-    """Return the colours that the fields `r`, `g` and `b` have, from 0 to 1."""
+    """
+    Convert the colours of the fields `r`, `g` and `b`, which are numbers from 0 to 1.
+
+    Parameters
+    ----------
+    cloud
+        A cloud of N points.
+
+    Returns
+    -------
+    Colors | None
+        Red, green and blue (N, 3); None if one of the fields is missing.
+
+    """
     if not all(name in cloud.channels for name in 'rgb'):
         return None
     parts = np.stack([cloud.channels[name].astype(np.float64) for name in 'rgb'], axis=1)

@@ -17,7 +17,22 @@ MOST_COMPRESSED = 100_000_000
 
 
 def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
-    """Return the picture of a JPEG or PNG, or raise ValueError with what is wrong with it."""
+    """
+    Decode a JPEG or PNG of `sensor_msgs/msg/CompressedImage`, small enough for a page.
+
+    Parameters
+    ----------
+    message
+        The message.
+    brightness
+        Maps images of 16 or 32 bits to greys.
+
+    Raises
+    ------
+    ValueError
+        The image is too large, broken or of another format, such as a compressed depth image.
+
+    """
     from PIL import Image, UnidentifiedImageError
 
     if 'compressedDepth' in message.format:

@@ -19,7 +19,20 @@ class Ellipsoid(NamedTuple):
 
 
 def ellipsoid_of(covariance: Any) -> Ellipsoid:
-    """Return one standard deviation of a position, from 6 x 6 numbers, or raise ValueError."""
+    """
+    Compute the ellipsoid of one standard deviation of a position.
+
+    Parameters
+    ----------
+    covariance
+        The covariance of a pose: 36 numbers, row by row, of which those of x, y and z (m^2) count.
+
+    Raises
+    ------
+    ValueError
+        The numbers are not finite, far too large, or no covariance.
+
+    """
     block = np.asarray(covariance, dtype=float).reshape(6, 6)[:3, :3]
     if not (np.abs(block) <= FARTHEST**2).all():
         raise ValueError('its covariance has numbers that are not finite, or far too large.')

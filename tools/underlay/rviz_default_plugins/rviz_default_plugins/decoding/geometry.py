@@ -36,7 +36,22 @@ Triple = tuple[float, float, float]
 
 
 def position(vector: Any, what: str = 'position') -> Triple:
-    """Return x, y and z of a point or vector, or raise ValueError if they are nowhere."""
+    """
+    Validate the coordinates of a point or vector.
+
+    Parameters
+    ----------
+    vector
+        A message with `x`, `y` and `z`, in m or in the unit of the vector.
+    what
+        What it is called in the error message.
+
+    Raises
+    ------
+    ValueError
+        A coordinate is not finite, or its magnitude is above `FARTHEST`.
+
+    """
     triple = (float(vector.x), float(vector.y), float(vector.z))
     if not all(abs(part) <= FARTHEST for part in triple):
         raise ValueError(f'its {what} is {_listed(triple)}, which is nowhere.')
@@ -44,7 +59,27 @@ def position(vector: Any, what: str = 'position') -> Triple:
 
 
 def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
-    """Return w, x, y and z of a quaternion at length 1, or raise ValueError if it is none."""
+    """
+    Validate and normalise a quaternion.
+
+    Parameters
+    ----------
+    quaternion
+        A message with `x`, `y`, `z` and `w`.
+    what
+        What it is called in the error message.
+
+    Returns
+    -------
+    Quaternion
+        w, x, y and z, of length 1.
+
+    Raises
+    ------
+    ValueError
+        The quaternion is not finite, or has a length of zero.
+
+    """
     parts = (quaternion.w, quaternion.x, quaternion.y, quaternion.z)
     length = math.sqrt(sum(part * part for part in parts))
     if not math.isfinite(length):
@@ -56,7 +91,20 @@ def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
 
 
 def points_of(points: Iterable[Any]) -> Points:
-    """Return the points of a message as rows; what is too far away is infinite."""
+    """
+    Convert the points of a message to an array.
+
+    Parameters
+    ----------
+    points
+        N messages with `x`, `y` and `z`, in m.
+
+    Returns
+    -------
+    Points
+        Rows x, y and z (N, 3); a coordinate beyond `FARTHEST` becomes infinite.
+
+    """
     flat = [part for point in points for part in (point.x, point.y, point.z)]
     rows = np.array(flat, dtype=np.float64).reshape(-1, 3)
     rows[np.abs(rows) > FARTHEST] = np.inf
@@ -64,7 +112,25 @@ def points_of(points: Iterable[Any]) -> Points:
 
 
 def finite_points_of(points: Iterable[Any]) -> Points:
-    """Return the points of a message as rows, or raise ValueError if any is nowhere."""
+    """
+    Convert the points of a message to an array, and validate them.
+
+    Parameters
+    ----------
+    points
+        N messages with `x`, `y` and `z`, in m.
+
+    Returns
+    -------
+    Points
+        Rows x, y and z (N, 3).
+
+    Raises
+    ------
+    ValueError
+        A coordinate is not finite, or its magnitude is above `FARTHEST`.
+
+    """
     rows = points_of(points)
     if lost := int((~np.isfinite(rows).all(axis=1)).sum()):
         raise ValueError(
@@ -75,7 +141,20 @@ def finite_points_of(points: Iterable[Any]) -> Points:
 
 
 def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]:
-    """Return quaternions as rows w, x, y and z at length 1, and which of them are rotations."""
+    """
+    Convert the quaternions of a message to an array, normalised.
+
+    Parameters
+    ----------
+    quaternions
+        N messages with `x`, `y`, `z` and `w`.
+
+    Returns
+    -------
+    tuple[Points, NDArray[np.bool_]]
+        Rows w, x, y and z (N, 4), no rotation for invalid ones; and which are valid (N,).
+
+    """
     flat = [part for each in quaternions for part in (each.w, each.x, each.y, each.z)]
     rows = np.array(flat, dtype=np.float64).reshape(-1, 4)
     with np.errstate(over='ignore'):
@@ -87,14 +166,42 @@ def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]
 
 
 def rotated(points: NDArray[Any], by: Sequence[float]) -> NDArray[Any]:
-    """Return rows of points turned by one quaternion w, x, y, z."""
+    """
+    Rotate points by a quaternion.
+
+    Parameters
+    ----------
+    points
+        Rows x, y and z (N, 3), as floating-point numbers.
+    by
+        The rotation as w, x, y and z, of length 1.
+
+    Returns
+    -------
+    NDArray[Any]
+        The rotated rows (N, 3).
+
+    """
     matrix = matrices_of(np.array([by]))[0].astype(points.dtype)
     turned: NDArray[Any] = points @ matrix.T
     return turned
 
 
 def matrices_of(wxyzs: NDArray[Any]) -> NDArray[Any]:
-    """Return the matrices of rotations: N x 3 x 3, which have the axes as columns."""
+    """
+    Convert quaternions to rotation matrices.
+
+    Parameters
+    ----------
+    wxyzs
+        Rows w, x, y and z (N, 4), of length 1.
+
+    Returns
+    -------
+    NDArray[Any]
+        The matrices (N, 3, 3), which have the axes as columns.
+
+    """
     w, x, y, z = wxyzs.T
     parts = [
         1.0 - 2.0 * (y * y + z * z),
@@ -111,7 +218,20 @@ def matrices_of(wxyzs: NDArray[Any]) -> NDArray[Any]:
 
 
 def joined(first: Sequence[float], then: Sequence[float]) -> Quaternion:
-    """Return the product of two quaternions w, x, y, z: `then` in the frame that `first` gives."""
+    """
+    Multiply two quaternions.
+
+    Parameters
+    ----------
+    first, then
+        Each w, x, y and z; `then` is expressed in the frame that `first` gives.
+
+    Returns
+    -------
+    Quaternion
+        The product `first` times `then`, as w, x, y and z.
+
+    """
     (a, b, c, d), (e, f, g, h) = first, then
     return (
         a * e - b * f - c * g - d * h,
@@ -122,7 +242,20 @@ def joined(first: Sequence[float], then: Sequence[float]) -> Quaternion:
 
 
 def along_x(direction: Sequence[float]) -> Quaternion:
-    """Return the rotation that turns the x axis into a direction, which is not zero."""
+    """
+    Find the shortest rotation that turns the x axis into a direction.
+
+    Parameters
+    ----------
+    direction
+        The direction (3,), of any length but zero.
+
+    Returns
+    -------
+    Quaternion
+        w, x, y and z, of length 1.
+
+    """
     x, y, z = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
     w = 1.0 + x
     if w < 1e-9:
@@ -132,7 +265,20 @@ def along_x(direction: Sequence[float]) -> Quaternion:
 
 
 def from_axes(axes: NDArray[Any]) -> Quaternion:
-    """Return the rotation whose axes are the columns of a matrix."""
+    """
+    Convert a rotation matrix to a quaternion.
+
+    Parameters
+    ----------
+    axes
+        The matrix (3, 3), with the axes as columns.
+
+    Returns
+    -------
+    Quaternion
+        w, x, y and z, of length 1.
+
+    """
     # The quaternion is the eigenvector of the greatest eigenvalue of this symmetric matrix.
     (a, b, c), (d, e, f), (g, h, i) = np.asarray(axes, dtype=float)
     symmetric = np.array(

@@ -27,12 +27,40 @@ class Picture(NamedTuple):
 
 
 def step_for(width: int, height: int) -> int:
-    """Return which of the rows and columns are left when a picture is made small enough."""
+    """
+    Compute the step of downsampling at which about `MOST_PIXELS` of an image remain, or less.
+
+    Parameters
+    ----------
+    width, height
+        The size of the image in pixels.
+
+    Returns
+    -------
+    int
+        n to keep each n-th row and column; 1 to keep all.
+
+    """
     return max(1, math.ceil(math.sqrt(width * height / MOST_PIXELS)))
 
 
 def decode_image(message: Any, brightness: Brightness) -> Picture:
-    """Return the picture of a message, or raise ValueError with what is wrong with it."""
+    """
+    Decode `sensor_msgs/msg/Image` to red, green and blue, small enough for a page.
+
+    Parameters
+    ----------
+    message
+        The message.
+    brightness
+        Maps images of one channel, such as depths, to greys; not used for 8 unsigned bits.
+
+    Raises
+    ------
+    ValueError
+        The encoding is unknown, the image is empty or too small for it, or data is missing.
+
+    """
     layout = layout_of(message.encoding, bool(message.is_bigendian))
     raw = raw_pixels(message, layout)
     step = step_for(message.width, message.height)

@@ -13,7 +13,26 @@ __all__ = ['decode_scan']
 
 
 def decode_scan(message: Any) -> Cloud:
-    """Return the points of a scan that hit something, or raise ValueError."""
+    """
+    Convert `sensor_msgs/msg/LaserScan` to points.
+
+    Parameters
+    ----------
+    message
+        The message.
+
+    Returns
+    -------
+    Cloud
+        The ranges from `range_min` to `range_max`, as points in the frame of the scanner, in m;
+        with a channel `intensity` if there is one for each range.
+
+    Raises
+    ------
+    ValueError
+        The first angle or the angle increment is not finite.
+
+    """
     if not (math.isfinite(message.angle_min) and math.isfinite(message.angle_increment)):
         raise ValueError('its angles are not finite.')
     ranges = np.asarray(message.ranges, dtype=np.float64)

@@ -22,7 +22,25 @@ UNKNOWN = (112, 137, 134)
 
 
 def cells_of(message: Any) -> Cells:
-    """Return the rows of a map, the first with the smallest y, or raise ValueError."""
+    """
+    Convert the data of `nav_msgs/msg/OccupancyGrid` to an array.
+
+    Parameters
+    ----------
+    message
+        The message.
+
+    Returns
+    -------
+    Cells
+        A copy of the cells (height, width), the row with the smallest y first.
+
+    Raises
+    ------
+    ValueError
+        There are no cells, more or fewer than width and height say, or their size is invalid.
+
+    """
     width, height = message.info.width, message.info.height
     if not width or not height:
         raise ValueError(f'it has no cells: it is {width} wide and {height} high.')
@@ -33,7 +51,22 @@ def cells_of(message: Any) -> Cells:
 
 
 def apply_update(cells: Cells, update: Any) -> None:
-    """Put the rectangle of `map_msgs/msg/OccupancyGridUpdate` into a map, or raise ValueError."""
+    """
+    Copy the rectangle of a `map_msgs/msg/OccupancyGridUpdate` into a map.
+
+    Parameters
+    ----------
+    cells
+        The cells of the map (height, width), which are changed.
+    update
+        The message.
+
+    Raises
+    ------
+    ValueError
+        The rectangle is not inside the map, or has more or fewer cells than its size says.
+
+    """
     height, width = cells.shape
     x, y = update.x, update.y
     if x < 0 or y < 0 or x + update.width > width or y + update.height > height:
@@ -46,7 +79,22 @@ def apply_update(cells: Cells, update: Any) -> None:
 
 
 def thinned(cells: Cells, most: int) -> tuple[Cells, int]:
-    """Return a map of not more than so many cells along a side, and how many became one."""
+    """
+    Downsample a map; of the cells that become one, the largest value remains.
+
+    Parameters
+    ----------
+    cells
+        The cells of the map (height, width).
+    most
+        The largest number of cells along a side of the result.
+
+    Returns
+    -------
+    tuple[Cells, int]
+        The smaller map, and n where n x n cells became one.
+
+    """
     step = -(-max(cells.shape) // most)
     if step == 1:
         return cells, 1
@@ -58,12 +106,39 @@ def thinned(cells: Cells, most: int) -> tuple[Cells, int]:
 
 
 def binary(cells: Cells, threshold: int) -> Cells:
-    """Return a map that has only free, occupied from a threshold on, and unknown."""
+    """
+    Reduce a map to free (0) and occupied (100) cells; negative values remain.
+
+    Parameters
+    ----------
+    cells
+        The cells of the map (height, width).
+    threshold
+        The least value of an occupied cell.
+
+    """
     return np.where(cells < 0, cells, np.where(cells >= threshold, 100, 0)).astype(np.int8)
 
 
 def png_of(cells: Cells, scheme: str, alpha: float) -> bytes:
-    """Return the picture of a map as a PNG file, the smallest y on top, as the scene has it."""
+    """
+    Encode a map as a PNG file, with the row of the smallest y on top, as the scene has it.
+
+    Parameters
+    ----------
+    cells
+        The cells of the map (height, width).
+    scheme
+        The colour scheme: `map`, `costmap` or `raw`.
+    alpha
+        The opacity, from 0 to 1.
+
+    Returns
+    -------
+    bytes
+        The contents of the file, with a palette of 256 colours.
+
+    """
     palette = _palette(scheme)
     height, width = cells.shape
     picture = Image.frombytes('P', (width, height), np.ascontiguousarray(cells).tobytes())

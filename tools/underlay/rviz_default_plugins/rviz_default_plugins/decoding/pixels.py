@@ -30,7 +30,22 @@ class Layout(NamedTuple):
 
 
 def layout_of(encoding: str, is_bigendian: bool = False) -> Layout:
-    """Return what the pixels of an encoding are, or raise ValueError."""
+    """
+    Parse an image encoding, such as `rgb8`, `16UC1` or `bayer_rggb8`.
+
+    Parameters
+    ----------
+    encoding
+        The encoding, as in `sensor_msgs/image_encodings`.
+    is_bigendian
+        Whether numbers of several bytes have the most significant one first.
+
+    Raises
+    ------
+    ValueError
+        The encoding is unknown.
+
+    """
     end = '>' if is_bigendian else '<'
     if found := re.fullmatch(r'(rgb|bgr|rgba|bgra|mono)(8|16)', encoding):
         kind = np.dtype(f'{end}u{int(found[2]) // 8}')
@@ -49,7 +64,27 @@ def layout_of(encoding: str, is_bigendian: bool = False) -> Layout:
 
 
 def raw_pixels(message: Any, layout: Layout) -> NDArray[Any]:
-    """Return rows of pixels of channels, without a copy, or raise ValueError."""
+    """
+    View the data of an image as an array, without a copy.
+
+    Parameters
+    ----------
+    message
+        The message, of the type `sensor_msgs/msg/Image`.
+    layout
+        What its pixels consist of.
+
+    Returns
+    -------
+    NDArray[Any]
+        The pixels (height, width, channels), of the type of the layout.
+
+    Raises
+    ------
+    ValueError
+        There are no pixels, the rows are too short, or the data is.
+
+    """
     width, height, step = message.width, message.height, message.step
     if not width or not height:
         raise ValueError(f'it has no pixels: it is {width} wide and {height} high.')

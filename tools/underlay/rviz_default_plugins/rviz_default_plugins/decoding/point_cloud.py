@@ -17,9 +17,25 @@ KINDS = {1: 'i1', 2: 'u1', 3: 'i2', 4: 'u2', 5: 'i4', 6: 'u4', 7: 'f4', 8: 'f8'}
 
 def decode_cloud(message: Any) -> Cloud:
     """
-    Return the points of a message, or raise ValueError with what is wrong with it.
+    Convert `sensor_msgs/msg/PointCloud2` to points with channels.
 
     A field of several values per point is a channel of the first of them.
+
+    Parameters
+    ----------
+    message
+        The message.
+
+    Returns
+    -------
+    Cloud
+        The points in the frame of the message, in m; each field but x, y and z is a channel.
+
+    Raises
+    ------
+    ValueError
+        A field x, y or z is missing, a field is invalid, or the data is too short.
+
     """
     data = _records(message)
     missing = [axis for axis in 'xyz' if axis not in (data.dtype.names or ())]

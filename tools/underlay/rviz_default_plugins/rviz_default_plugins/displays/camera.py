@@ -51,7 +51,15 @@ class Camera(ImageTopicDisplay):
             self._follow(self._shown.header)
 
     def show_picture(self, picture: Picture, header: Any) -> None:
-        """Draw the pyramid with the picture."""
+        """
+        Draw the frustum of the camera with the image, once its CameraInfo is known.
+
+        Parameters
+        ----------
+        picture, header
+            As for `ImageTopicDisplay.show_picture`.
+
+        """
         if self._info is None:
             self._say_no_info()
             return
@@ -95,18 +103,62 @@ class Camera(ImageTopicDisplay):
 
 
 def info_topic(topic: str) -> str:
-    """Return the topic of the CameraInfo that belongs to a topic of images."""
+    """
+    Derive the topic of the CameraInfo that belongs to a topic of images.
+
+    Parameters
+    ----------
+    topic
+        The topic of images, such as `/camera/image_raw` or `/camera/image_raw/compressed`.
+
+    Returns
+    -------
+    str
+        Such as `/camera/camera_info`.
+
+    """
     image = topic.removesuffix('/compressed')
     return f'{image.rpartition("/")[0]}/camera_info'.replace('//', '/')
 
 
 def view_numbers(info: Any) -> tuple[float, ...]:
-    """Return what says how much a camera sees."""
+    """
+    Select what decides on the field of view of a camera.
+
+    Parameters
+    ----------
+    info
+        The message, of the type `sensor_msgs/msg/CameraInfo`.
+
+    Returns
+    -------
+    tuple[float, ...]
+        The width and height of images and the focal lengths fx and fy, all in pixels.
+
+    """
     return info.width, info.height, info.k[0], info.k[4]
 
 
 def view_of(info: Any) -> tuple[float, float]:
-    """Return the vertical angle of view in radians and width over height, or raise ValueError."""
+    """
+    Compute the field of view of a camera.
+
+    Parameters
+    ----------
+    info
+        The message, of the type `sensor_msgs/msg/CameraInfo`.
+
+    Returns
+    -------
+    tuple[float, float]
+        The vertical field of view in rad, and the aspect ratio: width over height.
+
+    Raises
+    ------
+    ValueError
+        The camera is not calibrated, or its images have no size.
+
+    """
     width, height, across, along = view_numbers(info)
     if not (width and height):
         raise ValueError(f'its CameraInfo says that it is {width} wide and {height} high.')

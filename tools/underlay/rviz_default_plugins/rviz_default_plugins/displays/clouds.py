@@ -61,7 +61,25 @@ class CloudDisplay(HistoryDisplay):
     MOST_DECAYING: ClassVar[int] = 20_000
 
     def decode(self, message: Any) -> Cloud:
-        """Return the points of a message, or raise ValueError."""
+        """
+        Convert a message to points.
+
+        Parameters
+        ----------
+        message
+            A message of the topic.
+
+        Returns
+        -------
+        Cloud
+            The points in the frame of the message, in m.
+
+        Raises
+        ------
+        ValueError
+            The message is invalid; the reason goes into the status.
+
+        """
         raise NotImplementedError
 
     def decay_s(self) -> float:
@@ -69,7 +87,15 @@ class CloudDisplay(HistoryDisplay):
         return float(self.values['Decay Time'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw the points, not more of them than a browser can."""
+        """
+        Draw the points, downsampled to as many as a browser can show.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
         cloud = self.decode(message).finite()
         shown = cloud.thinned(self.MOST_DECAYING if self.decay_s() else self.MOST_POINTS)
         if len(shown) < len(cloud):

@@ -78,12 +78,33 @@ class BoundingBox3DArray(Markers):
             self.status.say('Topic', Level.ERROR, MISSING)
 
     def message_type(self, topic: str) -> type:
-        """Return the type of the messages; raise ImportError if it is not built."""
+        """
+        Import the class of the messages.
+
+        Parameters
+        ----------
+        topic
+            The topic; the class is the same for all.
+
+        Raises
+        ------
+        ImportError
+            The package `vision_msgs` is not built.
+
+        """
         kind: type = getattr(import_module('vision_msgs.msg'), self.NAME)
         return kind
 
     def take(self, message: Any) -> None:
-        """Draw what a message has, and nothing of the one before."""
+        """
+        Keep a message for `redraw`, and queue its markers for the next frames.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.take`.
+
+        """
         self._newest = message
         super().take(message)
 
@@ -93,13 +114,34 @@ class BoundingBox3DArray(Markers):
             super().take(self._newest)
 
     def markers_of(self, message: Any) -> Iterable[Any]:
-        """Return the markers of a message."""
+        """
+        Make a marker for each box, after one that deletes those of the message before.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.markers_of`.
+
+        """
         yield MarkerMessage(action=MarkerMessage.DELETEALL)
         for number, box in enumerate(self.boxes_of(message)):
             yield self._box(message.header, number, box, self.values['Color'])
 
     def boxes_of(self, message: Any) -> Iterable[Any]:
-        """Return the boxes of a message."""
+        """
+        Select the boxes of a message.
+
+        Parameters
+        ----------
+        message
+            A message of the topic.
+
+        Returns
+        -------
+        Iterable[Any]
+            Messages of the type `vision_msgs/msg/BoundingBox3D`.
+
+        """
         boxes: Iterable[Any] = message.boxes
         return boxes
 
@@ -131,7 +173,15 @@ class BoundingBox3D(BoundingBox3DArray):
     )  # fmt: skip
 
     def markers_of(self, message: Any) -> Iterable[Any]:
-        """Return the marker of the box."""
+        """
+        Make the marker of the box, in the fixed frame.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.markers_of`.
+
+        """
         header = Header(frame_id=self.context.frames.fixed_frame)
         yield self._box(header, 0, message, self.values['Color'])
 
@@ -147,12 +197,33 @@ class Detection3DArray(BoundingBox3DArray):
     )  # fmt: skip
 
     def detections_of(self, message: Any) -> Iterable[Any]:
-        """Return the detections of a message."""
+        """
+        Select the detections of a message.
+
+        Parameters
+        ----------
+        message
+            A message of the topic.
+
+        Returns
+        -------
+        Iterable[Any]
+            Messages of the type `vision_msgs/msg/Detection3D`.
+
+        """
         detections: Iterable[Any] = message.detections
         return detections
 
     def markers_of(self, message: Any) -> Iterator[Any]:
-        """Return the markers of a message: a box and a label for each detection."""
+        """
+        Make a box and a label for each detection, after a marker that deletes those before.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.markers_of`.
+
+        """
         yield MarkerMessage(action=MarkerMessage.DELETEALL)
         for number, detection in enumerate(self.detections_of(message)):
             header = message.header
@@ -194,7 +265,15 @@ class Detection3D(Detection3DArray):
     )  # fmt: skip
 
     def detections_of(self, message: Any) -> Iterable[Any]:
-        """Return the detection as one of several."""
+        """
+        Wrap the detection, as the only one of its message.
+
+        Parameters
+        ----------
+        message
+            As for `Detection3DArray.detections_of`.
+
+        """
         return (message,)
 
 

@@ -39,7 +39,15 @@ class Image(ImageTopicDisplay):
             self._window = None
 
     def show_picture(self, picture: Picture, header: Any) -> None:
-        """Show a picture in the window, which opens with the first."""
+        """
+        Show an image in the window, which opens with the first.
+
+        Parameters
+        ----------
+        picture, header
+            As for `ImageTopicDisplay.show_picture`.
+
+        """
         if self._window is None:
             self._window = ImageWindow(self.context.server, self.name, self.QUALITY)
         self._window.show(picture.pixels)

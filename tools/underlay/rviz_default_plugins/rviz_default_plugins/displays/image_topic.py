@@ -58,7 +58,22 @@ class ImageTopicDisplay(TopicDisplay):
         self.say_shown()
 
     def show_picture(self, picture: Picture, header: Any) -> None:
-        """Show a picture, or raise ValueError with the reason why it cannot be shown."""
+        """
+        Show an image; called at most 10 times a second, and only while a page is open.
+
+        Parameters
+        ----------
+        picture
+            The decoded image, small enough for a page.
+        header
+            The header of its message.
+
+        Raises
+        ------
+        ValueError
+            The image cannot be shown; the reason goes into the status.
+
+        """
         raise NotImplementedError
 
     def brightness(self) -> Brightness:
@@ -66,12 +81,28 @@ class ImageTopicDisplay(TopicDisplay):
         return Brightness()
 
     def message_type(self, topic: str) -> type:
-        """Return the type of the messages of the topic."""
+        """
+        Choose the class of the messages: compressed images if the topic ends with `/compressed`.
+
+        Parameters
+        ----------
+        topic
+            The topic.
+
+        """
         kind: type = CompressedImage if topic.endswith('/compressed') else Image
         return kind
 
     def take(self, message: Any) -> None:
-        """Keep the newest picture."""
+        """
+        Keep the newest image; it is only decoded when it is shown.
+
+        Parameters
+        ----------
+        message
+            As for `TopicDisplay.take`.
+
+        """
         self._newest = message
 
     def redraw(self) -> None:

@@ -57,7 +57,15 @@ class Imu(MessageDisplay):
         super().start()
 
     def show(self, message: Any) -> None:
-        """Draw what is enabled."""
+        """
+        Draw what is enabled: the box, the axes and the arrow of the acceleration.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
         if message.orientation_covariance[0] == -1.0:
             turn: Quaternion = (1.0, 0.0, 0.0, 0.0)
             self.status.say('Orientation', Level.WARN, 'The IMU does not measure its orientation.')
@@ -73,7 +81,15 @@ class Imu(MessageDisplay):
                 self._add_arrow(message, turn)
 
     def placed(self, pose: Pose) -> Pose:
-        """Return the place of the IMU, with its rotation unless the orientation has it."""
+        """
+        Drop the rotation of the IMU's frame if the orientation is that in the fixed frame.
+
+        Parameters
+        ----------
+        pose
+            As for `MessageDisplay.placed`.
+
+        """
         return Pose(pose.position) if self.values['fixed_frame_orientation'] else pose
 
     def _add_box(self, turn: Quaternion) -> None:

@@ -22,5 +22,13 @@ class LaserScan(CloudDisplay):
     PROPERTIES = (*topic_properties('sensor_msgs/msg/LaserScan', '/scan'), *CLOUD)
 
     def decode(self, message: Any) -> Cloud:
-        """Return the points of a message, or raise ValueError."""
+        """
+        Convert a scan to points.
+
+        Parameters
+        ----------
+        message
+            As for `CloudDisplay.decode`.
+
+        """
         return decode_scan(message)

@@ -77,7 +77,15 @@ class Map(MessageDisplay):
         super().stop()
 
     def take(self, message: Any) -> None:
-        """Keep the newest map; updates from before are of another one."""
+        """
+        Keep the newest map, and drop the updates that wait: they are for the one before.
+
+        Parameters
+        ----------
+        message
+            As for `TopicDisplay.take`.
+
+        """
         super().take(message)
         self._updates.clear()
 
@@ -89,7 +97,15 @@ class Map(MessageDisplay):
         super().update()
 
     def show(self, message: Any) -> None:
-        """Draw the map as a picture that lies on the ground."""
+        """
+        Draw the map as an image that lies on the ground.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
         if self._of is not message:
             self._cells = None
             self._cells, self._of = cells_of(message), message

@@ -39,11 +39,32 @@ class Markers(TopicDisplay):
             self.status.say('Topic', Level.OK, sentence)
 
     def take(self, message: Any) -> None:
-        """Take the markers of a message."""
+        """
+        Queue the markers of a message for the next frames.
+
+        Parameters
+        ----------
+        message
+            As for `TopicDisplay.take`.
+
+        """
         self._markers.put(self.markers_of(message), self._now_ns())
 
     def markers_of(self, message: Any) -> Iterable[Any]:
-        """Return the markers of a message."""
+        """
+        Convert a message to markers.
+
+        Parameters
+        ----------
+        message
+            A message of the topic.
+
+        Returns
+        -------
+        Iterable[Any]
+            Messages of the type `visualization_msgs/msg/Marker`.
+
+        """
         raise NotImplementedError
 
     def redraw(self) -> None:
@@ -64,5 +85,13 @@ class Marker(Markers):
     )
 
     def markers_of(self, message: Any) -> Iterable[Any]:
-        """Return the markers of a message."""
+        """
+        Wrap the marker, as the only one of its message.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.markers_of`.
+
+        """
         return (message,)

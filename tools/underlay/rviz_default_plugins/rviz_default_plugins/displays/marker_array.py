@@ -24,6 +24,14 @@ class MarkerArray(Markers):
     )
 
     def markers_of(self, message: Any) -> Iterable[Any]:
-        """Return the markers of a message."""
+        """
+        Select the markers of an array.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.markers_of`.
+
+        """
         markers: Iterable[Any] = message.markers
         return markers

@@ -28,7 +28,15 @@ MOST = 1000
 
 
 class Odometry(HistoryDisplay):
-    """The last poses of a robot that are not too close to each other."""
+    """
+    The last poses of a robot that are not too close to each other.
+
+    Parameters
+    ----------
+    context, root, given
+        As for `Display`.
+
+    """
 
     CLASS = 'rviz_default_plugins/Odometry'
     MESSAGE = OdometryMessage
@@ -44,7 +52,6 @@ class Odometry(HistoryDisplay):
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the properties that a file gives."""
         super().__init__(context, root, given)
         self._last: Any = None
 
@@ -58,7 +65,15 @@ class Odometry(HistoryDisplay):
         return min(int(self.values['Keep']) or MOST, MOST)
 
     def take(self, message: Any) -> None:
-        """Let a message wait for its transform unless the robot has hardly moved."""
+        """
+        Queue a message until its transform is known, unless the robot has hardly moved.
+
+        Parameters
+        ----------
+        message
+            As for `HistoryDisplay.take`; one with an invalid pose is left out.
+
+        """
         pose = message.pose.pose
         try:
             position(pose.position)
@@ -71,7 +86,15 @@ class Odometry(HistoryDisplay):
             super().take(message)
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw a pose, and how uncertain it is."""
+        """
+        Draw a pose, and the ellipsoid of its covariance.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
         add_covariance(canvas, message.pose, self.values)
         add_pose(canvas, message.pose.pose, self.values, 'Shape/Value', 'Shape/')
 

@@ -51,7 +51,15 @@ class Path(HistoryDisplay):
         return int(self.values['Buffer Length'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw the line and the poses."""
+        """
+        Draw the line and the poses.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
         step = max(1, -(-len(message.poses) // MOST))
         poses = [each.pose for each in message.poses[::step]]
         points = finite_points_of(each.position for each in poses)

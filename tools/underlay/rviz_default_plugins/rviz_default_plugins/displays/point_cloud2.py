@@ -22,5 +22,13 @@ class PointCloud2(CloudDisplay):
     PROPERTIES = (*topic_properties('sensor_msgs/msg/PointCloud2', '/points'), *CLOUD)
 
     def decode(self, message: Any) -> Cloud:
-        """Return the points of a message, or raise ValueError."""
+        """
+        Convert a message to points.
+
+        Parameters
+        ----------
+        message
+            As for `CloudDisplay.decode`.
+
+        """
         return decode_cloud(message)

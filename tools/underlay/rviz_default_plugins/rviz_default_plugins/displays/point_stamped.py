@@ -34,7 +34,15 @@ class PointStamped(HistoryDisplay):
         return int(self.values['History Length'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw the sphere."""
+        """
+        Draw the sphere.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
         canvas.put(
             'icosphere',
             'point',

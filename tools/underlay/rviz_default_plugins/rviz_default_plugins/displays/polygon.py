@@ -35,7 +35,15 @@ class Polygon(MessageDisplay):
         super().start()
 
     def show(self, message: Any) -> None:
-        """Draw the line around it."""
+        """
+        Draw the closed outline.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
         points = finite_points_of(message.polygon.points)
         with self._canvas.anew():
             if len(points) and self.values['Alpha']:

@@ -30,6 +30,14 @@ class Pose(MessageDisplay):
         super().start()
 
     def show(self, message: Any) -> None:
-        """Draw the arrow or the axes."""
+        """
+        Draw the arrow or the axes.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
         with self._canvas.anew():
             add_pose(self._canvas, message.pose, self.values, 'Shape')

@@ -46,7 +46,15 @@ class PoseArray(MessageDisplay):
         super().start()
 
     def show(self, message: Any) -> None:
-        """Draw all poses as one thing."""
+        """
+        Draw all poses as one node of the scene.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
         step = max(1, -(-len(message.poses) // MOST))
         positions, wxyzs = self._poses(message.poses[::step])
         draw = {FLAT: self._add_flat, SOLID: self._add_solid, AXES: self._add_axes}
@@ -55,10 +63,12 @@ class PoseArray(MessageDisplay):
                 draw[self.values['Shape']](positions, wxyzs)
         if step > 1:
             self.status.say(
-                'Poses',
+                'Number',
                 Level.WARN,
                 f'{len(positions)} of {len(message.poses)} poses are shown.',
             )
+        else:
+            self.status.forget('Number')
 
     def _poses(self, poses: Any) -> tuple[Points, Points]:
         """Return those that are poses, and say how many are not."""

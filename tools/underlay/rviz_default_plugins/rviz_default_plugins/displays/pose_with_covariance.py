@@ -36,7 +36,15 @@ class PoseWithCovariance(MessageDisplay):
         super().start()
 
     def show(self, message: Any) -> None:
-        """Draw the pose and the ellipsoid."""
+        """
+        Draw the pose, and the ellipsoid of its covariance.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
         with self._canvas.anew():
             add_covariance(self._canvas, message.pose, self.values)
             add_pose(self._canvas, message.pose.pose, self.values, 'Shape')

@@ -35,7 +35,20 @@ class Range(HistoryDisplay):
         return int(self.values['Buffer Length'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw the cone."""
+        """
+        Draw the cone, which is as long as the range; none if nothing is in range.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        Raises
+        ------
+        ValueError
+            The field of view or the range is invalid, or the cone is too large.
+
+        """
         length = _length(message)
         radius = length * math.tan(message.field_of_view / 2.0)
         if not max(length, radius) <= FARTHEST:

@@ -28,7 +28,15 @@ REASONS_S = 0.5
 
 
 class RobotModel(Display):
-    """The robot that a URDF describes; transforms say where its links are."""
+    """
+    The robot that a URDF describes; transforms say where its links are.
+
+    Parameters
+    ----------
+    *arguments, **options
+        As for `Display`.
+
+    """
 
     CLASS = 'rviz_default_plugins/RobotModel'
     PROPERTIES = (
@@ -47,7 +55,6 @@ class RobotModel(Display):
     UNUSED = ('Mass Properties',)
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
-        """Take the properties that a file gives; nothing is shown yet."""
         super().__init__(*arguments, **options)
         self._links = Parts(super().to_file().get('Links'))
         self._links.all_shown = self.values[ALL_LINKS]
@@ -92,7 +99,15 @@ class RobotModel(Display):
             self.say_reasons(robot.model, root, unknown)
 
     def on_change(self, path: str) -> None:
-        """Begin anew only for another description; draw what is known again for the rest."""
+        """
+        Restart for another description; apply any other property to the robot that is shown.
+
+        Parameters
+        ----------
+        path
+            As for `Display.on_change`.
+
+        """
         if path.startswith('Description'):
             super().on_change(path)
             return
@@ -103,12 +118,34 @@ class RobotModel(Display):
             self._prepare(self._model)
 
     def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
-        """Return where the root of a robot is, and what tells where each joint is."""
+        """
+        Look up the pose of the root, and provide those of the joints.
+
+        Parameters
+        ----------
+        model
+            The robot.
+
+        Returns
+        -------
+        tuple[Pose | None, PoseOf]
+            The pose of the root link in the fixed frame; and a function that returns, for a joint,
+            that of its child link in its parent link. Each pose is None if it is not known.
+
+        """
         frames, prefix = self.context.frames, self.prefix
         return frames.find(frames.fixed_frame, prefix + model.root), _poses(frames, prefix)
 
     def topic_of(self, path: str) -> str:
-        """Return the topic that a property says."""
+        """
+        Read the topic that a property names.
+
+        Parameters
+        ----------
+        path
+            The path of the property, without `/Value`.
+
+        """
         topic: str = self.values[f'{path}/Value']
         return topic
 
@@ -201,14 +238,38 @@ class RobotModel(Display):
         )
 
     def say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
-        """Say why the robot, or some of it, is not shown."""
+        """
+        Report in the status why the robot, or some of its links, is not shown.
+
+        Parameters
+        ----------
+        model
+            The robot.
+        root
+            The pose of the root link, None if it is not known.
+        unknown
+            The joints whose pose is not known.
+
+        """
         frames, frame = self.context.frames, self.prefix + model.root
         reason = '' if root else frames.reason(frames.fixed_frame, frame)
         self.say('Transform', reason and f'The robot is not shown: {reason}', Level.ERROR)
         say_missing(self.status, unknown, model, frames.latest(), self.prefix)
 
     def say(self, subject: str, sentence: str, level: Level = Level.WARN) -> None:
-        """Say something, or nothing any longer."""
+        """
+        Set or remove a message of the status.
+
+        Parameters
+        ----------
+        subject
+            What it is about, such as `URDF`.
+        sentence
+            The message; '' removes it.
+        level
+            How bad it is.
+
+        """
         if sentence:
             self.status.say(subject, level, sentence)
         else:

@@ -31,7 +31,15 @@ Poses = Mapping[str, Pose]
 
 
 class TF(Display):
-    """The axes of the frames of tf, their names, and an arrow from each one to its parent."""
+    """
+    The axes of the frames of tf, their names, and an arrow from each one to its parent.
+
+    Parameters
+    ----------
+    *arguments, **options
+        As for `Display`.
+
+    """
 
     CLASS = 'rviz_default_plugins/TF'
     PROPERTIES = (
@@ -53,7 +61,6 @@ class TF(Display):
     UNUSED = ('Tree',)
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
-        """Take the properties that a file gives; nothing is shown yet."""
         super().__init__(*arguments, **options)
         self._frames = Parts(super().to_file().get('Frames'))
         self._frames.all_shown = self.values[ALL_FRAMES]
@@ -101,7 +108,15 @@ class TF(Display):
             self._say_far(sorted(found.keys() - poses.keys()))
 
     def on_change(self, path: str) -> None:
-        """Begin anew; a change for all frames counts for those as well that the file names."""
+        """
+        Restart; a change for all frames also replaces what has been set for single ones.
+
+        Parameters
+        ----------
+        path
+            As for `Display.on_change`.
+
+        """
         if path == ALL_FRAMES:
             self._frames.show_all(self.values[ALL_FRAMES])
         super().on_change(path)

@@ -32,7 +32,15 @@ class TwistStamped(VectorsDisplay):
     )
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw both arrows."""
+        """
+        Draw the arrows of the linear and the angular velocity.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
         self.draw_pair(canvas, message.twist.linear, message.twist.angular, ('Linear', 'Angular'))
 
     def smallest(self) -> float:

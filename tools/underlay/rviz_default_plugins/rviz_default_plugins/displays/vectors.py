@@ -27,7 +27,24 @@ class VectorsDisplay(HistoryDisplay):
     def draw_pair(
         self, canvas: Canvas, straight: Any, turning: Any, names: tuple[str, str]
     ) -> None:
-        """Draw both; the names are those of the properties of each."""
+        """
+        Draw a straight vector as an arrow, and a turning one as an arrow with a circle around it.
+
+        Parameters
+        ----------
+        canvas
+            Where to draw.
+        straight, turning
+            The vectors, of the type `geometry_msgs/msg/Vector3`, such as force and torque.
+        names
+            The names of both in the properties, such as `Force` in `Force Color`.
+
+        Raises
+        ------
+        ValueError
+            A vector is not finite, or too long.
+
+        """
         for name, vector, is_turning in ((names[0], straight, False), (names[1], turning, True)):
             scale = self.values[f'{name} Arrow Scale']
             x, y, z = position(vector, f'{name.lower()} vector')

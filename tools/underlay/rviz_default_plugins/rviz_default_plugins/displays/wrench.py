@@ -32,6 +32,14 @@ class Wrench(VectorsDisplay):
     UNUSED = ('Accept NaN Values',)
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
-        """Draw both arrows."""
+        """
+        Draw the arrows of the force and the torque.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
         wrench = message.wrench
         self.draw_pair(canvas, wrench.force, wrench.torque, ('Force', 'Torque'))

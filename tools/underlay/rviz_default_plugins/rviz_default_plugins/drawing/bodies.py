@@ -29,12 +29,36 @@ Paint = tuple[Sequence[int], float]
 
 
 def opacity_of(alpha: float) -> float | None:
-    """Return what viser wants; what is not transparent at all is drawn faster."""
+    """
+    Convert alpha to the opacity of viser, in which None, for opaque, is drawn faster than 1.
+
+    Parameters
+    ----------
+    alpha
+        From 0, transparent, to 1, opaque; it is limited to this range.
+
+    """
     return None if alpha >= 1.0 else max(0.0, alpha)
 
 
 def add_surface(canvas: Canvas, name: str, surface: Surface, paint: Paint, **options: Any) -> None:
-    """Add a body of one colour; options are those of `add_mesh_simple`."""
+    """
+    Draw a triangle mesh of one colour.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    name
+        The name of the node, below the root of the canvas.
+    surface
+        The mesh.
+    paint
+        The colour and alpha.
+    **options
+        Other arguments of `add_mesh_simple` of viser, such as `position` and `wxyz`.
+
+    """
     color, alpha = paint
     canvas.put(
         'mesh_simple',
@@ -57,7 +81,27 @@ def add_copies(
     wxyzs: NDArray[Any] | None = None,
     **options: Any,
 ) -> None:
-    """Add a body at each of some places; options are those of `add_batched_meshes_simple`."""
+    """
+    Draw copies of a triangle mesh, as one node of the scene.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    name
+        The name of the node, below the root of the canvas.
+    surface
+        The mesh.
+    paint
+        The colour and alpha of all copies.
+    positions
+        Where the copies are (N, 3), in m.
+    wxyzs
+        Their rotations as rows w, x, y and z (N, 4); by default none are rotated.
+    **options
+        Other arguments of `add_batched_meshes_simple` of viser, such as `batched_colors`.
+
+    """
     color, alpha = paint
     if wxyzs is None:
         wxyzs = np.tile(np.array([1.0, 0.0, 0.0, 0.0], np.float32), (len(positions), 1))
@@ -79,7 +123,25 @@ def add_copies(
 def add_arrow_to(
     canvas: Canvas, name: str, vector: Triple, width: float, paint: Paint, start: Triple
 ) -> None:
-    """Add an arrow from a point along a vector, which is as long; nothing for zero."""
+    """
+    Draw an arrow that stands for a vector; none for a vector of zero.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    name
+        The name of the node, below the root of the canvas.
+    vector
+        From the tail to the tip, in m.
+    width
+        The diameter of the shaft, in m; that of the head is twice as large.
+    paint
+        The colour and alpha.
+    start
+        Where the tail is, in m.
+
+    """
     length = math.hypot(*vector)
     if length < 1e-9:
         return
@@ -91,7 +153,25 @@ def add_arrow_to(
 def add_ellipsoid(
     canvas: Canvas, name: str, ellipsoid: Ellipsoid, paint: Paint, position: Triple, scale: float
 ) -> None:
-    """Add what shows how uncertain a position is."""
+    """
+    Draw the ellipsoid of an uncertain position.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    name
+        The name of the node, below the root of the canvas.
+    ellipsoid
+        One standard deviation along each axis.
+    paint
+        The colour and alpha.
+    position
+        The centre, in m.
+    scale
+        How many standard deviations the half axes are; they are at least 1 mm long.
+
+    """
     color, alpha = paint
     canvas.put(
         'icosphere',
@@ -113,7 +193,25 @@ def add_lines(
     width: float | None = None,
     **options: Any,
 ) -> None:
-    """Add lines, N x 2 points, of a width in metres, or else as thin as seen well."""
+    """
+    Draw separate lines, as one node of the scene.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    name
+        The name of the node, below the root of the canvas.
+    segments
+        The ends of N lines (N, 2, 3), in m.
+    colors
+        One colour for all lines, or one for each end (N, 2, 3); red, green and blue from 0 to 255.
+    width
+        In m; None for 2 pixels on the screen.
+    **options
+        Other arguments of `add_line_segments` of viser, such as `wxyz`.
+
+    """
     canvas.put(
         'line_segments',
         name,

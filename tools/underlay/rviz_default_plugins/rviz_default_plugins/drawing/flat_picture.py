@@ -15,14 +15,21 @@ NOTHING = np.zeros((1, 1, 4), np.uint8)
 
 class FlatPicture:
     """
-    A picture that lies in the scene, and is given as a PNG file.
+    An image that lies in the scene, and is given as a PNG file.
 
     The scene of viser takes pixels and packs them itself, with three bytes of colour each; a
     palette of 256 colours is packed in a seventh of the time, and is a sixth as long.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the scene where it will be; nothing is there before `show`.
+
     """
 
     def __init__(self, scene: Any, path: str) -> None:
-        """Take the path of the scene where it will be."""
         self._scene, self._path = scene, path
         self._handle: Any = None
         self._place: tuple[Any, ...] = ()
@@ -30,7 +37,21 @@ class FlatPicture:
     def show(
         self, png: bytes, size_m: tuple[float, float], position: Triple, wxyz: Quaternion
     ) -> None:
-        """Show a file; its size is width and height, its position that of the middle."""
+        """
+        Show an image, in place of the one before.
+
+        Parameters
+        ----------
+        png
+            The contents of a PNG file.
+        size_m
+            Width and height, in m.
+        position
+            The centre of the image, in m in the frame of the node above.
+        wxyz
+            Its rotation, as w, x, y and z.
+
+        """
         place = (size_m, position, wxyz)
         if self._handle is None:
             width, height = size_m

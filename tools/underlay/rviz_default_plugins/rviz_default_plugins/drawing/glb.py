@@ -17,10 +17,23 @@ ARRAY_BUFFER, FLOAT, SHORT = 34962, 5126, 5123
 
 def glb_of(vertices: NDArray[np.float32], colors: NDArray[np.uint8]) -> bytes:
     """
-    Return a file; each three vertices are a triangle, each has red, green, blue, alpha.
+    Encode triangles with a colour at each vertex as a GLB file.
 
     Colours are those of a screen (sRGB), as in markers; in the file they are proportional to
     light, as glTF 2.0 has it, in 16 bits, since 8 are too coarse for dark ones.
+
+    Parameters
+    ----------
+    vertices
+        The vertices (N, 3) in m, of which each three are a triangle.
+    colors
+        Red, green, blue and alpha of each vertex (N, 4).
+
+    Returns
+    -------
+    bytes
+        The contents of the file.
+
     """
     positions = np.ascontiguousarray(vertices, np.float32)
     paints = np.ascontiguousarray(_linear(np.asarray(colors, np.uint8)))

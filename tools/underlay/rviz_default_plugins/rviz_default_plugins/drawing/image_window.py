@@ -12,13 +12,24 @@ WIDTH, GAP = 320, 15
 
 
 class ImageWindow:
-    """A window that can be moved; it opens below on the left, beside those that are open."""
+    """
+    A window that can be moved; it opens below on the left, beside those that are open.
+
+    Parameters
+    ----------
+    server
+        The viser server of the page.
+    title
+        The title of the window.
+    quality
+        The quality of the JPEG images that browsers get, from 0 to 100.
+
+    """
 
     _taken: ClassVar[WeakKeyDictionary[Any, set[int]]] = WeakKeyDictionary()
     """Places of open windows by page."""
 
     def __init__(self, server: Any, title: str, quality: int) -> None:
-        """Open an empty window."""
         self._server = server
         self._quality = quality
         taken = self._taken.setdefault(server, set())
@@ -30,7 +41,15 @@ class ImageWindow:
         self._image: Any = None
 
     def show(self, pixels: Any) -> None:
-        """Show rows of pixels of red, green and blue."""
+        """
+        Show an image, in place of the one before.
+
+        Parameters
+        ----------
+        pixels
+            Red, green and blue (height, width, 3), from 0 to 255.
+
+        """
         if self._image is not None:
             self._image.image = pixels
             return

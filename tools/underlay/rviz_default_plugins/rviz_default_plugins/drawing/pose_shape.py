@@ -25,7 +25,17 @@ COVARIANCE = (
 
 
 def pose_shape_properties(shape: str, below: str = '') -> tuple[Property, ...]:
-    """Return the properties of what shows a pose; `shape` is the path of its kind."""
+    """
+    Define the properties of the arrow or the axes that show a pose.
+
+    Parameters
+    ----------
+    shape
+        The path of the property that chooses between the two.
+    below
+        The beginning of the paths of the others, such as `Shape/`.
+
+    """
     return (
         Choice(shape, 'Arrow', 'What shows a pose.', ('Arrow', 'Axes')),
         Number(f'{below}Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
@@ -40,7 +50,26 @@ def pose_shape_properties(shape: str, below: str = '') -> tuple[Property, ...]:
 
 
 def add_pose(canvas: Canvas, pose: Any, values: Values, shape: str, below: str = '') -> None:
-    """Add what shows a pose, or raise ValueError if it is none."""
+    """
+    Draw the arrow or the axes of a pose.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    pose
+        The message, of the type `geometry_msgs/msg/Pose`.
+    values
+        The values of the properties.
+    shape, below
+        As for `pose_shape_properties`.
+
+    Raises
+    ------
+    ValueError
+        The position or the orientation is invalid.
+
+    """
     at, turn = position(pose.position), rotation(pose.orientation)
     if values[shape] == 'Axes':
         canvas.put(
@@ -60,7 +89,24 @@ def add_pose(canvas: Canvas, pose: Any, values: Values, shape: str, below: str =
 
 
 def add_covariance(canvas: Canvas, pose: Any, values: Values) -> None:
-    """Add what shows how uncertain a PoseWithCovariance is, or raise ValueError."""
+    """
+    Draw the ellipsoid of the position covariance, if it is enabled.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    pose
+        The message, of the type `geometry_msgs/msg/PoseWithCovariance`.
+    values
+        The values of the properties, among them those of `COVARIANCE`.
+
+    Raises
+    ------
+    ValueError
+        The covariance or the position is invalid.
+
+    """
     if not (values['Covariance/Value'] and values['Covariance/Position/Value']):
         return
     paint = values['Covariance/Position/Color'], values['Covariance/Position/Alpha']

@@ -21,7 +21,17 @@ class Surface(NamedTuple):
 
 
 def revolved(profile: Sequence[tuple[float, float]], segments: int = 12) -> Surface:
-    """Return what a line of x and radius, upwards in x, becomes turned around the x axis."""
+    """
+    Make the surface of revolution of a profile about the x axis.
+
+    Parameters
+    ----------
+    profile
+        Pairs of x and radius, in m, in the direction of growing x.
+    segments
+        The number of vertices around the axis for each pair.
+
+    """
     turns = np.linspace(0.0, 2.0 * np.pi, segments, endpoint=False)
     rings = [
         np.stack([np.full(segments, x), radius * np.cos(turns), radius * np.sin(turns)], axis=1)
@@ -43,7 +53,17 @@ def revolved(profile: Sequence[tuple[float, float]], segments: int = 12) -> Surf
 def arrow(
     shaft_length: float, shaft_radius: float, head_length: float, head_radius: float
 ) -> Surface:
-    """Return an arrow along the x axis, which begins at the origin."""
+    """
+    Make an arrow along the x axis, whose tail is at the origin.
+
+    Parameters
+    ----------
+    shaft_length, shaft_radius
+        The size of the shaft, in m.
+    head_length, head_radius
+        The size of the head, which is a cone, in m.
+
+    """
     end = shaft_length + head_length
     return revolved(
         (
@@ -58,13 +78,31 @@ def arrow(
 
 @lru_cache(maxsize=64)
 def cone(length: float, radius: float) -> Surface:
-    """Return a cone with its tip at the origin, which opens along the x axis."""
+    """
+    Make a cone with its tip at the origin, which opens along the x axis.
+
+    Parameters
+    ----------
+    length
+        From the tip to the base, in m.
+    radius
+        That of the base, in m.
+
+    """
     return revolved(((0.0, 0.0), (length, radius), (length, 0.0)), 24)
 
 
 @lru_cache(maxsize=64)
 def sphere(rings: int = 8) -> Surface:
-    """Return a sphere of diameter 1 around the origin."""
+    """
+    Make a sphere of diameter 1 around the origin.
+
+    Parameters
+    ----------
+    rings
+        The number of rings of faces along the x axis.
+
+    """
     angles = np.linspace(0.0, np.pi, rings + 1)
     return revolved([(-0.5 * float(np.cos(a)), 0.5 * float(np.sin(a))) for a in angles])
 

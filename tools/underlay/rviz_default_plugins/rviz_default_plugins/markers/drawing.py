@@ -30,7 +30,24 @@ HEAD = 0.23
 
 
 def draw_look(canvas: Canvas, look: Look) -> None:
-    """Draw a marker, or raise ValueError with the reason why that cannot be."""
+    """
+    Draw a marker of any type.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw, below the node that has the pose of the marker.
+    look
+        What the marker looks like.
+
+    Raises
+    ------
+    ValueError
+        The type is unknown, or the marker has nothing to be seen, such as a scale of zero.
+    MeshIsBeingRead
+        Its mesh cannot be drawn yet. This is a ValueError, too.
+
+    """
     draw = DRAWINGS.get(look.kind)
     if draw is None:
         raise ValueError(f'its type {look.kind} is not known.')

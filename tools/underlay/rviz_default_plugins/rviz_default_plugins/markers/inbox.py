@@ -24,13 +24,23 @@ class Inbox:
     """What is to be done with markers; of each only the newest counts, as it replaces others."""
 
     def __init__(self) -> None:
-        """Begin with nothing."""
         self.deletes_all = False
         self.coming: dict[Key, Coming] = {}
         self.refusal = ''
 
     def put(self, marker: Any, came_ns: int) -> None:
-        """Take a message on a marker."""
+        """
+        Queue a marker, in place of an older one with the same namespace and id.
+
+        Parameters
+        ----------
+        marker
+            The message, of the type `visualization_msgs/msg/Marker`. One that deletes all also
+            drops those that wait.
+        came_ns
+            When it came, in ns of the node's clock.
+
+        """
         if marker.action == Marker.DELETEALL:
             self.deletes_all = True
             self.coming = {}
@@ -45,6 +55,19 @@ class Inbox:
             )
 
     def take_some(self, most: int) -> list[tuple[Key, Coming]]:
-        """Return the oldest of what there is, and keep the rest for the next frame."""
+        """
+        Take the oldest markers out of the queue; the others stay for the next frame.
+
+        Parameters
+        ----------
+        most
+            The largest number of markers to take.
+
+        Returns
+        -------
+        list[tuple[Key, Coming]]
+            The markers to add, change or delete, with their namespaces and ids.
+
+        """
         keys = list(self.coming)[:most]
         return [(key, self.coming.pop(key)) for key in keys]

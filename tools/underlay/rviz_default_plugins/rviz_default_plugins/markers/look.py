@@ -44,7 +44,15 @@ class Look:
     note: str = ''
 
     def is_like(self, other: Look | None) -> bool:
-        """Tell if nothing has to be drawn anew."""
+        """
+        Whether nothing has to be drawn anew, in place of another look.
+
+        Parameters
+        ----------
+        other
+            What is drawn now, None for nothing.
+
+        """
         return other is not None and self._parts() == other._parts() and self._same_points(other)
 
     def _parts(self) -> tuple[Any, ...]:
@@ -59,7 +67,20 @@ class Look:
 
 
 def look_of(marker: Any) -> Look:
-    """Return what a marker looks like, or raise ValueError with what is wrong with it."""
+    """
+    Validate a marker, and convert what it looks like.
+
+    Parameters
+    ----------
+    marker
+        The message, of the type `visualization_msgs/msg/Marker`.
+
+    Raises
+    ------
+    ValueError
+        The colour, the scale, the points or the number of colours are invalid.
+
+    """
     color, alpha = _color(marker.color)
     points, colors, note = _points(marker)
     is_colored = colors is not None

@@ -21,10 +21,23 @@ MOST_PER_FRAME = 200
 
 
 class MarkerScene:
-    """All markers of a display, drawn below a path of the scene."""
+    """
+    All markers of a display, drawn below a path of the scene.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    frames
+        The transforms.
+    root
+        The path of the scene.
+    status
+        Receives the reasons why markers are not shown.
+
+    """
 
     def __init__(self, scene: Any, frames: Frames, root: str, status: Statuses) -> None:
-        """Begin without markers."""
         self._scene, self._frames, self._root, self._status = scene, frames, root, status
         self._shown: dict[Key, ShownMarker] = {}
         self._inbox = Inbox()
@@ -33,7 +46,17 @@ class MarkerScene:
         self._fixed_frame = frames.fixed_frame
 
     def put(self, markers: Iterable[Any], now_ns: int) -> None:
-        """Take messages on markers, which are drawn in the next frames."""
+        """
+        Queue markers, which are drawn in the next frames.
+
+        Parameters
+        ----------
+        markers
+            Messages of the type `visualization_msgs/msg/Marker`.
+        now_ns
+            The time in ns of the node's clock, at which their lifetimes begin.
+
+        """
         for marker in markers:
             self._inbox.put(marker, now_ns)
 
@@ -42,7 +65,17 @@ class MarkerScene:
         return {namespace for namespace, _ in self._shown}
 
     def update(self, now_ns: int, is_enabled: Callable[[str], bool]) -> None:
-        """Draw what is new, remove what is over, and follow frames."""
+        """
+        Draw queued markers, remove expired ones, and follow frames. Call once per frame.
+
+        Parameters
+        ----------
+        now_ns
+            The time in ns of the node's clock.
+        is_enabled
+            Returns for a namespace whether its markers are shown.
+
+        """
         for marker in self._shown.values():
             marker.finish()
         self._take_inbox()

@@ -26,7 +26,28 @@ class MeshIsBeingRead(ValueError):
 
 
 def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
-    """Draw a mesh, in the colours of its file if the marker wants that, or raise ValueError."""
+    """
+    Draw the mesh that a marker names, in the colours of its file if the marker wants that.
+
+    The file is read in the background.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    name
+        The beginning of the names of the nodes, below the root of the canvas.
+    look
+        What the marker looks like.
+
+    Raises
+    ------
+    ValueError
+        The mesh cannot be found or read.
+    MeshIsBeingRead
+        It cannot be drawn yet. This is a ValueError, too.
+
+    """
     resource, has_own_colors = look.mesh
     if not resource:
         raise ValueError('its mesh_resource is empty.')

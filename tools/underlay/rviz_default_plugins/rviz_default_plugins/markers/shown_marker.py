@@ -29,11 +29,27 @@ class ShownMarker:
     """
     A marker in the scene, which may be changed by further messages.
 
-    `problem` says why it is not shown, `note` what else there is to know.
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    place
+        The path of the scene where it is drawn.
+
+    Attributes
+    ----------
+    problem
+        Why it is not shown, '' if it is.
+    note
+        What else there is to know.
+    frame_id, stamp_ns
+        The frame that it is in, and the time in ns at which that counts; 0 for the latest.
+    is_locked
+        Whether it follows its frame.
+
     """
 
     def __init__(self, scene: Any, place: str) -> None:
-        """Begin without anything to be seen."""
         self._scene = scene
         self._place = place
         self._node: Any = None
@@ -49,7 +65,15 @@ class ShownMarker:
         self.is_locked = False
 
     def change(self, coming: Coming) -> None:
-        """Look as a message says; a wrong one leaves nothing to be seen."""
+        """
+        Draw the marker as a message says; an invalid one leaves nothing to be seen.
+
+        Parameters
+        ----------
+        coming
+            The message, of the action ADD, and when it came.
+
+        """
         marker = coming.marker
         self.note = self.problem = ''
         self._is_placed = False
@@ -77,7 +101,15 @@ class ShownMarker:
         self._is_shown = False
 
     def is_over(self, now_ns: int) -> bool:
-        """Tell if its lifetime has ended."""
+        """
+        Whether the lifetime of the marker has ended.
+
+        Parameters
+        ----------
+        now_ns
+            The time in ns of the node's clock.
+
+        """
         return self._end_ns is not None and now_ns >= self._end_ns
 
     @property
@@ -86,7 +118,15 @@ class ShownMarker:
         return self._node is not None and (self.is_locked or not self._is_placed)
 
     def place(self, frame: Pose) -> None:
-        """Put it to where its frame is."""
+        """
+        Move the marker to where its frame is.
+
+        Parameters
+        ----------
+        frame
+            The pose of its frame in the fixed frame.
+
+        """
         if self._is_placed and frame == self._frame:
             return
         self._is_placed, self._frame = True, frame
@@ -100,7 +140,15 @@ class ShownMarker:
         self._is_placed = False
 
     def show(self, is_shown: bool) -> None:
-        """Hide it, or show it again."""
+        """
+        Hide the marker, or show it again.
+
+        Parameters
+        ----------
+        is_shown
+            Whether it is to be seen.
+
+        """
         if self._node is not None and self._is_shown != is_shown:
             self._is_shown = self._node.visible = is_shown
 

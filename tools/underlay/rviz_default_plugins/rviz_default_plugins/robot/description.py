@@ -19,14 +19,30 @@ Take = Callable[[str, str], None]
 
 class DescriptionTopic:
     """
-    The descriptions that come on a topic.
+    Subscription of the robot descriptions that come on a topic.
 
     It always asks for the one from before: that is how robot_state_publisher publishes, and files
     of RViz say Volatile nevertheless. Who publishes without keeping is heard too.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    name
+        The topic, with messages of the type `std_msgs/msg/String`.
+    take
+        Called with each description and the name of the topic.
+    qos
+        The quality of service, whose durability does not count; by default a depth of 1.
+
+    Raises
+    ------
+    ValueError
+        The name is empty, or no name of a topic.
+
     """
 
     def __init__(self, node: Any, name: str, take: Take, qos: QoSProfile | None = None) -> None:
-        """Subscribe a topic, or raise ValueError with the reason."""
         self._node, self._name, self._take = node, name, take
         self._subscriptions: list[Any] = []
         if not name:
@@ -61,7 +77,20 @@ class DescriptionTopic:
 
 
 def read_description(name: str) -> str:
-    """Return the text of a file, or raise ValueError with the reason."""
+    """
+    Read the text of a URDF file.
+
+    Parameters
+    ----------
+    name
+        An absolute path, or one that begins with `package://` or `file://`.
+
+    Raises
+    ------
+    ValueError
+        The name is empty, or the file cannot be found or read.
+
+    """
     if not name:
         raise ValueError('No description file is chosen.')
     path = str(find_file(name))

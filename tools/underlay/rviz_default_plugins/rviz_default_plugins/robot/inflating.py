@@ -14,7 +14,17 @@ MESH_SIZE_M = 0.3
 
 
 def inflated(shape: Shape, margin_m: float) -> Shape:
-    """Return a body whose surface is everywhere farther out by a margin."""
+    """
+    Enlarge a body, so that its surface is everywhere farther out by a margin.
+
+    Parameters
+    ----------
+    shape
+        The body. A mesh is scaled as if it were 0.3 m large.
+    margin_m
+        The margin, in m.
+
+    """
     return replace(shape, geometry=_inflated(shape.geometry, margin_m)) if margin_m else shape
 
 

@@ -10,16 +10,31 @@ __all__ = ['LinkNode']
 
 
 class LinkNode:
-    """A node that is sent to browsers only when it moves, and then only what changes of it."""
+    """
+    A node of the scene that is sent to browsers only when it moves, and only what changes of it.
+
+    Parameters
+    ----------
+    handle
+        The handle of viser for a node that is not visible, at the origin.
+
+    """
 
     def __init__(self, handle: FrameHandle) -> None:
-        """Take a node that is not visible, at the origin."""
         self._handle = handle
         self._pose = Pose()
         self._is_visible = False
 
     def place(self, pose: Pose | None) -> None:
-        """Show the node at a place; hide it, with all below it, if the place is not known."""
+        """
+        Move the node, and show it; hide it with all below it if its pose is not known.
+
+        Parameters
+        ----------
+        pose
+            The pose in the node above, None if it is not known.
+
+        """
         if (pose is not None) != self._is_visible:
             self._is_visible = pose is not None
             self._handle.visible = self._is_visible

@@ -16,7 +16,20 @@ KINDS = ('.stl', '.obj', '.glb', '.gltf', '.ply', '.dae')
 
 
 def find_mesh(name: str) -> Path:
-    """Return the file of a mesh, or raise MeshError."""
+    """
+    Find the file of a mesh.
+
+    Parameters
+    ----------
+    name
+        As for `find_file`.
+
+    Raises
+    ------
+    MeshError
+        There is no such file, or it is of no kind that can be shown.
+
+    """
     path = find_file(name)
     if path.suffix.lower() not in KINDS:
         raise MeshError(f"'{name}' is of no kind that can be shown: {', '.join(KINDS)}.")
@@ -30,7 +43,20 @@ def find_mesh(name: str) -> Path:
 
 
 def folder_of(name: str) -> Path:
-    """Return the folder whose files a mesh may use: its package, or else the one that it is in."""
+    """
+    Find the folder whose files a mesh may use: its package, or else the one that it is in.
+
+    Parameters
+    ----------
+    name
+        As for `find_file`.
+
+    Raises
+    ------
+    MeshError
+        The name is not valid, or its package is not installed.
+
+    """
     path = find_file(name)
     scheme, _, rest = name.partition('://')
     return _share(name, rest.partition('/')[0]) if scheme == 'package' else path.parent
@@ -38,10 +64,26 @@ def folder_of(name: str) -> Path:
 
 def find_file(name: str) -> Path:
     """
-    Return the path that `package://`, `file://` or an absolute path leads to.
+    Resolve the name of a file in a URDF.
 
     Nothing is fetched from other machines. A path below a package stays there; its parts may be
     symbolic links, as colcon installs them with --symlink-install.
+
+    Parameters
+    ----------
+    name
+        An absolute path, or one that begins with `package://` or `file://`.
+
+    Returns
+    -------
+    Path
+        The path of the file, which need not exist.
+
+    Raises
+    ------
+    MeshError
+        The name is not valid, or its package is not installed.
+
     """
     if os.path.isabs(name):
         return Path(name)

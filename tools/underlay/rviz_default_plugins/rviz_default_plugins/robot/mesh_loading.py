@@ -20,9 +20,31 @@ MAX_TRIANGLES = 200_000
 
 def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
     """
-    Return the mesh of a file, which may be thinned out, or raise MeshError.
+    Read a mesh; one with too many triangles is simplified.
 
-    What the file names besides, such as pictures, must be in the folder, or beside the file.
+    What the file names besides, such as textures, must be in the folder, or beside the file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    name
+        What the file is called in error messages.
+    folder
+        The folder whose files the mesh may use; by default the one that it is in.
+
+    Returns
+    -------
+    DrawnMesh
+        The mesh, in m.
+
+    Raises
+    ------
+    MeshError
+        The file cannot be read, is too large, or has no triangles.
+    OSError
+        There is no such file.
+
     """
     size = path.stat().st_size
     if size > MAX_BYTES:

@@ -15,16 +15,38 @@ __all__ = ['MeshShelf']
 
 
 class MeshShelf:
-    """The meshes of a robot by name, and why some cannot be shown. It reads what is missing."""
+    """
+    Cache of the meshes of a robot by name, and of the reasons why some cannot be shown.
+
+    Parameters
+    ----------
+    before
+        Another cache, whose meshes are used as long as their files stay as they are.
+
+    Attributes
+    ----------
+    meshes
+        The meshes that have been read, by the names in the URDF.
+    complaints
+        A message for each mesh that is missing, broken or simplified.
+
+    """
 
     def __init__(self, before: MeshShelf | None = None) -> None:
-        """Begin with what another shelf has read, as long as the files stay as they are."""
         self._read: dict[Path, tuple[int, DrawnMesh]] = dict(before._read) if before else {}
         self.meshes: dict[str, DrawnMesh] = {}
         self.complaints: list[str] = []
 
     def read(self, names: Iterable[str]) -> None:
-        """Read meshes; this may take seconds."""
+        """
+        Read meshes that are not in the cache; this may take seconds.
+
+        Parameters
+        ----------
+        names
+            The names in the URDF, as for `find_file`.
+
+        """
         for name in dict.fromkeys(names):
             try:
                 mesh = self.meshes[name] = self._mesh(name)

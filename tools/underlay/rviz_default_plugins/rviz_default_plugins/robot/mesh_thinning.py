@@ -14,7 +14,24 @@ STEP = 0.7
 
 
 def thinned(vertices: Vertices, faces: Faces, limit: int) -> tuple[Vertices, Faces]:
-    """Return at most so many triangles: the vertices in each cell of a lattice become one."""
+    """
+    Simplify a mesh by vertex clustering: the vertices in each cell of a lattice become one.
+
+    Parameters
+    ----------
+    vertices
+        The vertices (N, 3).
+    faces
+        The indices of the vertices of each triangle (M, 3).
+    limit
+        The largest number of triangles of the result.
+
+    Returns
+    -------
+    tuple[Vertices, Faces]
+        Fewer vertices and triangles, of the same form.
+
+    """
     lowest = vertices.min(axis=0)
     extent = float(np.ptp(vertices, axis=0).max()) or 1.0
     cells = 2 * isqrt(limit) + 1

@@ -21,7 +21,23 @@ def say_missing(
     frames: Iterable[str],
     prefix: str,
 ) -> None:
-    """Replace what is said about the links of a robot, of which some have no place."""
+    """
+    Report in the status which links of a robot have no transform, in place of those before.
+
+    Parameters
+    ----------
+    status
+        The status of the display.
+    unknown
+        The joints whose pose is not known.
+    model
+        The robot.
+    frames
+        The names of the frames that are known, among which a wrong prefix is recognised.
+    prefix
+        What comes before the links in the names of frames, with a slash at the end, or ''.
+
+    """
     for subject, _, _ in status.items():
         if subject.startswith(SUBJECT):
             status.forget(subject)

@@ -13,19 +13,39 @@ __all__ = ['NearbyFiles']
 
 class NearbyFiles(FilePathResolver):
     """
-    Finds files by their paths from a mesh, as long as these stay in a folder.
+    Resolver of files by their paths from a mesh, as long as these stay in a folder.
 
     Only the paths count: the files themselves may be symbolic links out of the folder, as colcon
     installs them with --symlink-install.
+
+    Parameters
+    ----------
+    mesh
+        The file of the mesh.
+    folder
+        The folder, which is above it.
+
     """
 
     def __init__(self, mesh: Path, folder: Path) -> None:
-        """Take the file of a mesh, and the folder, which is above it."""
         super().__init__(str(mesh))
         self._folder = folder
 
     def absolute(self, name: str) -> Path:
-        """Return where a file is, or raise ValueError if it is outside of the folder."""
+        """
+        Resolve the path of a file.
+
+        Parameters
+        ----------
+        name
+            Its path from the folder of the mesh.
+
+        Raises
+        ------
+        ValueError
+            The path leads out of the folder.
+
+        """
         path = Path(os.path.normpath(os.path.join(self.parent, name.strip())))
         if not path.is_relative_to(self._folder):
             raise ValueError(f"'{name}' is outside of {self._folder}.")

@@ -41,7 +41,20 @@ class Look:
     links: Parts = field(default_factory=lambda: Parts(None))
 
     def shapes(self, link: Link) -> list[tuple[str, Shape]]:
-        """Return the bodies of a link that are shown, by name."""
+        """
+        Select the bodies of a link that are shown.
+
+        Parameters
+        ----------
+        link
+            The link.
+
+        Returns
+        -------
+        list[tuple[str, Shape]]
+            Names, such as `visual_0`, and bodies; none if the link is hidden.
+
+        """
         if not self.links.is_shown(link.name):
             return []
         visuals = link.visuals if self.visuals else ()
@@ -57,7 +70,26 @@ class RobotScene:
     The links of a robot as nodes of the scene, each below the node of its parent link.
 
     So a joint that turns is one rotation that is sent, however much hangs from it. A link without
-    a place is not seen, and neither is what hangs from it.
+    a place is not seen, and neither is what hangs from it. Nothing is seen before `place`.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the scene below which the nodes are.
+    model
+        The robot.
+    look
+        What of it is shown, and how.
+    meshes
+        The meshes, by the names in the URDF.
+
+    Attributes
+    ----------
+    left_out
+        How many bodies are not drawn, since there are more than `MAX_SHAPES`.
+
     """
 
     def __init__(
@@ -68,7 +100,6 @@ class RobotScene:
         look: Look,
         meshes: Mapping[str, DrawnMesh],
     ) -> None:
-        """Add the nodes."""
         self.model = model
         self.left_out = 0
         self._drawn = 0
@@ -83,7 +114,22 @@ class RobotScene:
             self._below.append((joint, self._add(links[joint.child], node_path)))
 
     def place(self, root: Pose | None, pose_of: PoseOf) -> list[Joint]:
-        """Move the links; return the joints whose pose is not known."""
+        """
+        Move the links; those whose pose is not known are hidden, with all that hangs from them.
+
+        Parameters
+        ----------
+        root
+            The pose of the root link in the fixed frame, None if it is not known.
+        pose_of
+            Returns for a joint the pose of its child link in its parent link, or None.
+
+        Returns
+        -------
+        list[Joint]
+            The joints whose pose is not known.
+
+        """
         self._root.place(root)
         unknown = []
         for joint, node in self._below:
@@ -118,7 +164,20 @@ class RobotScene:
 
 
 def downwards(model: RobotModel) -> Iterator[Joint]:
-    """Yield the joints of a robot, each after the one that it hangs from."""
+    """
+    Iterate over the joints of a robot from the root on, each after the one that it hangs from.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    Yields
+    ------
+    Joint
+        Each joint that is connected to the root.
+
+    """
     below: dict[str, list[Joint]] = {}
     for joint in model.joints:
         below.setdefault(joint.parent, []).append(joint)

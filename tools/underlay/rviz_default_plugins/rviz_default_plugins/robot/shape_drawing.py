@@ -28,9 +28,25 @@ def draw_shape(
     tint: Color | None = None,
 ) -> None:
     """
-    Draw a body at a path of the scene, in its own colours or in that of a tint.
+    Draw a body of a link, in its own colours or in one for all.
 
-    A mesh that nobody could read is left out.
+    A mesh that has not been read is left out.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the scene for the body; its origin is relative to the node above.
+    shape
+        The body.
+    alpha
+        The opacity, from 0 to 1, by which that of the colour is multiplied.
+    meshes
+        The meshes that have been read, by the names in the URDF.
+    tint
+        The colour in place of its own, None to keep those.
+
     """
     x, y, z, w = rotation_of(shape.origin.rpy)
     place: dict[str, Any] = {'position': shape.origin.xyz, 'wxyz': (w, x, y, z)}

@@ -27,11 +27,20 @@ class Ageing:
     """
 
     def __init__(self) -> None:
-        """Begin without frames."""
         self._heard: dict[str, tuple[int, float]] = {}
 
     def hear(self, samples: Mapping[str, Sample], now_s: float) -> None:
-        """Take the newest samples."""
+        """
+        Note which frames have been heard of since the last call.
+
+        Parameters
+        ----------
+        samples
+            The newest sample of each frame that has a parent, by the name of the frame.
+        now_s
+            The time in s, of the clock that `age` uses.
+
+        """
         before = self._heard
         self._heard = heard = {}
         for frame, sample in samples.items():
@@ -40,7 +49,19 @@ class Ageing:
             heard[frame] = known if known and is_same else (sample.stamp_ns, now_s)
 
     def age(self, frame: str, now_s: float, timeout_s: float) -> Age:
-        """Return how fresh a frame is; one that is only known as a parent is fresh."""
+        """
+        Compute how fresh a frame is; one that is only known as a parent is fresh.
+
+        Parameters
+        ----------
+        frame
+            The name of the frame.
+        now_s
+            The time in s, of the clock that `hear` uses.
+        timeout_s
+            After how long without news the frame is gone; it is old after a third of it.
+
+        """
         stamp_ns, heard_s = self._heard.get(frame, (0, now_s))
         age_s = now_s - heard_s
         if not stamp_ns or age_s <= timeout_s / 3.0:

@@ -9,15 +9,37 @@ __all__ = ['FrameFilter']
 
 
 class FrameFilter:
-    """Shows the frames in which one expression is found, and not another one."""
+    """
+    Filter of frames by two regular expressions, which are searched for in their names.
+
+    Parameters
+    ----------
+    shown
+        Must be found in the names of frames that are shown; '' for any name.
+    hidden
+        Must not be found in them; '' to hide none.
+
+    Raises
+    ------
+    ValueError
+        One of them is no regular expression.
+
+    """
 
     def __init__(self, shown: str = '', hidden: str = '') -> None:
-        """Take regular expressions, or raise ValueError; an empty one stands for nothing."""
         self._shown, self._hidden = _compiled(shown), _compiled(hidden)
         self._decided: dict[str, bool] = {}
 
     def shows(self, frame: str) -> bool:
-        """Tell if a frame is shown."""
+        """
+        Whether a frame passes the filter.
+
+        Parameters
+        ----------
+        frame
+            The name of the frame.
+
+        """
         if frame not in self._decided:
             self._decided[frame] = self._decide(frame)
         return self._decided[frame]

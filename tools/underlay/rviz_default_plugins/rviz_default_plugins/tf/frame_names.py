@@ -27,17 +27,34 @@ class FrameNames:
     A label at each frame, which moves when its frame has moved so far that one sees it.
 
     Each label is a message of its own. If many move, they take turns.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the scene below which the labels are.
+    scale
+        The height of the labels, as a multiple of 0.06 m.
+
     """
 
     def __init__(self, scene: SceneApi, path: str, scale: float) -> None:
-        """Show no names yet."""
         self._scene, self._path, self._scale = scene, path, scale
         self._labels: dict[str, LabelHandle] = {}
         # The label that has not moved for the longest time is first.
         self._places: dict[str, Place] = {}
 
     def show(self, poses: Mapping[str, Pose]) -> None:
-        """Show these names, and no others."""
+        """
+        Show the names of these frames, and no others.
+
+        Parameters
+        ----------
+        poses
+            The poses of the frames in the fixed frame, by name.
+
+        """
         for frame in self._labels.keys() - poses.keys():
             self._labels.pop(frame).remove()
             del self._places[frame]

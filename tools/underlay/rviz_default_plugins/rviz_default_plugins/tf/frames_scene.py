@@ -36,10 +36,21 @@ class FrameStyle:
 
 
 class FramesScene:
-    """Axes, arrows and names of frames: a node for all of a kind, and one for each name."""
+    """
+    Axes, arrows and names of frames: a node for all of a kind, and one for each name.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the scene below which the nodes are.
+    style
+        What of the frames is shown, and how large.
+
+    """
 
     def __init__(self, scene: SceneApi, path: str, style: FrameStyle) -> None:
-        """Add the node that all others are below."""
         self._scene, self._path, self._style = scene, path, style
         self._top = scene.add_frame(path, show_axes=False)
         self._axes: Any = None
@@ -48,7 +59,17 @@ class FramesScene:
         self._names = FrameNames(scene, f'{path}/names', style.scale)
 
     def show(self, fresh: Mapping[str, Pose], old: Mapping[str, Pose], arrows: Segments) -> None:
-        """Show frames at their poses, old ones grey; and arrows between some."""
+        """
+        Show frames as far as the style wants it, in place of those before.
+
+        Parameters
+        ----------
+        fresh, old
+            The poses of frames in the fixed frame, by name. The axes of old ones are grey.
+        arrows
+            The ends of N arrows (N, 2, 3), in m in the fixed frame.
+
+        """
         if self._style.axes:
             self._show_axes(_array(fresh))
             self._show_old(_array(old))

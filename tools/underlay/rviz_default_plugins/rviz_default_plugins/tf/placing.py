@@ -14,7 +14,20 @@ MAX_LINKS = 1000
 
 
 def roots(samples: Mapping[str, Sample]) -> dict[str, tuple[str, Pose]]:
-    """Return the root above each frame, and where the frame is in it; none for loops."""
+    """
+    Find the root above each frame, and the pose of the frame in it.
+
+    Parameters
+    ----------
+    samples
+        The newest sample of each frame that has a parent, by the name of the frame.
+
+    Returns
+    -------
+    dict[str, tuple[str, Pose]]
+        The root and the pose, also for the roots themselves; none for frames in loops.
+
+    """
     found: dict[str, tuple[str, Pose]] = {}
     for frame in samples:
         _climb(frame, samples, found)
@@ -24,7 +37,23 @@ def roots(samples: Mapping[str, Sample]) -> dict[str, tuple[str, Pose]]:
 def placed(
     samples: Mapping[str, Sample], fixed: str
 ) -> tuple[dict[str, Pose], dict[str, list[str]]]:
-    """Return the poses of frames in a fixed one; and, by their root, those that have none."""
+    """
+    Compute the poses of all frames in a fixed frame.
+
+    Parameters
+    ----------
+    samples
+        As for `roots`.
+    fixed
+        The name of the fixed frame.
+
+    Returns
+    -------
+    tuple[dict[str, Pose], dict[str, list[str]]]
+        The poses of the frames that are connected to the fixed one; and, by their root, the names
+        of those that are not.
+
+    """
     found = roots(samples)
     root, fixed_pose = found.get(fixed, (fixed, IDENTITY))
     to_fixed = inverse(fixed_pose)

@@ -18,7 +18,15 @@ ABOVE_M = 0.02
 
 
 class Measure(Tool):
-    """Shows how far two points of the ground are from each other."""
+    """
+    Shows how far two points of the ground are from each other.
+
+    Parameters
+    ----------
+    context, root, given
+        As for `Tool`.
+
+    """
 
     CLASS = 'rviz_default_plugins/Measure'
     NAME = 'Measure'
@@ -28,7 +36,6 @@ class Measure(Tool):
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the properties that a file gives."""
         super().__init__(context, root, given)
         self._first: Point | None = None
         self._drawn: list[Any] = []
@@ -39,7 +46,15 @@ class Measure(Tool):
         self._clear()
 
     def click(self, point: Point) -> bool:
-        """Take the first point, or the second one."""
+        """
+        Handle the click at the first point, or at the second one.
+
+        Parameters
+        ----------
+        point
+            As for `Tool.click`.
+
+        """
         if self._first is None:
             self._first = point
             self._clear()
@@ -49,7 +64,15 @@ class Measure(Tool):
         return False
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
-        """Show the line while it is drawn."""
+        """
+        Show the distance while the line is drawn.
+
+        Parameters
+        ----------
+        start, end, is_over
+            As for `Tool.drag`.
+
+        """
         self._first = None
         self._show(start, end)
         return False

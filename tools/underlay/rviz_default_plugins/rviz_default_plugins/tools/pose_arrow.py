@@ -16,21 +16,53 @@ LONG_M, SHORT_M = 0.7, 0.05
 
 
 def heading(start: Point, end: Point) -> float:
-    """Return the angle, about the vertical axis, of the way from one point to another."""
+    """
+    Compute the yaw of the direction from one point to another.
+
+    Parameters
+    ----------
+    start, end
+        The points, in m.
+
+    Returns
+    -------
+    float
+        The angle from the x axis, in rad, from -pi to pi.
+
+    """
     return math.atan2(end[1] - start[1], end[0] - start[0])
 
 
 class PoseArrow:
-    """An arrow on the ground, at a point and in a direction."""
+    """
+    An arrow on the ground, at a point and in a direction.
+
+    Parameters
+    ----------
+    context
+        Has the scene.
+    root
+        The path of the scene where it is drawn; nothing is there before `show`.
+
+    """
 
     def __init__(self, context: Context, root: str) -> None:
-        """Take the path of the scene where it is drawn."""
         self._scene = context.scene
         self._root = root
         self._arrow: Any = None
 
     def show(self, start: Point, yaw: float) -> None:
-        """Draw it."""
+        """
+        Draw the arrow, in place of the one before.
+
+        Parameters
+        ----------
+        start
+            Where its tail is, in m in the fixed frame.
+        yaw
+            Its direction, in rad from the x axis.
+
+        """
         import numpy as np
 
         tip = (start[0] + LONG_M * math.cos(yaw), start[1] + LONG_M * math.sin(yaw), SHORT_M)

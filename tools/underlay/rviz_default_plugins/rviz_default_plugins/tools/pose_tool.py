@@ -17,14 +17,21 @@ __all__ = ['PoseTool']
 
 
 class PoseTool(Publishing):
-    """Publishes a pose: press where, drag to where it looks, and release."""
+    """
+    Publishes a pose: press where, drag to where it looks, and release.
+
+    Parameters
+    ----------
+    context, root, given
+        As for `Tool`.
+
+    """
 
     HINT = 'Press on the ground where it is to be, drag to where it is to look, and release.'
 
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the properties that a file gives."""
         super().__init__(context, root, given)
         self._arrow = PoseArrow(context, root)
 
@@ -33,12 +40,28 @@ class PoseTool(Publishing):
         self._arrow.hide()
 
     def click(self, point: Point) -> bool:
-        """Publish a pose that looks along x."""
+        """
+        Publish a pose that looks along the x axis.
+
+        Parameters
+        ----------
+        point
+            As for `Tool.click`.
+
+        """
         self.publish(self.message(point, 0.0))
         return True
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
-        """Show the pose, and publish it in the end."""
+        """
+        Show the pose as an arrow, and publish it when the button is released.
+
+        Parameters
+        ----------
+        start, end, is_over
+            As for `Tool.drag`.
+
+        """
         yaw = heading(start, end)
         self._arrow.show(start, yaw)
         if is_over:
@@ -46,10 +69,30 @@ class PoseTool(Publishing):
         return is_over
 
     def message(self, point: Point, yaw: float) -> Any:
-        """Return what is to be published."""
+        """
+        Make the message to be published.
+
+        Parameters
+        ----------
+        point
+            The position, in m in the fixed frame.
+        yaw
+            The heading, in rad from the x axis.
+
+        """
         raise NotImplementedError
 
     def fill(self, pose: Pose, point: Point, yaw: float) -> None:
-        """Put the pose into a message."""
+        """
+        Set the pose in a message.
+
+        Parameters
+        ----------
+        pose
+            The pose to change, without a rotation so far.
+        point, yaw
+            As for `message`.
+
+        """
         pose.position.x, pose.position.y, pose.position.z = point
         pose.orientation.z, pose.orientation.w = math.sin(yaw / 2.0), math.cos(yaw / 2.0)

@@ -24,12 +24,28 @@ class PublishPoint(Publishing):
     )
 
     def click(self, point: Point) -> bool:
-        """Publish the point."""
+        """
+        Publish the point.
+
+        Parameters
+        ----------
+        point
+            As for `Tool.click`.
+
+        """
         message = self.stamped()
         message.point.x, message.point.y, message.point.z = point
         self.publish(message)
         return bool(self.values['Single click'])
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
-        """Take the end of a drag for a click."""
+        """
+        Publish the end of the drag, as if it were clicked.
+
+        Parameters
+        ----------
+        start, end, is_over
+            As for `Tool.drag`.
+
+        """
         return self.click(end) if is_over else False

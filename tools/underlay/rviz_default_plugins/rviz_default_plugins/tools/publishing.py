@@ -43,7 +43,15 @@ class Publishing(Tool):
         return message
 
     def publish(self, message: Any) -> None:
-        """Publish a message, and say so."""
+        """
+        Publish a message, and log how many subscribers there are.
+
+        Parameters
+        ----------
+        message
+            A message of the type `MESSAGE`.
+
+        """
         logger = self.context.node.get_logger()
         if self._publisher is None:
             logger.error(f"Tool '{self.NAME}' has no topic to publish to.")

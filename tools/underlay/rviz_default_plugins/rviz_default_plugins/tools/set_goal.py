@@ -20,7 +20,15 @@ class SetGoal(PoseTool):
     PROPERTIES = topic_properties('geometry_msgs/msg/PoseStamped', 'goal_pose')
 
     def message(self, point: Point, yaw: float) -> PoseStamped:
-        """Return the goal."""
+        """
+        Make the goal.
+
+        Parameters
+        ----------
+        point, yaw
+            As for `PoseTool.message`.
+
+        """
         message = self.stamped()
         self.fill(message.pose, point, yaw)
         return message

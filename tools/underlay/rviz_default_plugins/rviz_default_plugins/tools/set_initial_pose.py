@@ -28,7 +28,15 @@ class SetInitialPose(PoseTool):
     )
 
     def message(self, point: Point, yaw: float) -> PoseWithCovarianceStamped:
-        """Return the estimate."""
+        """
+        Make the estimate, with the covariance of the properties.
+
+        Parameters
+        ----------
+        point, yaw
+            As for `PoseTool.message`.
+
+        """
         message = self.stamped()
         self.fill(message.pose.pose, point, yaw)
         for path, index in COVARIANCES.items():

@@ -163,7 +163,7 @@ def test_huge_pose_array_is_thinned(message_stage):
     """Of very many poses each n-th is shown, with both numbers."""
     display = message_stage.listen(PoseArray)
     message_stage.tell(display, PoseArrayMessage(poses=[pose_at()] * (2 * MOST)))
-    assert sentence(display, 'Poses') == f'{MOST} of {2 * MOST} poses are shown.'
+    assert sentence(display, 'Number') == f'{MOST} of {2 * MOST} poses are shown.'
 
 
 def test_polygon_is_closed(message_stage):

@@ -41,7 +41,7 @@ def set_title(name: str, arguments: Sequence[str], environment: Mapping[str, str
     ----------
     name
         The name of the process, of which the system keeps 15 bytes.
-    arguments
+    arguments : Sequence[str]
         The words of the command line.
     environment
         The variables.

@@ -27,10 +27,24 @@ REPORT_S = 0.1
 
 
 class BagSource:
-    """The chosen topics of a bag."""
+    """
+    The chosen topics of a bag, as a `Source` for playback.
+
+    Parameters
+    ----------
+    reader
+        Reads the bag.
+    topics
+        The names of the topics that are played.
+
+    Attributes
+    ----------
+    start_ns, end_ns
+        The recorded times at which the whole bag starts and ends, in ns.
+
+    """
 
     def __init__(self, reader: BagReader, topics: list[str]) -> None:
-        """Take what is played."""
         self._reader = reader
         self._topics = topics
         self._latched = [
@@ -42,11 +56,27 @@ class BagSource:
         self.end_ns = reader.metadata.span.end_ns
 
     def messages(self, start_ns: int) -> Iterator[RecordedMessage]:
-        """Yield what is played, from a time on."""
+        """
+        Iterate over the messages that are played, by time.
+
+        Parameters
+        ----------
+        start_ns
+            As for `Source.messages`.
+
+        """
         return self._reader.messages(self._topics, max(0, start_ns))
 
     def latched(self, start_ns: int, end_ns: int) -> Iterator[RecordedMessage]:
-        """Yield the latched messages from a time to another."""
+        """
+        Iterate over the latched messages of a time span.
+
+        Parameters
+        ----------
+        start_ns, end_ns
+            As for `Source.latched`.
+
+        """
         if not self._latched:
             return iter(())
         messages = self._reader.messages(self._latched, start_ns)
