@@ -31,14 +31,14 @@ def watch_robot(argument: str) -> OnProcessExit:
         if context.is_shutdown:
             return None
         ends_all = LaunchConfiguration(argument).perform(context) == 'shutdown'
-        sentence = obituary(event.process_name, event.returncode, ends_all, argument)
+        sentence = exit_report(event.process_name, event.returncode, ends_all, argument)
         said = LogInfo(msg=sentence)
         return [said, Shutdown(reason=f'{event.process_name} has ended')] if ends_all else [said]
 
     return OnProcessExit(target_action=_is_robot, on_exit=react)
 
 
-def obituary(process: str, status: int, ends_all: bool, argument: str) -> str:
+def exit_report(process: str, status: int, ends_all: bool, argument: str) -> str:
     """
     Return what is said of a robot that has ended.
 

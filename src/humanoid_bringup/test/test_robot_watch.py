@@ -8,7 +8,7 @@ from pathlib import Path
 import re
 import signal
 
-from humanoid_bringup.robot_watch import obituary
+from humanoid_bringup.robot_watch import exit_report
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.processes import RunningProgram
 from humanoid_common.testing.ros import ros_sandbox
@@ -68,4 +68,4 @@ def test_ctrl_c_is_no_death() -> None:
 )
 def test_sentence(status: int, ends_all: bool, words: str) -> None:
     """The sentence says how it ended, what follows, and how to have it otherwise."""
-    assert words in obituary('simulator-1', status, ends_all, 'a')
+    assert words in exit_report('simulator-1', status, ends_all, 'a')

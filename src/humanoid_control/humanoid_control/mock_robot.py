@@ -16,12 +16,12 @@ from humanoid_control.backends import Observation
 from humanoid_control.backends.mock import MockBackend
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.diagnostics import HostDiagnostics
+from humanoid_control.hosting.duplicate_publishers import DuplicatePublisherCheck
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.refusals import Refusals
-from humanoid_control.hosting.rivals import Rivals
 from humanoid_control.hosting.stamping import Stamps
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
@@ -60,7 +60,9 @@ class MockRobot(Node):
         loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
         period_s, pace = backend.period_s, RealTimePace(backend.period_s)
         self._host = Host(self, loop, pace, period_s, self._robots.look, self._tell)
-        self._rivals = Rivals(self, [topic(name, 'joint_states') for name in controls])
+        self._duplicates = DuplicatePublisherCheck(
+            self, [topic(name, 'joint_states') for name in controls]
+        )
         self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(
             f'Mock robot started: {len(backend.joints)} joints at {1.0 / period_s:g} Hz, '

@@ -8,7 +8,7 @@ from humanoid_control.walking.footing import Foothold, Footing, loads_for
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.terrain import GroundPlane
 from humanoid_description.robot import Robot
 import numpy as np
 import pytest
@@ -75,7 +75,7 @@ def test_rest_is_between_the_feet() -> None:
 def test_feet_conform_where_they_stand() -> None:
     """What a foot stands on may change; the feet share heights as they share the weight."""
     footing = Footing(SHAPE, FEET)
-    footing.conform(LEFT, Foothold(FEET[LEFT].pose, Facet(0.02, 0.1j)))
+    footing.adapt(LEFT, Foothold(FEET[LEFT].pose, GroundPlane(0.02, 0.1j)))
     assert footing.height_m((0.25, 0.75)) == pytest.approx(0.005)
     assert footing.tilt == pytest.approx(0.05j)
     assert footing.pose(LEFT) == FEET[LEFT].pose

@@ -8,13 +8,13 @@ from collections.abc import Callable
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.footing import Foothold, Footing
 from humanoid_control.walking.gait import Gait, GaitOutput
-from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
+from humanoid_control.walking.gait_context import GaitContext, GaitInput, SoleReading
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, other, outwards, SIDES
 from humanoid_control.walking.swing_foot import SoleMotion
-from humanoid_control.walking.terrain import Facet, LEVEL
+from humanoid_control.walking.terrain import GroundPlane, LEVEL
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ class IdealRobot:
         feet = [PlanarPose(body.at(0.0, 0.09 * outwards(side)), yaw_rad) for side in SIDES]
         self.pendulum = Pendulum(0.7)
         self.footing = Footing(SHAPE, [Foothold(pose) for pose in feet])
-        self.gait = Gait(Gear(P, self.pendulum, self.footing))
+        self.gait = Gait(GaitContext(P, self.pendulum, self.footing))
         self.motion = Motion(self.footing.rest_point)
         self.output: GaitOutput | None = None
         self.errors_m: list[float] = []
@@ -81,8 +81,8 @@ class IdealRobot:
         """Return a sole that is where it was told to be at the tick before."""
         swing = self.output.swing if self.output else None
         if swing and swing.side == side:
-            facet = Facet(max(0.0, swing.sole.facet.height_m))
-            return SoleReading(swing.sole.pose, facet, 0.0 if facet.height_m else 0.5)
+            plane = GroundPlane(max(0.0, swing.sole.plane.height_m))
+            return SoleReading(swing.sole.pose, plane, 0.0 if plane.height_m else 0.5)
         return SoleReading(self.footing.pose(side), LEVEL, 0.5)
 
 
@@ -200,7 +200,7 @@ def test_a_gap_makes_no_foot_jump(in_air_s: float) -> None:
     after = robot.sole
     assert before and after
     assert abs(after.pose.position_m - before.pose.position_m) < 0.06
-    assert abs(after.facet.height_m - before.facet.height_m) < 0.03
+    assert abs(after.plane.height_m - before.plane.height_m) < 0.03
 
 
 @pytest.mark.parametrize('push_m_s', [0.35, -0.35, 0.35j, -0.35j])

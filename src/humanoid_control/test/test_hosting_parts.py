@@ -4,38 +4,38 @@
 from __future__ import annotations
 
 from humanoid_common.parameters import build, ParameterError
-from humanoid_control.hosting.every import Every
 from humanoid_control.hosting.load import Load
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
+from humanoid_control.hosting.rate_limiter import RateLimiter
 from humanoid_control.hosting.refusals import Refusals
 import pytest
 
 
 def test_every() -> None:
     """A rate is kept on the average, also when it does not divide that of the ticks."""
-    due = Every(30.0)
+    due = RateLimiter(30.0)
     assert sum(due.is_due(tick * 0.01) for tick in range(1000)) == pytest.approx(300, abs=2)
-    slow = Every(50.0)
+    slow = RateLimiter(50.0)
     assert [slow.is_due(tick * 0.01) for tick in range(4)] == [True, False, True, False]
 
 
 def test_every_tick_at_most() -> None:
     """What is missed is left out: once a tick is the most."""
-    due = Every(100.0)
+    due = RateLimiter(100.0)
     assert due.is_due(0.0) and due.is_due(1.0) and not due.is_due(1.001)
 
 
 def test_every_goes_on_after_a_clock_was_set_back() -> None:
     """What is due does not wait for a time that lies far ahead."""
-    due = Every(50.0)
+    due = RateLimiter(50.0)
     assert due.is_due(1000.0) and due.is_due(10.0)
     assert not due.is_due(10.01) and due.is_due(10.02)
 
 
 def test_never() -> None:
     """A rate of zero is never due."""
-    assert not Every(0.0).is_due(5.0)
+    assert not RateLimiter(0.0).is_due(5.0)
 
 
 def test_pace() -> None:

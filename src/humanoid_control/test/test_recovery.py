@@ -63,7 +63,7 @@ def test_stance_is_measured(walker: Walker, pitch_rad: float, rate_rad_s: float)
     observation = replace(
         seen(walker, 0.0, pitch_rad), angular_velocity_rad_s=np.array([0.0, rate_rad_s, 3.0])
     )
-    stance = Stance.of(walker.robot, walker._senses.read(observation))
+    stance = Stance.of(walker.robot, walker._estimator.read(observation))
     assert stance.tilt_rad == pytest.approx(abs(pitch_rad))
     assert stance.tilting_rad_s == pytest.approx(-rate_rad_s if pitch_rad < 0 else rate_rad_s)
     assert stance.height_m == pytest.approx(walker.home.base_height_m, abs=0.1)

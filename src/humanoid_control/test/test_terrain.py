@@ -7,7 +7,7 @@ import math
 
 from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.sides import LEFT, other
-from humanoid_control.walking.terrain import Facet, GroundLevel, LevelFloor, tilt_of
+from humanoid_control.walking.terrain import GroundLevel, GroundPlane, LevelFloor, tilt_of
 import numpy as np
 import pytest
 
@@ -16,7 +16,7 @@ import pytest
 @pytest.mark.parametrize('tilt', [0j, 0.1 + 0j, -0.05 + 0.08j])
 def test_a_sole_on_a_facet(tilt: complex, yaw_rad: float) -> None:
     """It lies flat on it, faces the heading, and its tilt is read back."""
-    rotation = Facet(0.0, tilt).rotation(yaw_rad)
+    rotation = GroundPlane(0.0, tilt).rotation(yaw_rad)
     assert rotation @ rotation.T == pytest.approx(np.eye(3))
     assert np.linalg.det(rotation) == pytest.approx(1.0)
     assert tilt_of(rotation, 0.3) == pytest.approx(tilt)
@@ -32,9 +32,9 @@ def test_tilt_is_cut() -> None:
 
 def test_ground_goes_on_beside() -> None:
     """Ground whose water runs ahead is lower there; across it is as high."""
-    facet = Facet(0.3)
-    assert facet.height_beside(0.1 + 0j, 0.1 + 0j) == pytest.approx(0.29)
-    assert facet.height_beside(0.1j, 0.1 + 0j) == pytest.approx(0.3)
+    plane = GroundPlane(0.3)
+    assert plane.height_beside(0.1 + 0j, 0.1 + 0j) == pytest.approx(0.29)
+    assert plane.height_beside(0.1j, 0.1 + 0j) == pytest.approx(0.3)
 
 
 def test_level_follows_the_feet() -> None:

@@ -10,8 +10,8 @@ from humanoid_control.walking.attitude import Attitude
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import Point
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_description.drives import load_drives
@@ -53,7 +53,7 @@ class Mover:
             self.time_s += TICK_S
             self.observer.rest(self._sensed(link, force_n))
 
-    def _sensed(self, link: str, force_n: Point) -> Sensed:
+    def _sensed(self, link: str, force_n: Point) -> RobotState:
         """Return what is sensed at a moment; the drives exert what the motion needs."""
         angle, rate = 4.0 * self.time_s + self._phases, 4.0
         state = self.robot.body.state(
@@ -69,7 +69,7 @@ class Mover:
             push = np.array([force_n.real, force_n.imag, 0.0])
             efforts = efforts - state.efforts_of_force_nm(link, state.position_m(link), push)
         level = Attitude(0.02, -0.03, YAW_RAD, (0.0, 0.0, 0.0))
-        return Sensed(self.time_s, state, level, (0.5, 0.5), (0j, 0j), efforts, acceleration)
+        return RobotState(self.time_s, state, level, (0.5, 0.5), (0j, 0j), efforts, acceleration)
 
 
 @pytest.fixture(name='mover')

@@ -16,9 +16,9 @@ from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.soles import footing_below
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_description.drives import load_drives
@@ -55,7 +55,7 @@ def _stance(robot: Robot) -> Stance:
     still = np.zeros(len(drives))
     state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
-    sensed = Sensed(0.0, state, level, (0.5, 0.5), UNDRAGGED, still, np.zeros(3))
+    sensed = RobotState(0.0, state, level, (0.5, 0.5), UNDRAGGED, still, np.zeros(3))
     footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
 

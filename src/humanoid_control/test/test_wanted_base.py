@@ -11,9 +11,9 @@ from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.soles import footing_below, soles_below
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_control.walking.wanted_base import base_below, within_reach
@@ -66,7 +66,7 @@ def test_centre_of_mass_is_where_it_is_wanted(walking: WalkingRobot, state: Body
 def test_base_sinks_to_reach(robot: Robot, walking: WalkingRobot, state: BodyState) -> None:
     """A base that is too high for its legs is lowered, and otherwise stays as it is."""
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
-    sensed = Sensed(0.0, state, level, (0.5, 0.5), UNDRAGGED, state.bias_nm, np.zeros(3))
+    sensed = RobotState(0.0, state, level, (0.5, 0.5), UNDRAGGED, state.bias_nm, np.zeros(3))
     footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     com = BASE.com_motion(state)
     wanted = base_below(Motion(), 0.8, TURNING, com, BASE, state)
@@ -80,10 +80,10 @@ def test_base_sinks_to_reach(robot: Robot, walking: WalkingRobot, state: BodySta
 def test_soles_are_seen_from_the_base(walking: WalkingRobot, state: BodyState) -> None:
     """The soles are where the base and the joints put them, with the load that they carry."""
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
-    sensed = Sensed(0.0, state, level, (0.7, 0.2), UNDRAGGED, state.bias_nm, np.zeros(3))
+    sensed = RobotState(0.0, state, level, (0.7, 0.2), UNDRAGGED, state.bias_nm, np.zeros(3))
     soles = soles_below(BASE.position_m, walking, sensed, P)
     for side, sole in zip(SIDES, soles):
         place = BASE.position_m + state.position_m(walking.legs[side].sole)
-        found = [sole.pose.position_m.real, sole.pose.position_m.imag, sole.facet.height_m]
+        found = [sole.pose.position_m.real, sole.pose.position_m.imag, sole.plane.height_m]
         assert found == pytest.approx(place)
         assert sole.load == sensed.loads[side]

@@ -14,7 +14,7 @@ from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
-from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.terrain import GroundPlane
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_control.walking.whole_body import JointMotion, WholeBody
 from humanoid_description.drives import load_drives
@@ -63,7 +63,7 @@ def test_a_foot_in_the_air_moves_as_planned(
 ) -> None:
     """The sole in the air is where it is planned from where the base is, and moves as planned."""
     walking, whole, footing = body
-    sole = SoleMotion(PlanarPose(0.1 - 0.12j, 0.2), Facet(0.03), 0.4 - 0.1j, 0.05, 0.3)
+    sole = SoleMotion(PlanarPose(0.1 - 0.12j, 0.2), GroundPlane(0.03), 0.4 - 0.1j, 0.05, 0.3)
     elsewhere = Frame(BASE.position_m + 0.02, np.eye(3))
     joints = whole.motion(BaseMotion(elsewhere, TWIST), MOTION, footing, Swing(RIGHT, sole))
     state, leg = state_of(walking, joints), walking.legs[RIGHT]
@@ -79,6 +79,6 @@ def test_arms_go_with_the_opposite_foot(body: tuple[WalkingRobot, WholeBody, Foo
     joints = whole.motion(MOTION, MOTION, footing, None)
     left, right = (walking.index(f'{side}_shoulder') for side in ('left', 'right'))
     assert joints.positions_rad[left] > 0.0 > joints.positions_rad[right]
-    ahead = SoleMotion(FEET[LEFT], Facet(0.02), 0.5 + 0j)
+    ahead = SoleMotion(FEET[LEFT], GroundPlane(0.02), 0.5 + 0j)
     moving = whole.motion(MOTION, MOTION, footing, Swing(LEFT, ahead))
     assert moving.velocities_rad_s[left] > 0.0 > moving.velocities_rad_s[right]

@@ -11,10 +11,10 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.diagnostics import HostDiagnostics
+from humanoid_control.hosting.duplicate_publishers import DuplicatePublisherCheck
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.refusals import Refusals
-from humanoid_control.hosting.rivals import Rivals
 from humanoid_control.hosting.slowness import Speed
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_description.errors import DescriptionError
@@ -86,7 +86,7 @@ class Simulator(Node):
         self._entity_services = EntityServices(self, world)
         self._factor_topic = RealTimeFactorTopic(self, self._speed)
         joint_states = [topic(name, 'joint_states') for name in backend.robots]
-        self._rivals = Rivals(self, ['/clock', *joint_states])
+        self._duplicates = DuplicatePublisherCheck(self, ['/clock', *joint_states])
         self._diagnostics = HostDiagnostics(self, self._host, self._robots, self._speed)
         self.get_logger().info(_greeting(simulated, parameters))
 

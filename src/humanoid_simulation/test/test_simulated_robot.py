@@ -44,7 +44,7 @@ def test_a_fall_fails_the_test(robot: SimulatedRobot) -> None:
     robot.push('left', 10.0)
     robot.wait(1.0)
     robot.push('left', 15.0)
-    with pytest.raises(FellError, match=r'its base is at 0.10 m .* its state is .STAND.'):
+    with pytest.raises(FellError, match=r'its base is at 0.10 m .* its state is .stand.'):
         robot.wait(1.0)
     robot.reset()
     assert robot.stands

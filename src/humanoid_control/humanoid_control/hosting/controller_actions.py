@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from humanoid_control.hosting.every import Every
 from humanoid_control.hosting.follow_joint_trajectory import FollowJointTrajectoryServer
 from humanoid_control.hosting.goal_server import FEEDBACK_RATE_HZ, GoalServer
 from humanoid_control.hosting.gripper_command import GripperCommandServer
+from humanoid_control.hosting.rate_limiter import RateLimiter
 from humanoid_control.hosting.refusals import Refusals
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.hosting.topics.filling import topic
@@ -41,7 +41,7 @@ class ControllerActions:
         for name, gripper in control.gripper_controllers.items():
             action = topic(robot, f'{name}/gripper_cmd')
             self._servers.append(GripperCommandServer(node, action, control, gripper, refusals))
-        self._due = Every(FEEDBACK_RATE_HZ)
+        self._due = RateLimiter(FEEDBACK_RATE_HZ)
 
     def tell(self, time_s: float) -> None:
         """

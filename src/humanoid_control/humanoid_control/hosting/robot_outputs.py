@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from humanoid_control.backends import Observation
-from humanoid_control.hosting.every import Every
 from humanoid_control.hosting.parameters import HostParameters, WALKING
+from humanoid_control.hosting.rate_limiter import RateLimiter
 from humanoid_control.hosting.topics.imu import ImuTopic
 from humanoid_control.hosting.topics.joint_states import JointStatesTopic
 from humanoid_control.hosting.topics.odometry import ODOM, OdometryTopics
@@ -57,10 +57,10 @@ class RobotOutputs:
             Their rates in Hz; 0 is never.
 
         """
-        self._joints_due = Every(parameters.joint_states_rate_hz)
-        self._imu_due = Every(parameters.imu_rate_hz)
-        self._odometry_due = Every(parameters.odometry_rate_hz)
-        self._debug_due = Every(parameters.debug_rate_hz)
+        self._joints_due = RateLimiter(parameters.joint_states_rate_hz)
+        self._imu_due = RateLimiter(parameters.imu_rate_hz)
+        self._odometry_due = RateLimiter(parameters.odometry_rate_hz)
+        self._debug_due = RateLimiter(parameters.debug_rate_hz)
 
     def publish(self, observation: Observation) -> None:
         """

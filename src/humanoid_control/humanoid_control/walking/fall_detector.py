@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.walking_robot import WalkingRobot
 
 
@@ -26,7 +26,7 @@ class Stance:
     """What the soles carry, as a share of the weight."""
 
     @classmethod
-    def of(cls, robot: WalkingRobot, sensed: Sensed) -> Stance:
+    def of(cls, robot: WalkingRobot, sensed: RobotState) -> Stance:
         """
         Measure how upright the robot is.
 

@@ -10,7 +10,7 @@ from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.planar import dot, limited, PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.support_polygon import SupportPolygon
-from humanoid_control.walking.terrain import Facet, LEVEL
+from humanoid_control.walking.terrain import GroundPlane, LEVEL
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,13 +22,13 @@ class Foothold:
     """Where a sole stands, and on what."""
 
     pose: PlanarPose
-    facet: Facet = LEVEL
+    plane: GroundPlane = LEVEL
 
     @property
     def sole_m(self) -> Array:
         """Return where the origin of the sole is, (3,)."""
         point = self.pose.position_m
-        return np.array([point.real, point.imag, self.facet.height_m])
+        return np.array([point.real, point.imag, self.plane.height_m])
 
 
 class Footing:
@@ -80,7 +80,7 @@ class Footing:
         """
         return self._footholds[side].pose
 
-    def conform(self, side: int, foothold: Foothold) -> None:
+    def adapt(self, side: int, foothold: Foothold) -> None:
         """
         Adapt the height and tilt of a foothold that keeps its pose in the plane.
 
@@ -111,7 +111,7 @@ class Footing:
 
         """
         left, right = self._footholds
-        return shares[LEFT] * left.facet.height_m + shares[RIGHT] * right.facet.height_m
+        return shares[LEFT] * left.plane.height_m + shares[RIGHT] * right.plane.height_m
 
     @property
     def middle(self) -> PlanarPose:
@@ -122,7 +122,7 @@ class Footing:
     def tilt(self) -> Point:
         """Return the mean tilt of what the feet stand on."""
         left, right = self._footholds
-        return (left.facet.tilt + right.facet.tilt) / 2
+        return (left.plane.tilt + right.plane.tilt) / 2
 
     def load_point(self, side: int, pose: PlanarPose | None = None) -> Point:
         """

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from humanoid_control.walking.dcm_plan import BalanceReference
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.gait_context import GaitContext, GaitInput
 from humanoid_control.walking.phases import Phase, Standing
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.swing_foot import Swing
@@ -36,14 +36,14 @@ class Gait:
 
     Parameters
     ----------
-    gear
+    context
         What the phases of the gait share; the robot begins standing on its footholds.
 
     """
 
-    def __init__(self, gear: Gear) -> None:
-        self._gear = gear
-        self._phase: Phase = Standing(gear)
+    def __init__(self, context: GaitContext) -> None:
+        self._context = context
+        self._phase: Phase = Standing(context)
 
     @property
     def phase(self) -> str:
@@ -58,7 +58,7 @@ class Gait:
     @property
     def is_blocked(self) -> bool:
         """Whether something is in the way of the robot."""
-        return self._gear.guard.blockage is not None
+        return self._context.guard.blockage is not None
 
     def command(self, velocity: VelocityCommand) -> None:
         """
@@ -70,7 +70,7 @@ class Gait:
             Velocity in the axes of the robot; it is clamped to the limits of the gait.
 
         """
-        self._gear.wanted = self._gear.parameters.velocity.limits.applied(velocity)
+        self._context.wanted = self._context.parameters.velocity.limits.applied(velocity)
 
     def update(self, now: GaitInput) -> GaitOutput:
         """
@@ -88,14 +88,14 @@ class Gait:
             with feedback of the DCM, and the sides that carry the robot.
 
         """
-        if self._gear.heed_obstacles(now, self._phase.leg_in_air(now)):
+        if self._context.heed_obstacles(now, self._phase.leg_in_air(now)):
             self._phase.replan(now)
         self._phase = phase = self._phase.advance(now)
-        reference, footing = phase.reference(now), self._gear.footing
+        reference, footing = phase.reference(now), self._context.footing
         # The DCM tracking law of Englsberger et al.: push the zero-moment point beyond the error.
         error = now.dcm_m - reference.dcm_m
         zmp = footing.polygon(phase.sides).clamped(
-            reference.zmp_m + self._gear.parameters.balance.dcm_gain * error
+            reference.zmp_m + self._context.parameters.balance.dcm_gain * error
         )
         return GaitOutput(
             reference,

@@ -17,8 +17,8 @@ from humanoid_control.walking.planned_acceleration import (
     PlannedAcceleration,
     whole_acceleration,
 )
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Exertion:
+class JointTorques:
     """What the joints exert, and how the feet share the weight thereby."""
 
     efforts_nm: Array
@@ -43,14 +43,14 @@ class InverseDynamics:
     parameters: WalkParameters
     footing: Footing
 
-    def exertion(
+    def torques(
         self,
-        sensed: Sensed,
+        sensed: RobotState,
         base_m: Array,
         output: GaitOutput,
         plan: PlannedAcceleration,
         body: BodyPoseFollower,
-    ) -> Exertion:
+    ) -> JointTorques:
         """
         Compute the joint torques that realise the planned accelerations and hold the pelvis.
 
@@ -72,7 +72,7 @@ class InverseDynamics:
 
         Returns
         -------
-        Exertion
+        JointTorques
             The feed-forward torques (n,) in N m, and the load distribution over the feet.
 
         """
@@ -90,4 +90,4 @@ class InverseDynamics:
         )
         for side in SIDES:
             efforts[self.robot.legs[side].indices[:3]] += loads.shares[side] * upright
-        return Exertion(efforts, loads.shares)
+        return JointTorques(efforts, loads.shares)

@@ -58,7 +58,7 @@ class Blockage:
 
 
 @dataclass(frozen=True)
-class _Course:
+class _Travel:
     """How the robot goes."""
 
     ahead: Point
@@ -69,8 +69,8 @@ class _Course:
     """Whether it goes or turns."""
 
     @classmethod
-    def of(cls, going: VelocityCommand, heading_rad: float) -> _Course:
-        """Return the course at a velocity."""
+    def of(cls, going: VelocityCommand, heading_rad: float) -> _Travel:
+        """Return the travel at a velocity."""
         speed = going.linear_m_s
         if abs(speed) < _STILL_M_S:
             return cls(0j, 0.0, abs(going.turn_rad_s) > _STILL_M_S)
@@ -156,9 +156,9 @@ class ObstacleGuard:
         if self.blockage:
             self.blockage.leans = dot(error_m, self.blockage.towards) > p.obstacles.lean_m
             self._follow(self.blockage, stands, wanted, passed_s)
-        course = _Course.of(going, body.yaw_rad)
-        by_leg = self._hits_leg(contact.leg, course)
-        hit = by_leg or self._hits_arm(contact.arms_nm, course) or self._hits_body(course)
+        travel = _Travel.of(going, body.yaw_rad)
+        by_leg = self._hits_leg(contact.leg, travel)
+        hit = by_leg or self._hits_arm(contact.arms_nm, travel) or self._hits_body(travel)
         if hit is None:
             return False
         self._impulse_ns = 0j
@@ -236,24 +236,24 @@ class ObstacleGuard:
             along = 0j
         return replace(wanted, forward_m_s=along.real, left_m_s=along.imag)
 
-    def _hits_leg(self, leg: LegInAir | None, course: _Course) -> Point | None:
+    def _hits_leg(self, leg: LegInAir | None, travel: _Travel) -> Point | None:
         """Return the direction to what stops the leg in the air, if anything does."""
-        p, aside = self._parameters, course.aside
+        p, aside = self._parameters, travel.aside
         least_nm = (
             1.0 - aside
         ) * p.obstacles.leg_touch_nm + aside * p.obstacles.leg_touch_aside_nm
-        if leg is None or course.against(leg.push_nm) < least_nm:
+        if leg is None or travel.against(leg.push_nm) < least_nm:
             return None
-        towards = course.towards(leg.push_nm)
+        towards = travel.towards(leg.push_nm)
         known = self.blockage.leg if self.blockage and self._retreats_from(towards) else None
         return None if known and known.side == leg.side else towards
 
-    def _hits_arm(self, arms_nm: Sequence[Point], course: _Course) -> Point | None:
+    def _hits_arm(self, arms_nm: Sequence[Point], travel: _Travel) -> Point | None:
         """Return the direction to what an arm touches, if one does and does not retreat yet."""
         for push_nm in arms_nm:
-            against_nm = course.against(push_nm) if course.ahead else abs(push_nm)
-            if course.moves and against_nm > self._parameters.obstacles.arm_touch_nm:
-                towards = course.towards(push_nm)
+            against_nm = travel.against(push_nm) if travel.ahead else abs(push_nm)
+            if travel.moves and against_nm > self._parameters.obstacles.arm_touch_nm:
+                towards = travel.towards(push_nm)
                 return None if self._retreats_from(towards) else towards
         return None
 
@@ -262,14 +262,14 @@ class ObstacleGuard:
         blockage = self.blockage
         return blockage is not None and blockage.retreats and dot(towards, blockage.towards) > 0.0
 
-    def _hits_body(self, course: _Course) -> Point | None:
+    def _hits_body(self, travel: _Travel) -> Point | None:
         """Return the direction to what has stopped the robot for a while, if anything has."""
         least_ns = self._parameters.obstacles.bump_ns
-        if not course.moves or abs(self._impulse_ns) < least_ns:
+        if not travel.moves or abs(self._impulse_ns) < least_ns:
             return None
-        if course.ahead and course.against(self._impulse_ns) < least_ns / 2:
+        if travel.ahead and travel.against(self._impulse_ns) < least_ns / 2:
             return None
-        return course.towards(self._impulse_ns)
+        return travel.towards(self._impulse_ns)
 
     def _follow(
         self,

@@ -93,13 +93,13 @@ class FootstepParameters:
         at_most=10,
         read_only=True,
     )
-    course_gain: float = _share(
+    path_gain: float = _share(
         0.5, 'Share of the deviation from the reference path that is corrected in a step.'
     )
-    course_distance_m: float = _length(
+    path_distance_m: float = _length(
         0.06, 'Greatest deviation from the reference path; the path is moved by what is more.'
     )
-    course_turn_rad: float = _fixed(
+    path_turn_rad: float = _fixed(
         0.15, 'Greatest deviation in heading from the reference path; it is turned by the rest.'
     )
     parallel_length_m: float = _length(

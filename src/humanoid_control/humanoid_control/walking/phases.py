@@ -8,7 +8,7 @@ from typing import Protocol
 
 from humanoid_control.walking.dcm_plan import BalanceReference, ZmpSegment
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.gait_context import GaitContext, GaitInput
 from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
@@ -114,15 +114,15 @@ class _OnBothFeet:
     sides: tuple[int, ...] = SIDES
     footsteps: Sequence[Footstep] = ()
 
-    def __init__(self, gear: Gear) -> None:
+    def __init__(self, context: GaitContext) -> None:
         """Begin now."""
-        self._gear = gear
+        self._context = context
         self._elapsed_s = 0.0
 
     @property
     def turning(self) -> Turning:
         """Return the mean heading of the feet."""
-        return Turning(self._gear.footing.middle.yaw_rad)
+        return Turning(self._context.footing.middle.yaw_rad)
 
     def swing(self) -> Swing | None:
         """Return that no foot swings."""
@@ -157,19 +157,19 @@ class Standing(_OnBothFeet):
 
         """
         self._elapsed_s += now.passed_s
-        self._gear.approach_target(now.passed_s)
-        self._gear.course.restart()
-        self._gear.slope = self._gear.footing.tilt
-        if not self._gear.target.is_zero:
-            shift_s = self._gear.parameters.timing.first_shift_s
+        self._context.approach_target(now.passed_s)
+        self._context.path.restart()
+        self._context.slope = self._context.footing.tilt
+        if not self._context.target.is_zero:
+            shift_s = self._context.parameters.timing.first_shift_s
             return Stepping(
-                Step(self._gear, self._first_support(), shift_s, now.zmp_m), self._gear
+                Step(self._context, self._first_support(), shift_s, now.zmp_m), self._context
             )
         off = self._off_balance(now.dcm_m)
         if self._elapsed_s > _SETTLED_S and self._is_pushed(off):
             support = RIGHT if off.imag > 0.0 else LEFT
-            shift_s = self._gear.parameters.timing.reactive_shift_s
-            return Stepping(Step(self._gear, support, shift_s, now.zmp_m), self._gear)
+            shift_s = self._context.parameters.timing.reactive_shift_s
+            return Stepping(Step(self._context, support, shift_s, now.zmp_m), self._context)
         return self
 
     def reference(self, now: GaitInput) -> BalanceReference:
@@ -182,22 +182,22 @@ class Standing(_OnBothFeet):
             As for `Phase.reference`; it does not matter here.
 
         """
-        rest_point = self._gear.footing.rest_point
+        rest_point = self._context.footing.rest_point
         return BalanceReference(rest_point, rest_point)
 
     def _first_support(self) -> int:
         """Return the foot that stays: not that on the side where the robot goes."""
-        target = self._gear.target
+        target = self._context.target
         return RIGHT if (target.left_m_s or target.turn_rad_s) > 0.0 else LEFT
 
     def _off_balance(self, dcm: Point) -> Point:
         """Return how far the divergent component is from rest, ahead and to the left."""
-        feet = self._gear.footing
+        feet = self._context.footing
         return PlanarPose(feet.rest_point, feet.middle.yaw_rad).local(dcm)
 
     def _is_pushed(self, off: Point) -> bool:
         """Tell whether the robot has to step to stay upright."""
-        p = self._gear.parameters
+        p = self._context.parameters
         return abs(off.real) > p.balance.push_forward_m or abs(off.imag) > p.balance.push_left_m
 
 
@@ -209,15 +209,15 @@ class Stepping:
     ----------
     step
         The step that is to be done.
-    gear
+    context
         What the phases of the gait share.
 
     """
 
     name = 'walk'
 
-    def __init__(self, step: Step, gear: Gear) -> None:
-        self._gear = gear
+    def __init__(self, step: Step, context: GaitContext) -> None:
+        self._context = context
         self._step = step
 
     @property
@@ -279,13 +279,13 @@ class Stepping:
         step.feel(now)
         if not step.has_landed(now):
             return self
-        self._gear.learn_slope(self._gear.footing[step.support].facet.tilt)
-        self._gear.course.advance(step.support, self._gear.command, step.duration_s)
-        self._gear.approach_target(self._gear.parameters.timing.step_s)
-        if self._gear.is_stopping and self._may_rest():
-            return Stopping(self._gear, step.side, now.zmp_m)
-        shift_s = self._gear.parameters.timing.shift_s
-        return Stepping(Step(self._gear, step.side, shift_s, now.zmp_m), self._gear)
+        self._context.learn_slope(self._context.footing[step.support].plane.tilt)
+        self._context.path.advance(step.support, self._context.command, step.duration_s)
+        self._context.approach_target(self._context.parameters.timing.step_s)
+        if self._context.is_stopping and self._may_rest():
+            return Stopping(self._context, step.side, now.zmp_m)
+        shift_s = self._context.parameters.timing.shift_s
+        return Stepping(Step(self._context, step.side, shift_s, now.zmp_m), self._context)
 
     def reference(self, now: GaitInput) -> BalanceReference:
         """
@@ -305,11 +305,11 @@ class Stepping:
 
     def _may_rest(self) -> bool:
         """Tell whether the feet stand well and the robot is calm."""
-        step, feet = self._step, self._gear.footing
-        stands_well = self._gear.planner.is_parallel(
+        step, feet = self._step, self._context.footing
+        stands_well = self._context.planner.is_parallel(
             feet.pose(step.support), step.support, feet.pose(step.side)
         )
-        return stands_well and step.error_m < self._gear.parameters.balance.stop_error_m
+        return stands_well and step.error_m < self._context.parameters.balance.stop_error_m
 
 
 class Stopping(_OnBothFeet):
@@ -318,7 +318,7 @@ class Stopping(_OnBothFeet):
 
     Parameters
     ----------
-    gear
+    context
         What the phases of the gait share.
     last_landed
         Side of the foot that landed last, which carries the robot first if it walks on.
@@ -329,11 +329,11 @@ class Stopping(_OnBothFeet):
 
     name = 'stop'
 
-    def __init__(self, gear: Gear, last_landed: int, zmp: Point) -> None:
-        super().__init__(gear)
+    def __init__(self, context: GaitContext, last_landed: int, zmp: Point) -> None:
+        super().__init__(context)
         self._last_landed = last_landed
-        way = ZmpSegment(gear.parameters.timing.stop_s, zmp, gear.footing.rest_point)
-        self._plan = gear.plan([way])
+        way = ZmpSegment(context.parameters.timing.stop_s, zmp, context.footing.rest_point)
+        self._plan = context.plan([way])
 
     def advance(self, now: GaitInput) -> Phase:
         """
@@ -351,13 +351,15 @@ class Stopping(_OnBothFeet):
 
         """
         self._elapsed_s += now.passed_s
-        p = self._gear.parameters
+        p = self._context.parameters
         if self._elapsed_s > p.timing.stop_s + _REST_S:
-            return Standing(self._gear)
-        if not self._gear.target.is_zero and self._elapsed_s < _RESUMABLE * p.timing.stop_s:
-            self._gear.approach_target(p.timing.step_s)
+            return Standing(self._context)
+        if not self._context.target.is_zero and self._elapsed_s < _RESUMABLE * p.timing.stop_s:
+            self._context.approach_target(p.timing.step_s)
             zmp = self._plan.at(self._elapsed_s).zmp_m
-            return Stepping(Step(self._gear, self._last_landed, p.timing.shift_s, zmp), self._gear)
+            return Stepping(
+                Step(self._context, self._last_landed, p.timing.shift_s, zmp), self._context
+            )
         return self
 
     def reference(self, now: GaitInput) -> BalanceReference:

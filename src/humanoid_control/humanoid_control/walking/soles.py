@@ -8,12 +8,12 @@ from dataclasses import replace
 from humanoid_control.dynamics.rotations import yaw_of
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.footing import Foothold, Footing
-from humanoid_control.walking.gear import SoleReading
+from humanoid_control.walking.gait_context import SoleReading
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import LEFT, RIGHT
-from humanoid_control.walking.terrain import Facet, tilt_of
+from humanoid_control.walking.state_estimator import RobotState
+from humanoid_control.walking.terrain import GroundPlane, tilt_of
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 def soles_below(
-    base_m: Array, robot: WalkingRobot, sensed: Sensed, parameters: WalkParameters
+    base_m: Array, robot: WalkingRobot, sensed: RobotState, parameters: WalkParameters
 ) -> tuple[SoleReading, SoleReading]:
     """
     Compute the poses of both soles, and the loads on them, for a position of the base.
@@ -54,7 +54,7 @@ def footing_below(
     robot: WalkingRobot,
     shape: FootShape,
     parameters: WalkParameters,
-    sensed: Sensed,
+    sensed: RobotState,
 ) -> Footing:
     """
     Compute the footholds of both feet for a base above a point of level ground.
@@ -80,23 +80,23 @@ def footing_below(
     """
     base_m = np.array([start_m.real, start_m.imag, 0.0])
     soles = soles_below(base_m, robot, sensed, parameters)
-    middle_m = sum(sole.facet.height_m for sole in soles) / len(soles)
+    middle_m = sum(sole.plane.height_m for sole in soles) / len(soles)
     return Footing(
         shape,
         [
-            Foothold(sole.pose, replace(sole.facet, height_m=sole.facet.height_m - middle_m))
+            Foothold(sole.pose, replace(sole.plane, height_m=sole.plane.height_m - middle_m))
             for sole in soles
         ],
     )
 
 
 def _reading(
-    side: int, base_m: Array, robot: WalkingRobot, sensed: Sensed, most_tilt_rad: float
+    side: int, base_m: Array, robot: WalkingRobot, sensed: RobotState, most_tilt_rad: float
 ) -> SoleReading:
     """Return one of the soles."""
     sole = robot.legs[side].sole
     x, y, z = (base_m + sensed.state.position_m(sole)).tolist()
     rotation = sensed.state.rotation(sole)
-    facet = Facet(z, tilt_of(rotation, most_tilt_rad))
+    plane = GroundPlane(z, tilt_of(rotation, most_tilt_rad))
     pose = PlanarPose(complex(x, y), yaw_of(rotation))
-    return SoleReading(pose, facet, sensed.loads[side], sensed.drags[side])
+    return SoleReading(pose, plane, sensed.loads[side], sensed.drags[side])

@@ -6,13 +6,13 @@ from __future__ import annotations
 from humanoid_control.walking.dcm_plan import BalanceReference, DcmPlan
 from humanoid_control.walking.footing import Foothold
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
+from humanoid_control.walking.gait_context import GaitContext, GaitInput, SoleReading
 from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
 from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
-from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.terrain import GroundPlane
 from humanoid_control.walking.turning import smooth_turn, Turning
 
 _INSTANT_S = 1e-4
@@ -25,7 +25,7 @@ class Step:
 
     Parameters
     ----------
-    gear
+    context
         What the phases of the gait share.
     support
         Side of the foot that carries the robot; the other one swings.
@@ -47,8 +47,8 @@ class Step:
 
     """
 
-    def __init__(self, gear: Gear, support: int, shift_s: float, zmp: Point) -> None:
-        self._gear = gear
+    def __init__(self, context: GaitContext, support: int, shift_s: float, zmp: Point) -> None:
+        self._context = context
         self.support = support
         self.side = other(support)
         self._shift_s = shift_s
@@ -58,18 +58,18 @@ class Step:
         self.elapsed_s = 0.0
         self.rate = 1.0
         self.error_m = 0.0
-        self._lifted_from = gear.footing[self.side]
+        self._lifted_from = context.footing[self.side]
         self._lift_off = self._lifted_from.pose
         self._foot = SwingFoot(self._lift_off)
-        p = gear.parameters
+        p = context.parameters
         self._lift = Lift(
             p.swing.height_m, p.timing.swing_s, p.swing.reach_down_m_s, p.swing.deepest_m
         )
-        self._tilt = gear.slope
+        self._tilt = context.slope
         self._has_touched = False
         self._lost_s = 0.0
         self._nominal = self._next_landing()
-        self._planned_for = gear.is_stopping
+        self._planned_for = context.is_stopping
         self._nominal_plan = self._planned(self._nominal)
         self._plan = self._nominal_plan
         self.landing = self._nominal
@@ -77,21 +77,21 @@ class Step:
     @property
     def end_s(self) -> float:
         """Return the time at which the foot lands by plan."""
-        return self._shift_s + self._gear.parameters.timing.swing_s
+        return self._shift_s + self._context.parameters.timing.swing_s
 
     @property
     def _adjustable_until_s(self) -> float:
-        return self.end_s - self._gear.parameters.step_adjustment.until_s
+        return self.end_s - self._context.parameters.step_adjustment.until_s
 
     @property
     def duration_s(self) -> float:
         """Return how long it has taken in fact, apart from a longer or shorter begin."""
-        return self._real_s + self._gear.parameters.timing.shift_s - self._shift_s
+        return self._real_s + self._context.parameters.timing.shift_s - self._shift_s
 
     @property
     def swing_phase(self) -> float:
         """Return which share of the swing has passed: 0 on both feet, above 1 if it is late."""
-        return max(0.0, self.elapsed_s - self._shift_s) / self._gear.parameters.timing.swing_s
+        return max(0.0, self.elapsed_s - self._shift_s) / self._context.parameters.timing.swing_s
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -101,7 +101,7 @@ class Step:
     @property
     def footsteps(self) -> list[Footstep]:
         """Return the steps that are planned, this one first."""
-        return self._gear.footsteps(self.landing, self.support)
+        return self._context.footsteps(self.landing, self.support)
 
     def advance(self, passed_s: float) -> None:
         """
@@ -116,7 +116,7 @@ class Step:
             The time since the last control period.
 
         """
-        p, before_s = self._gear.parameters, self.elapsed_s
+        p, before_s = self._context.parameters, self.elapsed_s
         self._passed_s = min(passed_s, p.swing.longest_tick_s)
         self._real_s += passed_s
         self.elapsed_s += passed_s * self.rate
@@ -138,11 +138,11 @@ class Step:
         """
         if self._has_touched or self.elapsed_s > self._adjustable_until_s:
             return
-        blockage = self._gear.guard.blockage
+        blockage = self._context.guard.blockage
         if blockage and blockage.leg is not None:
             # It is not where it was to be.
             self._foot = SwingFoot(now.soles[self.side].pose)
-        self._planned_for = self._gear.is_stopping
+        self._planned_for = self._context.is_stopping
         self._nominal = self.landing = self._in_time(self._next_landing())
         self._nominal_plan = self._plan = self._planned(self._nominal)
 
@@ -152,7 +152,7 @@ class Step:
             return landing
         start_m = self._foot.pose.position_m
         way_m = landing.position_m - start_m
-        most_m = self._gear.parameters.obstacles.turn_back_m_s * max(0.0, self._arrival_s)
+        most_m = self._context.parameters.obstacles.turn_back_m_s * max(0.0, self._arrival_s)
         if abs(way_m) <= most_m:
             return landing
         return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
@@ -172,7 +172,7 @@ class Step:
             None outside the swing and at its start, and once the foot bears load or has touched.
 
         """
-        p, sole = self._gear.parameters, now.soles[self.side]
+        p, sole = self._context.parameters, now.soles[self.side]
         swings = (
             p.obstacles.leg_touch_from_phase < self.swing_phase < 1.0 and not self._has_touched
         )
@@ -202,18 +202,18 @@ class Step:
         if not (self._touches(sole) or self._is_late):
             return
         self._has_touched = True
-        facet = Facet(sole.facet.height_m, self._tilt)
-        self._gear.footing.put(self.side, Foothold(sole.pose, facet))
+        plane = GroundPlane(sole.plane.height_m, self._tilt)
+        self._context.footing.put(self.side, Foothold(sole.pose, plane))
 
     def _notice_loss(self, sole: SoleReading, passed_s: float) -> None:
         """Let the foot swing on if it no longer touches anything before it should have landed."""
-        p = self._gear.parameters
+        p = self._context.parameters
         bears = sole.load > p.swing.lost_load or self.swing_phase > 1.0
         self._lost_s = 0.0 if bears else self._lost_s + passed_s
         if self._lost_s < p.swing.lost_s:
             return
         self._has_touched, self._lost_s = False, 0.0
-        self._gear.footing.put(self.side, self._lifted_from)
+        self._context.footing.put(self.side, self._lifted_from)
         self._foot = SwingFoot(sole.pose)
         if self._arrival_s < p.swing.least_s:
             self.landing = sole.pose
@@ -229,7 +229,7 @@ class Step:
             What the gait knows of the robot at this tick.
 
         """
-        p, phase = self._gear.parameters, self.swing_phase
+        p, phase = self._context.parameters, self.swing_phase
         bears = now.soles[self.side].load > p.swing.touchdown_load or phase > 1.0
         return self._is_late or (self._has_touched and phase > p.swing.landing_phase and bears)
 
@@ -254,7 +254,7 @@ class Step:
     @property
     def turning(self) -> Turning:
         """Return the mean heading of the feet on its way from lift-off to landing."""
-        support = self._gear.footing.pose(self.support)
+        support = self._context.footing.pose(self.support)
         before, after = support.halfway(self._lift_off), support.halfway(self.landing)
         turning = smooth_turn(before.yaw_rad, after.yaw_rad, self.elapsed_s, self.end_s)
         return Turning(turning.heading_rad, turning.rate_rad_s * self.rate)
@@ -268,13 +268,13 @@ class Step:
         remaining_s = self._arrival_s + passed_s
         foot = self._foot
         foot.advance(self.landing, remaining_s, passed_s)
-        start, rise_m = self._gear.footing[self.side].facet, self._rise_m
+        start, rise_m = self._context.footing[self.side].plane, self._rise_m
         height_m, climb_m_s, climb_m_s2 = self._lift.at(in_air_s, rise_m)
         share = min(1.0, self.swing_phase)
-        self._tilt = start.tilt + share * (self._gear.slope - start.tilt)
+        self._tilt = start.tilt + share * (self._context.slope - start.tilt)
         motion = SoleMotion(
             foot.pose,
-            Facet(start.height_m + height_m, self._tilt),
+            GroundPlane(start.height_m + height_m, self._tilt),
             foot.velocity_m_s,
             climb_m_s * self.rate,
             foot.turn_rad_s,
@@ -287,65 +287,65 @@ class Step:
     @property
     def _arrival_s(self) -> float:
         """How long it takes the foot to be above its landing."""
-        p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
+        p, in_air_s = self._context.parameters, self.elapsed_s - self._shift_s
         return (p.swing.early_arrival * p.timing.swing_s - in_air_s) / self.rate
 
     @property
     def _rise_m(self) -> float:
         """Return how much higher the ground is expected at the landing than at the lift-off."""
-        footing, slope = self._gear.footing, self._gear.slope
+        footing, slope = self._context.footing, self._context.slope
         way_m = self.landing.position_m - footing.pose(self.support).position_m
-        landing_m = footing[self.support].facet.height_beside(way_m, slope)
-        return landing_m - footing[self.side].facet.height_m
+        landing_m = footing[self.support].plane.height_beside(way_m, slope)
+        return landing_m - footing[self.side].plane.height_m
 
     @property
     def _is_late(self) -> bool:
         """Tell whether the foot should have landed long ago."""
-        return self.elapsed_s > self.end_s + self._gear.parameters.swing.late_touchdown_s
+        return self.elapsed_s > self.end_s + self._context.parameters.swing.late_touchdown_s
 
     def _touches(self, sole: SoleReading) -> bool:
         """Tell whether the foot meets the ground while it goes down."""
-        p, phase = self._gear.parameters, self.swing_phase
+        p, phase = self._context.parameters, self.swing_phase
         enough = p.swing.touch_load if phase > p.swing.gentle_phase else p.swing.touchdown_load
         # Friction on the front of an obstacle is no ground.
         is_below = abs(sole.drag) < sole.load
         return phase > p.swing.touchdown_phase and sole.load > enough and is_below
 
     def _next_landing(self) -> PlanarPose:
-        """Return where the foot lands by plan, on the robot's course unless it stops."""
-        planner, support = self._gear.planner, self._gear.footing.pose(self.support)
+        """Return where the foot lands by plan, on the reference path unless it stops."""
+        planner, support = self._context.planner, self._context.footing.pose(self.support)
         start = planner.middle_beside(support, self.support)
-        if not self._gear.is_stopping:
-            start = self._gear.course.corrected(start)
-        goal = planner.next_middle(start, self.support, self._gear.command)
+        if not self._context.is_stopping:
+            start = self._context.path.corrected(start)
+        goal = planner.next_middle(start, self.support, self._context.command)
         landing = planner.landing(support, self.support, goal)
-        return PlanarPose(self._gear.guard.kept_off(landing.position_m), landing.yaw_rad)
+        return PlanarPose(self._context.guard.kept_off(landing.position_m), landing.yaw_rad)
 
     def _planned(self, landing: PlanarPose) -> DcmPlan:
         """Return the plan from the begin of the step to rest for a landing."""
-        steps = self._gear.footsteps(landing, self.support)
-        return self._gear.plan(
-            self._gear.step_segments(self.support, steps, self._start_m, self._shift_s)
+        steps = self._context.footsteps(landing, self.support)
+        return self._context.plan(
+            self._context.step_segments(self.support, steps, self._start_m, self._shift_s)
         )
 
     def _replan_if_stopping_changed(self) -> None:
         """Plan the rest of the way anew when it has become the last step, or no longer is."""
-        if self._gear.is_stopping != self._planned_for:
-            self._planned_for = self._gear.is_stopping
+        if self._context.is_stopping != self._planned_for:
+            self._planned_for = self._context.is_stopping
             self._nominal_plan = self._planned(self._nominal)
             self._plan = self._planned(self.landing)
 
     def _adjust(self, now: GaitInput, time_s: float) -> None:
         """Move and hurry the landing as far as the robot needs it."""
-        support = self._gear.footing.pose(self.support)
+        support = self._context.footing.pose(self.support)
         residual = Residual.of(
             self._nominal_plan.at(time_s),
             now.dcm_m,
-            self._gear.parameters.balance.dcm_gain,
-            self._gear.footing.polygon(self.sides),
+            self._context.parameters.balance.dcm_gain,
+            self._context.footing.polygon(self.sides),
             support,
         )
-        adjustment = self._gear.adjuster.adjusted(
+        adjustment = self._context.adjuster.adjusted(
             self._nominal,
             support,
             self.support,

@@ -8,7 +8,7 @@ import math
 
 from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.terrain import Facet, LEVEL
+from humanoid_control.walking.terrain import GroundPlane, LEVEL
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,7 +20,7 @@ class SoleMotion:
     """Where a sole is to be, and how it is to move."""
 
     pose: PlanarPose
-    facet: Facet = LEVEL
+    plane: GroundPlane = LEVEL
     velocity_m_s: Point = 0j
     climb_m_s: float = 0.0
     turn_rad_s: float = 0.0

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Facet:
+class GroundPlane:
     """A plane piece of ground, or a sole on it."""
 
     height_m: float = 0.0
@@ -59,7 +59,7 @@ class Facet:
         offset_m
             How far away the point is, horizontally, in the axes of the odom frame.
         tilt
-            Of the ground between the two, as `Facet.tilt`.
+            Of the ground between the two, as `GroundPlane.tilt`.
 
         Returns
         -------
@@ -70,7 +70,7 @@ class Facet:
         return self.height_m - dot(tilt, offset_m)
 
 
-LEVEL = Facet()
+LEVEL = GroundPlane()
 
 
 def tilt_of(rotation: Array, most_rad: float) -> Point:
@@ -87,7 +87,7 @@ def tilt_of(rotation: Array, most_rad: float) -> Point:
     Returns
     -------
     Point
-        As `Facet.tilt`, in the axes of the odom frame.
+        As `GroundPlane.tilt`, in the axes of the odom frame.
 
     """
     tilt = complex(rotation[0, 2], rotation[1, 2])

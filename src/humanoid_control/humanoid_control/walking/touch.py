@@ -17,8 +17,8 @@ import math
 
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import Point
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import NAMES
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
@@ -64,12 +64,12 @@ class TouchObserver:
         self._hips = _joints(robot, 'hip_pitch', 'hip_roll')
         self._shoulders = _joints(robot, 'shoulder', 'shoulder_roll')
         self._arms = [joint for joints in self._shoulders for joint in joints]
-        self._last: Sensed | None = None
+        self._last: RobotState | None = None
         self._outside_nm: Array = np.zeros(len(robot.body.joints))
         self._borne_nm: Array = np.zeros_like(self._outside_nm)
         """(n,) what arms bore while the robot stood: a load, and a hand that is bent."""
 
-    def rest(self, sensed: Sensed) -> None:
+    def rest(self, sensed: RobotState) -> None:
         """
         Learn what load the arms bear while the robot stands.
 
@@ -85,7 +85,7 @@ class TouchObserver:
         self._outside_nm[:] = 0.0
         self._outside_nm[self._arms] = self._borne_nm[self._arms]
 
-    def update(self, sensed: Sensed) -> Touch:
+    def update(self, sensed: RobotState) -> Touch:
         """
         Estimate the moments of external contacts about hips and shoulders.
 
@@ -107,7 +107,7 @@ class TouchObserver:
         arms = [self._moment(*joints, ahead, self._borne_nm) for joints in self._shoulders]
         return Touch((legs[0], legs[1]), (arms[0], arms[1]))
 
-    def _follow(self, followed_nm: Array, sensed: Sensed, rate_1_s: float) -> bool:
+    def _follow(self, followed_nm: Array, sensed: RobotState, rate_1_s: float) -> bool:
         """Let an estimate (n,) follow what comes from outside; return whether that is known."""
         last, self._last = self._last, sensed
         passed_s = sensed.time_s - last.time_s if last else 0.0
@@ -127,7 +127,7 @@ class TouchObserver:
         return complex(-outside_nm[pitch], outside_nm[roll]) * ahead
 
 
-def _outside(last: Sensed, now: Sensed, passed_s: float) -> Array:
+def _outside(last: RobotState, now: RobotState, passed_s: float) -> Array:
     """Return the mean efforts (n,) between two moments that come from outside."""
     state = now.state
     turned = state.base_angular_velocity_rad_s - last.state.base_angular_velocity_rad_s

@@ -9,12 +9,12 @@ from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.body_pose import BodyPose, BodyPoseFollower, UPRIGHT
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
-from humanoid_control.walking.conforming import Conforming
 from humanoid_control.walking.external_force import ForceObserver
 from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.foothold_adaptation import FootholdAdaptation
 from humanoid_control.walking.footing import Footing, loads_for
 from humanoid_control.walking.gait import Gait, GaitOutput
-from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
+from humanoid_control.walking.gait_context import GaitContext, GaitInput, SoleReading
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.inverse_dynamics import InverseDynamics
 from humanoid_control.walking.parameters import WalkParameters
@@ -22,9 +22,9 @@ from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion, Pendulum
 from humanoid_control.walking.phases import STAND
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import PlannedAcceleration, within
-from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.soles import footing_below, soles_below
+from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.terrain import GroundLevel, LevelFloor
 from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
@@ -76,14 +76,14 @@ class Walk:
         shape: FootShape,
         home: HomePosture,
         parameters: WalkParameters,
-        sensed: Sensed,
+        sensed: RobotState,
         start_m: Point,
     ) -> None:
         self._robot = robot
         self._parameters = parameters
         self._pendulum = Pendulum(home.com_height_m)
         self._footing = footing_below(start_m, robot, shape, parameters, sensed)
-        self.gait = Gait(Gear(parameters, self._pendulum, self._footing))
+        self.gait = Gait(GaitContext(parameters, self._pendulum, self._footing))
         self._observer = ComObserver(self._pendulum, parameters.balance.observer_rate_1_s)
         self._reference = ComReference(
             self._pendulum,
@@ -92,7 +92,7 @@ class Walk:
         )
         self._whole_body = WholeBody(robot, home, parameters)
         self._dynamics = InverseDynamics(robot, parameters, self._footing)
-        self._conforming = Conforming(parameters)
+        self._adaptation = FootholdAdaptation(parameters)
         self._level = GroundLevel(
             parameters.terrain.level_rate_1_s,
             parameters.terrain.level_leak_1_s,
@@ -157,7 +157,7 @@ class Walk:
         if self.body.is_upright and not was_upright:
             self._obey()
 
-    def update(self, sensed: Sensed) -> JointTargets:
+    def update(self, sensed: RobotState) -> JointTargets:
         """
         Compute the joint targets of the next control period.
 
@@ -199,14 +199,14 @@ class Walk:
             output.swing,
         )
         plan = self._planned(output, joints)
-        exertion = self._dynamics.exertion(
+        torques = self._dynamics.torques(
             sensed, self._base_above_ground_m, output, plan, self.body
         )
-        self._shares = exertion.shares
+        self._shares = torques.shares
         velocities = within(joints.velocities_rad_s, self._parameters.joints.velocity_limit_rad_s)
-        return JointTargets(joints.positions_rad, velocities, exertion.efforts_nm)
+        return JointTargets(joints.positions_rad, velocities, torques.efforts_nm)
 
-    def lie(self, sensed: Sensed) -> None:
+    def lie(self, sensed: RobotState) -> None:
         """
         Update the base estimate of a robot that is down.
 
@@ -255,8 +255,8 @@ class Walk:
         """Adapt to the ground under the feet."""
         in_air = output.swing.side if output.swing else None
         shares = loads_for(self._footing, output.sides, output.zmp_m).shares
-        self._conforming.update(self._footing, soles, shares, in_air, passed_s)
-        self._floor.update([self._footing[side].facet.height_m for side in SIDES], in_air)
+        self._adaptation.update(self._footing, soles, shares, in_air, passed_s)
+        self._floor.update([self._footing[side].plane.height_m for side in SIDES], in_air)
         com_m = float(self.base.position_m[2] + self.sensed.state.com_m[2])
         self._level.update(
             self._footing.height_m(shares),

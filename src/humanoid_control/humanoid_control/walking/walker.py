@@ -16,8 +16,8 @@ from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.recovery import Recovery
-from humanoid_control.walking.senses import Sensed, Senses
 from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.state_estimator import RobotState, StateEstimator
 from humanoid_control.walking.status import WalkStatus
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walk import Walk
@@ -40,7 +40,7 @@ class Walker:
     home: HomePosture
     parameters: WalkParameters
     imu: ImuNoise = field(default_factory=ImuNoise)
-    _senses: Senses = field(init=False)
+    _estimator: StateEstimator = field(init=False)
     _velocity: VelocityCommand = field(init=False, default=STANDING)
     _body: BodyPose = field(init=False, default=UPRIGHT)
     _walk: Walk | None = field(init=False, default=None)
@@ -51,7 +51,7 @@ class Walker:
 
     def __post_init__(self) -> None:
         """Begin."""
-        self._senses = Senses(self.robot)
+        self._estimator = StateEstimator(self.robot)
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._recovery = Recovery(self.robot, self.home, self.parameters)
 
@@ -97,7 +97,7 @@ class Walker:
 
     def reset(self) -> None:
         """Forget everything: the robot has been put somewhere, and odometry begins anew."""
-        self._senses = Senses(self.robot)
+        self._estimator = StateEstimator(self.robot)
         self._recovery = Recovery(self.robot, self.home, self.parameters)
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._start_m = 0j
@@ -178,14 +178,15 @@ class Walker:
         Raises
         ------
         WalkingError
-            The observation has the wrong lengths, or what `Senses.read` needs of it is not finite.
+            The observation has the wrong lengths, or what `StateEstimator.read` needs of it is not
+            finite.
 
         """
         last_s = self._walk.sensed.time_s if self._walk else None
         if self._targets and last_s is not None and observation.time_s <= last_s:
             return self._targets
         own = self.robot.own(observation)
-        sensed = self._senses.read(own)
+        sensed = self._estimator.read(own)
         walk = self._walk or self._begin(sensed)
         targets = self._recover(walk, sensed, own.positions_rad)
         if targets is None:
@@ -211,7 +212,7 @@ class Walker:
         if self._walk:
             self.hold(self._walk.body.pose)
 
-    def _begin(self, sensed: Sensed) -> Walk:
+    def _begin(self, sensed: RobotState) -> Walk:
         """Begin to walk from where the feet are."""
         self._walk = Walk(
             self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
@@ -219,7 +220,9 @@ class Walker:
         self._walk.command(self._velocity, self._body)
         return self._walk
 
-    def _recover(self, walk: Walk, sensed: Sensed, positions_rad: Array) -> JointTargets | None:
+    def _recover(
+        self, walk: Walk, sensed: RobotState, positions_rad: Array
+    ) -> JointTargets | None:
         """Return the targets of a robot that has fallen; None if it walks, maybe from now on."""
         was_down = self.has_fallen
         stance = Stance.of(self.robot, sensed)

@@ -82,7 +82,7 @@ class WholeBody:
         """
         positions: Array = self._home.positions_rad.copy()
         joints = JointMotion(positions, np.zeros_like(positions), np.zeros_like(positions))
-        soles = [SoleMotion(footing.pose(side), footing[side].facet) for side in SIDES]
+        soles = [SoleMotion(footing.pose(side), footing[side].plane) for side in SIDES]
         bases = [wanted, wanted]
         if swing:
             soles[swing.side] = swing.sole
@@ -97,10 +97,10 @@ class WholeBody:
     ) -> None:
         """Set the joints of a leg so that its sole is in a place."""
         leg, point, speed = self._robot.legs[side], sole.pose.position_m, sole.velocity_m_s
-        place = np.array([point.real, point.imag, sole.facet.height_m])
+        place = np.array([point.real, point.imag, sole.plane.height_m])
         velocity = np.array([speed.real, speed.imag, sole.climb_m_s])
         turn = np.array([0.0, 0.0, sole.turn_rad_s])
-        frame = Frame(place, sole.facet.rotation(sole.pose.yaw_rad)).seen_from(base.frame)
+        frame = Frame(place, sole.plane.rotation(sole.pose.yaw_rad)).seen_from(base.frame)
         twist = Twist(velocity, turn).seen_from(base.frame, base.twist, place)
         posture = leg_posture(leg.geometry, frame)
         joints.positions_rad[leg.indices] = posture.positions_rad

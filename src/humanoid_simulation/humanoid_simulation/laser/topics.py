@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from humanoid_common.qos import SENSOR
-from humanoid_control.hosting.every import Every
+from humanoid_control.hosting.rate_limiter import RateLimiter
 from humanoid_control.hosting.topics.filling import fill_stamp, topic
 from humanoid_simulation.laser.parameters import LaserParameters
 from humanoid_simulation.laser.scanner import LaserScanner, Ranges, ScanNoise
@@ -113,7 +113,7 @@ class ScanTopics:
             The parameters, of which `scan_rate_hz` counts.
 
         """
-        self._due = Every(settings.scan_rate_hz)
+        self._due = RateLimiter(settings.scan_rate_hz)
         for scanner in self._scanners:
             rate_hz = settings.scan_rate_hz
             scanner.message.scan_time = 1.0 / rate_hz if rate_hz > 0.0 else 0.0

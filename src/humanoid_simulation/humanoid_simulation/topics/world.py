@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from humanoid_control.backends import Observation
-from humanoid_control.hosting.every import Every
+from humanoid_control.hosting.rate_limiter import RateLimiter
 from humanoid_simulation.simulated_robots import SimulatedRobots
 from humanoid_simulation.simulator_parameters import SimulatorParameters
 from humanoid_simulation.topics.clock import ClockTopic
@@ -57,11 +57,11 @@ class WorldTopics:
             The parameters of the simulator.
 
         """
-        self._clock_due = Every(parameters.clock_rate_hz)
-        self._truth_due = Every(parameters.ground_truth_rate_hz)
-        self._wrenches_due = Every(parameters.wrench_rate_hz)
-        self._contacts_due = Every(parameters.contacts_rate_hz)
-        self._frames_due = Every(parameters.world_frame_rate_hz)
+        self._clock_due = RateLimiter(parameters.clock_rate_hz)
+        self._truth_due = RateLimiter(parameters.ground_truth_rate_hz)
+        self._wrenches_due = RateLimiter(parameters.wrench_rate_hz)
+        self._contacts_due = RateLimiter(parameters.contacts_rate_hz)
+        self._frames_due = RateLimiter(parameters.world_frame_rate_hz)
         self._scene.change(parameters)
 
     def change_scene(self) -> None:

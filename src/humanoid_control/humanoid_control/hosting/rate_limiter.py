@@ -6,7 +6,7 @@ from __future__ import annotations
 _ROUNDING_S = 1e-6
 
 
-class Every:
+class RateLimiter:
     """
     Rate limiter in the robot's time; the first call is due at once.
 

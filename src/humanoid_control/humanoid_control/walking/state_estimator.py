@@ -18,7 +18,7 @@ from humanoid_control.walking.walking_robot import WalkingRobot
 
 
 @dataclass(frozen=True, eq=False)
-class Sensed:
+class RobotState:
     """The robot at a moment, its base turned as in the frame of the odometry."""
 
     time_s: float
@@ -34,9 +34,9 @@ class Sensed:
     """(3,) of the inertial sensor, in the axes of the odometry, without gravity"""
 
 
-class Senses:
+class StateEstimator:
     """
-    State estimator that turns each observation into a `Sensed`.
+    State estimator that turns each observation into a `RobotState`.
 
     The first observation sets the zero of the heading.
 
@@ -52,7 +52,7 @@ class Senses:
         self._heading = HeadingFrame(robot.imu_in_base)
         self._weight_n = robot.body.mass_kg * GRAVITY_M_S2
 
-    def read(self, observation: Observation) -> Sensed:
+    def read(self, observation: Observation) -> RobotState:
         """
         Estimate the state of the robot from an observation.
 
@@ -63,7 +63,7 @@ class Senses:
 
         Returns
         -------
-        Sensed
+        RobotState
             The robot state in the axes of the odom frame: x is the first heading of the base.
 
         Raises
@@ -87,7 +87,7 @@ class Senses:
             raise WalkingError(f'Nobody can walk by this observation: {error}') from error
         left_n, right_n = observation.foot_forces_n[:, 2].tolist()
         x, y, z = rates.tolist()
-        return Sensed(
+        return RobotState(
             observation.time_s,
             state,
             Attitude(*to_rpy(rotation), (x, y, z)),

@@ -4,17 +4,17 @@
 from __future__ import annotations
 
 from humanoid_control.walking import WalkParameters
-from humanoid_control.walking.conforming import Conforming
 from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.foothold_adaptation import FootholdAdaptation
 from humanoid_control.walking.footing import Foothold, Footing
-from humanoid_control.walking.gear import SoleReading
+from humanoid_control.walking.gait_context import SoleReading
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, RIGHT
-from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.terrain import GroundPlane
 from humanoid_description.robot import Robot
 import pytest
 
-TILTED = Facet(0.01, 0.05 + 0.02j)
+TILTED = GroundPlane(0.01, 0.05 + 0.02j)
 
 
 @pytest.fixture(name='footing')
@@ -28,10 +28,10 @@ def conformed(
     footing: Footing, load: float, shares: tuple[float, float], in_air: int | None, seconds: float
 ) -> Footing:
     """Return the feet after a time in which both soles were measured tilted, and so much load."""
-    conforming = Conforming(WalkParameters())
+    adaptation = FootholdAdaptation(WalkParameters())
     for _ in range(round(seconds / 0.01)):
         left, right = (SoleReading(footing.pose(side), TILTED, load) for side in (LEFT, RIGHT))
-        conforming.update(footing, (left, right), shares, in_air, 0.01)
+        adaptation.update(footing, (left, right), shares, in_air, 0.01)
     return footing
 
 
@@ -39,25 +39,25 @@ def test_loaded_feet_take_over_tilt_and_height(footing: Footing) -> None:
     """In the end they are told to be as they are."""
     conformed(footing, 0.5, (0.5, 0.5), None, 2.0)
     for side in (LEFT, RIGHT):
-        assert footing[side].facet.tilt == pytest.approx(TILTED.tilt, abs=1e-4)
-        assert footing[side].facet.height_m == pytest.approx(TILTED.height_m, abs=1e-4)
+        assert footing[side].plane.tilt == pytest.approx(TILTED.tilt, abs=1e-4)
+        assert footing[side].plane.height_m == pytest.approx(TILTED.height_m, abs=1e-4)
 
 
 def test_a_foot_without_weight_is_not_turned(footing: Footing) -> None:
     """Nothing but the robot itself tilts it; but it is pressed down."""
     conformed(footing, 0.0, (0.0, 1.0), None, 0.2)
-    assert footing[LEFT].facet.tilt == 0j
-    assert footing[LEFT].facet.height_m < TILTED.height_m
+    assert footing[LEFT].plane.tilt == 0j
+    assert footing[LEFT].plane.height_m < TILTED.height_m
 
 
 def test_a_foot_in_the_air_is_left_alone(footing: Footing) -> None:
     """It will conform when it has landed."""
     conformed(footing, 0.5, (0.0, 1.0), LEFT, 1.0)
-    assert footing[LEFT].facet == Facet()
-    assert footing[RIGHT].facet.tilt == pytest.approx(TILTED.tilt, abs=1e-3)
+    assert footing[LEFT].plane == GroundPlane()
+    assert footing[RIGHT].plane.tilt == pytest.approx(TILTED.tilt, abs=1e-3)
 
 
 def test_the_foot_that_carries_all_keeps_its_height(footing: Footing) -> None:
     """It is what heights are measured from."""
     conformed(footing, 1.0, (1.0, 0.0), RIGHT, 1.0)
-    assert footing[LEFT].facet.height_m == 0.0
+    assert footing[LEFT].plane.height_m == 0.0

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from functools import partial
 
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_control.hosting import rivals
-from humanoid_control.hosting.rivals import Rivals
+from humanoid_control.hosting import duplicate_publishers
+from humanoid_control.hosting.duplicate_publishers import DuplicatePublisherCheck
 import pytest
 from rcl_interfaces.msg import Log
 from rclpy.node import Node
@@ -24,12 +24,12 @@ def _ros() -> Iterator[RosSandbox]:
 
 def test_a_rival_is_said_once(ros: RosSandbox, monkeypatch: pytest.MonkeyPatch) -> None:
     """A second publisher is named, once as long as it stays, and again when it comes back."""
-    monkeypatch.setattr(rivals, 'PERIOD_S', 0.02)
+    monkeypatch.setattr(duplicate_publishers, 'PERIOD_S', 0.02)
     said: list[str] = []
     node = ros.observer()
     node.create_subscription(Log, '/rosout', lambda message: said.append(message.msg), 10)
     node.create_publisher(JointState, 'joint_states', 1)
-    Rivals(node, ['joint_states'])
+    DuplicatePublisherCheck(node, ['joint_states'])
     for count in (1, 2):
         rival = node.create_publisher(JointState, 'joint_states', 1)
         ros.wait_until(partial(_are_as_many, said, count), what='a warning')
@@ -48,6 +48,6 @@ def _are_as_many(said: list[str], count: int) -> bool:
 def _let_it_look(ros: RosSandbox, node: Node) -> None:
     """Let it look a few times."""
     ticks: list[None] = []
-    timer = node.create_timer(rivals.PERIOD_S, lambda: ticks.append(None))
+    timer = node.create_timer(duplicate_publishers.PERIOD_S, lambda: ticks.append(None))
     ros.wait_until(lambda: len(ticks) > 5, what='further looks')
     node.destroy_timer(timer)

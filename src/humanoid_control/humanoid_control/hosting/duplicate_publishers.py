@@ -11,7 +11,7 @@ from rclpy.node import Node
 PERIOD_S = 3.0
 
 
-class Rivals:
+class DuplicatePublisherCheck:
     """
     Duplicate publisher check: warns of topics with another publisher, as from a second simulator.
 
@@ -36,12 +36,12 @@ class Rivals:
         self._timer = node.create_timer(PERIOD_S, self._look, clock=steady)
 
     def _look(self) -> None:
-        """Warn of rivals that are there for a while, once as long as they stay."""
-        rivals = {topic for topic in self._topics if self._node.count_publishers(topic) > 1}
-        lasting = rivals & self._seen
+        """Warn of duplicates that are there for a while, once as long as they stay."""
+        duplicates = {topic for topic in self._topics if self._node.count_publishers(topic) > 1}
+        lasting = duplicates & self._seen
         if lasting - self._said:
             self._node.get_logger().warning(sentence(sorted(lasting - self._said)))
-        self._seen, self._said = rivals, lasting
+        self._seen, self._said = duplicates, lasting
 
 
 def sentence(topics: Sequence[str]) -> str:

@@ -9,7 +9,7 @@ from humanoid_control.walking.planar import limited, PlanarPose
 from humanoid_control.walking.velocity_command import VelocityCommand
 
 
-class Course:
+class ReferencePath:
     """
     Path tracking: where the middle between the feet would be if all steps landed as planned.
 
@@ -36,7 +36,7 @@ class Course:
         """
         Correct the start of the next step towards the reference path.
 
-        The first call starts the path. It is kept within `course_distance_m` and `course_turn_rad`
+        The first call starts the path. It is kept within `path_distance_m` and `path_turn_rad`
         of the robot, so that large pushes are not made up for.
 
         Parameters
@@ -47,7 +47,7 @@ class Course:
         Returns
         -------
         PlanarPose
-            Pose to plan from, in the odom frame: a fraction `course_gain` of the way to the path.
+            Pose to plan from, in the odom frame: a fraction `path_gain` of the way to the path.
 
         """
         p = self._planner.parameters
@@ -55,14 +55,14 @@ class Course:
             self._middle = middle
         off_m = self._middle.position_m - middle.position_m
         off_m *= min(
-            1.0, p.footsteps.course_distance_m / max(abs(off_m), p.footsteps.course_distance_m)
+            1.0, p.footsteps.path_distance_m / max(abs(off_m), p.footsteps.path_distance_m)
         )
         turn_rad = wrap_angle(self._middle.yaw_rad - middle.yaw_rad)
-        turn_rad = limited(turn_rad, -p.footsteps.course_turn_rad, p.footsteps.course_turn_rad)
+        turn_rad = limited(turn_rad, -p.footsteps.path_turn_rad, p.footsteps.path_turn_rad)
         self._middle = PlanarPose(middle.position_m + off_m, middle.yaw_rad + turn_rad)
         return PlanarPose(
-            middle.position_m + p.footsteps.course_gain * off_m,
-            middle.yaw_rad + p.footsteps.course_gain * turn_rad,
+            middle.position_m + p.footsteps.path_gain * off_m,
+            middle.yaw_rad + p.footsteps.path_gain * turn_rad,
         )
 
     def advance(self, support: int, command: VelocityCommand, time_s: float) -> None:

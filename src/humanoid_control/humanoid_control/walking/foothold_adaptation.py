@@ -6,13 +6,13 @@ from __future__ import annotations
 import math
 
 from humanoid_control.walking.footing import Foothold, Footing
-from humanoid_control.walking.gear import SoleReading
+from humanoid_control.walking.gait_context import SoleReading
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.sides import SIDES
-from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.terrain import GroundPlane
 
 
-class Conforming:
+class FootholdAdaptation:
     """
     Foothold adaptation: takes over the tilt and the height at which soles come to rest.
 
@@ -62,12 +62,12 @@ class Conforming:
                 self._since_s[side] = 0.0
                 continue
             self._since_s[side] += passed_s
-            facet = self._facet(side, footing[side].facet, soles[side], shares[side], passed_s)
-            footing.conform(side, Foothold(footing.pose(side), facet))
+            plane = self._plane(side, footing[side].plane, soles[side], shares[side], passed_s)
+            footing.adapt(side, Foothold(footing.pose(side), plane))
 
-    def _facet(
-        self, side: int, told: Facet, sole: SoleReading, share: float, passed_s: float
-    ) -> Facet:
+    def _plane(
+        self, side: int, told: GroundPlane, sole: SoleReading, share: float, passed_s: float
+    ) -> GroundPlane:
         """Return the plane in which a sole is to be from now on."""
         p, height_m = self._parameters, told.height_m
         if share <= 0.0 and sole.load < p.swing.touchdown_load:
@@ -78,7 +78,7 @@ class Conforming:
         turned = 1.0 - math.exp(-rate_1_s * passed_s)
         # The base is where the feet that carry say; so only the others can be measured from it.
         lifted = 1.0 - math.exp(-p.terrain.adapt_height_1_s * (1.0 - share) * passed_s)
-        return Facet(
-            height_m + lifted * (sole.facet.height_m - height_m),
-            told.tilt + turned * (sole.facet.tilt - told.tilt),
+        return GroundPlane(
+            height_m + lifted * (sole.plane.height_m - height_m),
+            told.tilt + turned * (sole.plane.tilt - told.tilt),
         )

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from humanoid_control.walking.course import Course
 from humanoid_control.walking.dcm_plan import DcmPlan, ZmpSegment
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner
@@ -13,9 +12,10 @@ from humanoid_control.walking.obstacle_guard import Contact, LegInAir, ObstacleG
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Pendulum
 from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.reference_path import ReferencePath
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.step_adjustment import StepAdjuster
-from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.terrain import GroundPlane
 from humanoid_control.walking.touch import NOTHING, Touch
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
@@ -25,7 +25,7 @@ class SoleReading:
     """Where a sole is measured to be, and the weight on it."""
 
     pose: PlanarPose
-    facet: Facet
+    plane: GroundPlane
     load: float
     """As a share of the robot's weight."""
     drag: Point = 0j
@@ -50,7 +50,7 @@ class GaitInput:
 
 
 @dataclass
-class Gear:
+class GaitContext:
     """The rules of the gait, the feet, and the velocity: as it is wanted and as it is now."""
 
     parameters: WalkParameters
@@ -66,14 +66,14 @@ class Gear:
     """The tilt of the ground ahead."""
     planner: FootstepPlanner = field(init=False)
     adjuster: StepAdjuster = field(init=False)
-    course: Course = field(init=False)
+    path: ReferencePath = field(init=False)
     guard: ObstacleGuard = field(init=False)
 
     def __post_init__(self) -> None:
         """Make what plans with the parameters."""
         self.planner = FootstepPlanner(self.parameters)
         self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
-        self.course = Course(self.planner)
+        self.path = ReferencePath(self.planner)
         self.guard = ObstacleGuard(self.parameters)
 
     def heed_obstacles(self, now: GaitInput, leg: LegInAir | None) -> bool:
@@ -106,7 +106,7 @@ class Gear:
         )
         if met:
             self.command = STANDING
-            self.course.restart()
+            self.path.restart()
         return met
 
     def approach_target(self, time_s: float) -> None:
