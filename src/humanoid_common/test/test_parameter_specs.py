@@ -93,6 +93,8 @@ def test_unknown_name_far_from_all() -> None:
     """A parameter like no other is met with the list of all."""
     [warning] = unknown_parameter_warnings(['zzz'], ['rate_hz', 'joints'])
     assert 'It has: joints, rate_hz.' in warning
+    (warning,) = unknown_parameter_warnings(['zzz'], specs_of(Grouped))
+    assert 'It has: inside.*, name.' in warning
 
 
 def test_known_names() -> None:

@@ -31,5 +31,6 @@ def unknown_parameter_warnings(given: Iterable[str], known: Iterable[str]) -> li
 
 def _warning(name: str, known: list[str]) -> str:
     """Build the warning for one unknown name."""
-    advice = did_you_mean(name, known) or f'It has: {", ".join(known)}.'
+    groups = sorted({each.partition('.')[0] + '.*' if '.' in each else each for each in known})
+    advice = did_you_mean(name, known) or f'It has: {", ".join(groups)}.'
     return f"Ignored the value of '{name}': this node has no such parameter. {advice}"
