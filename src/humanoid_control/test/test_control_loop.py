@@ -49,7 +49,7 @@ def test_trajectory() -> None:
     robot = fleet.robots['robot2']
     robot.run(['right_elbow'], [TrajectoryPoint(1.0, [-0.6])])
     fleet.run(2)
-    with pytest.raises(CommandError, match="'right_elbow' belongs to 'joint_trajectory'"):
+    with pytest.raises(CommandError, match="'right_elbow' is claimed by 'joint_trajectory'"):
         robot.follow(['right_elbow'], [0.1])
     robot.follow(['left_elbow'], [0.1])
     assert fleet.run(200)['robot2'] == pytest.approx([0.1, -0.6, 0.2], abs=1e-3)

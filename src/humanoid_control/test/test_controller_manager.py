@@ -113,7 +113,7 @@ def test_mode_moves_all_joints() -> None:
     assert robot.manager.owner('left_elbow') == 'walking'
 
 
-def test_lent_joint_and_back() -> None:
+def test_claimed_joint_and_back() -> None:
     """A commanded joint goes to its follower and, when that is silent, back; nothing jumps."""
     robot = Robot()
     robot.run(100)
@@ -132,15 +132,15 @@ def test_lent_joint_and_back() -> None:
     assert robot.walking.starts == 1, 'walking goes on'
 
 
-def test_joint_that_is_not_lent() -> None:
-    """A command for a joint that walking keeps is refused, with the owner and the way out."""
+def test_joint_that_cannot_be_claimed() -> None:
+    """A command for a joint that walking keeps is refused, with who claims it and the way out."""
     robot = Robot()
     robot.run(1)
     with pytest.raises(CommandError) as refusal:
         robot.command('left_knee', 0.1)
     assert str(refusal.value) == (
-        "'left_knee' belongs to the mode 'walking', which lends some other joints alone. "
-        "Leave it out, or set the mode to 'follow'."
+        "'left_knee' is claimed by the mode 'walking', which leaves only other joints to "
+        "controllers. Leave it out, or set the mode to 'follow'."
     )
 
 
@@ -160,8 +160,8 @@ def test_switch_to_rest(mode: str) -> None:
     assert robot.largest_step_rad() < 0.01 and robot.largest_jolt_rad_s() < 0.05
 
 
-def test_in_trouble_nothing_is_lent() -> None:
-    """A robot that needs all joints takes back what it has lent, and says why."""
+def test_in_trouble_nothing_can_be_claimed() -> None:
+    """A robot that needs all joints takes back what was claimed, and says why."""
     robot = Robot()
     robot.run(1)
     robot.command('left_elbow', -0.5)
@@ -179,10 +179,11 @@ def test_in_trouble_nothing_is_lent() -> None:
 
 
 def _robot_that_supports() -> tuple[ControllerManager, Follower, Still]:
-    """Return the manager of a robot whose mode exerts 1, 2 and 3 N m, and its guests."""
+    """Return the manager of a robot whose mode exerts 1, 2 and 3 N m, and its claimants."""
     hold, still, follower = Hold(JOINTS), Still(JOINTS), Follower(JOINTS, timeout_s=10.0)
-    lent = JOINTS[:2]
-    modes = (Mode('walking', hold, lent, supports=True), Mode('follow', Hold(JOINTS), lent))
+    claimable = JOINTS[:2]
+    follow = Mode('follow', Hold(JOINTS), claimable)
+    modes = (Mode('walking', hold, claimable, supports=True), follow)
     manager = ControllerManager(JOINTS, modes, (still, follower), LIMITS)
     manager.update(observed(0.0))
     held = JointTargets(np.zeros(3), np.zeros(3), np.array([1.0, 2.0, 3.0]))
@@ -199,7 +200,7 @@ def _settled(manager: ControllerManager, start_s: float) -> JointTargets:
 
 
 def test_a_mode_that_supports_bears_what_it_lends() -> None:
-    """What a guest exerts comes on top of it."""
+    """What a claimant exerts comes on top of it."""
     manager, follower, _ = _robot_that_supports()
     follower.accept(NAMES.targets(['left_elbow'], [0.1], [], [4.0]))
     told = _settled(manager, 0.01)
@@ -252,11 +253,11 @@ def test_hold_lends_nothing() -> None:
     robot = Robot()
     robot.manager.switch('hold')
     robot.run(1)
-    with pytest.raises(CommandError, match="mode 'hold', which lends no joint"):
+    with pytest.raises(CommandError, match="mode 'hold', which leaves no joint to controllers"):
         robot.command('left_elbow', 0.1)
 
 
-def test_a_switch_takes_what_is_no_longer_lent() -> None:
+def test_a_switch_takes_what_can_no_longer_be_claimed() -> None:
     """Back in the mode 'walking', a knee that was commanded walks again."""
     robot = Robot()
     robot.manager.switch('follow')

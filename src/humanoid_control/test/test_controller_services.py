@@ -57,7 +57,7 @@ class Robot:
 
 
 def test_states() -> None:
-    """Those are active that take commands; in a mode that lends nothing, the mode alone."""
+    """Those are active that take commands; in a mode that keeps all joints, the mode alone."""
     robot = Robot()
     assert robot.states() == {
         LEFT: 'active',
@@ -148,14 +148,14 @@ def test_best_effort() -> None:
     )
 
 
-def test_activate_where_nothing_is_lent() -> None:
-    """In a mode that lends nothing, no controller can be activated."""
+def test_activate_where_nothing_can_be_claimed() -> None:
+    """In a mode that keeps all joints, no controller can be activated."""
     robot = Robot()
     switch(robot.control, [], [LEFT], STRICT)
     robot.control.manager.switch('hold')
     robot.tick()
     ok, message = switch(robot.control, [LEFT], [], BEST_EFFORT)
-    assert not ok and "the mode 'hold' does not lend its joints" in message
+    assert not ok and "the mode 'hold' leaves its joints to no controller" in message
 
 
 class World:

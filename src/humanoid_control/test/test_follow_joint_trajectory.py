@@ -234,7 +234,7 @@ def test_old_stamp(world: World) -> None:
 
 
 def test_mode_ends_the_goal(world: World) -> None:
-    """When the robot changes to a mode that lends nothing, the goal ends."""
+    """When the robot changes to a mode that keeps all joints, the goal ends."""
     client = world.client()
     handle = client.send(trajectory_goal(ARM, (30.0, [0.9, 0.4, 0.0, -0.5])))
     world.robot.set_parameters([Parameter('mode', value='hold')])

@@ -119,7 +119,7 @@ def test_a_goal_is_reached_and_stays() -> None:
     robot.run(3.0)
     assert robot.told_rad() == pytest.approx(0.6)
     assert robot.told_rad('left_elbow') == pytest.approx(-0.8)
-    assert robot.control.manager.lent() == dict.fromkeys(ARM, NAME)
+    assert robot.control.manager.claimed() == dict.fromkeys(ARM, NAME)
 
 
 def test_joints_in_another_order() -> None:
@@ -256,7 +256,7 @@ def test_mode_that_lends_nothing() -> None:
     robot.control.manager.switch('hold')
     robot.run(0.1)
     assert results[0].code == ErrorCode.INVALID_GOAL
-    with pytest.raises(CommandError, match="belongs to the mode 'hold'"):
+    with pytest.raises(CommandError, match="claimed by the mode 'hold'"):
         robot.send((1.0, [0.0, 0.0]))
 
 
@@ -268,7 +268,7 @@ def test_reset() -> None:
     robot.control.reset()
     assert 'reset' in results[0].message
     robot.run(0.1)
-    assert robot.control.manager.lent() == {}
+    assert robot.control.manager.claimed() == {}
 
 
 def test_others_wait_for_the_controller() -> None:
@@ -280,7 +280,7 @@ def test_others_wait_for_the_controller() -> None:
         lambda: robot.control.follow(['left_elbow'], [0.1]),
         lambda: robot.control.run(['left_elbow'], [TrajectoryPoint(1.0, [0.1])]),
     ):
-        with pytest.raises(CommandError, match=f"belongs to '{NAME}'.*deactivate that controller"):
+        with pytest.raises(CommandError, match=f"claimed by '{NAME}'.*deactivate that controller"):
             command()
     robot.control.follow(['head_yaw'], [0.1])
 

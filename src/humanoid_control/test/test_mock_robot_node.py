@@ -171,11 +171,11 @@ def test_no_turn(watch: Watch) -> None:
 
 
 def test_knee_is_refused_once(watch: Watch) -> None:
-    """A command for a knee is refused with the reason, said once; another mode lends it."""
+    """A command for a knee is refused with the reason, said once; another mode leaves it free."""
     robot = watch.start()
     publisher = watch.publisher(JointState, 'joint_commands')
     command = JointState(name=['left_knee'], position=[0.9])
-    reason = "Refused a message on 'joint_commands'. 'left_knee' belongs to the mode 'walking'"
+    reason = "Refused a message on 'joint_commands'. 'left_knee' is claimed by the mode 'walking'"
     watch.keep_on(publisher, command, lambda: watch.told(reason), 'the refusal')
     for _ in range(20):
         publisher.publish(command)

@@ -61,15 +61,15 @@ def _humanoid(model: Robot) -> Humanoid:
     return humanoid
 
 
-def test_what_is_lent(humanoid: Humanoid) -> None:
-    """Walking lends all above the legs, and keeps these."""
+def test_what_can_be_claimed(humanoid: Humanoid) -> None:
+    """Walking leaves all above the legs to controllers, and keeps these."""
     joints = humanoid.control.manager.joints
     for joint in joints:
         is_upper = any(part in joint for part in ('elbow', 'shoulder', 'head', 'waist'))
         if is_upper:
             humanoid.control.follow([joint], [0.1])
         else:
-            with pytest.raises(CommandError, match=f"'{joint}' belongs to the mode 'walking'"):
+            with pytest.raises(CommandError, match=f"'{joint}' is claimed by the mode 'walking'"):
                 humanoid.control.follow([joint], [0.1])
 
 
@@ -80,7 +80,7 @@ def test_stands_where_it_began(humanoid: Humanoid) -> None:
     assert np.abs(humanoid.positions_rad[-1] - humanoid.positions_rad[0]).max() < 0.05
 
 
-def test_walks_and_swings_a_lent_arm(humanoid: Humanoid) -> None:
+def test_walks_and_swings_a_claimed_arm(humanoid: Humanoid) -> None:
     """It walks while somebody else moves an arm."""
     for _ in range(200):
         humanoid.control.follow(['left_elbow'], [-1.4])

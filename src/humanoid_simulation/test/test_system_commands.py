@@ -59,7 +59,7 @@ def test_a_stop_ends_the_walk(robot: SimulatedRobot) -> None:
 
 
 def test_arms_move_while_it_walks(robot: SimulatedRobot) -> None:
-    """The walk lends them, and goes on."""
+    """The walk leaves them to it, and goes on."""
     begin = robot.pose
     robot.topics.joint_commands = {'left_elbow': -1.2, 'right_elbow': -0.9}
     robot.drive(0.2)

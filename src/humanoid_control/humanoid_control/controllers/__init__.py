@@ -11,7 +11,7 @@ from humanoid_control.controllers.gripper_controller import (
     GripState,
 )
 from humanoid_control.controllers.hold import Hold
-from humanoid_control.controllers.interface import Controller, Guest
+from humanoid_control.controllers.interface import ClaimingController, Controller
 from humanoid_control.controllers.joint_trajectory_controller import (
     ErrorCode,
     GoalResult,
@@ -29,6 +29,7 @@ from humanoid_control.controllers.trajectory_goal import (
 from humanoid_control.controllers.trajectory_runner import TrajectoryRunner
 
 __all__ = [
+    'ClaimingController',
     'CommandError',
     'Controller',
     'ControllerManager',
@@ -40,7 +41,6 @@ __all__ = [
     'GripResult',
     'GripState',
     'GripperController',
-    'Guest',
     'Hold',
     'JointNames',
     'JointTolerance',

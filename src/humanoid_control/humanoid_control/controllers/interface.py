@@ -28,7 +28,7 @@ class Controller(Protocol):
         Start to control joints, from the targets that they have now.
 
         The manager calls it before `update`: for the controller of a mode when the mode is
-        entered, for a `Guest` when it gets joints, or has them and `waits`.
+        entered, for a `ClaimingController` when it gets joints, or has them and `waits`.
 
         Parameters
         ----------
@@ -58,8 +58,8 @@ class Controller(Protocol):
         """
 
 
-class Guest(Controller, Protocol):
-    """Moves joints that are lent to it, for as long as it has commands for them."""
+class ClaimingController(Controller, Protocol):
+    """Controller that claims joints for as long as it has commands for them."""
 
     @property
     def way_out(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""See to it that each joint has one owner, and that no change of owner makes it jump."""
+"""Let one controller at a time claim each joint, and let no change of it make a joint jump."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from humanoid_common.naming import did_you_mean
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers.blending import Blend
 from humanoid_control.controllers.commands import CommandError, Indices
-from humanoid_control.controllers.interface import Guest, Mask
+from humanoid_control.controllers.interface import ClaimingController, Mask
 from humanoid_control.controllers.modes import Mode
 from humanoid_control.limits import JointLimits
 import numpy as np
@@ -19,15 +19,15 @@ from numpy.typing import NDArray
 
 Owners = NDArray[np.intp]
 _MODE = -1
-"""The owner of a joint that is not lent; guests are counted from 0."""
+"""Who claims a joint that no controller does; claimants are counted from 0."""
 
 
 class ControllerManager:
     """
     Run the controllers of one robot, and limit the targets that they ask for.
 
-    A joint belongs to the first guest that claims it if the mode lends it, else to the controller
-    of the mode. Every change of owner blends from what the joint was told last.
+    A joint goes to the first claimant that claims it if the mode leaves it to controllers, else to
+    the controller of the mode. Every change blends from what the joint was told last.
 
     Parameters
     ----------
@@ -35,8 +35,8 @@ class ControllerManager:
         All n joints of the robot, in the order of observations and targets.
     modes
         The modes, whose controllers claim all joints in that order; the first one is entered.
-    guests
-        Controllers that may claim the joints that a mode lends, by decreasing priority.
+    claimants
+        Controllers that may claim the joints that a mode leaves to them, by decreasing priority.
     limits
         Range, velocity, effort and stiffness of the n joints.
     say
@@ -53,13 +53,13 @@ class ControllerManager:
         self,
         joints: Sequence[str],
         modes: Sequence[Mode],
-        guests: Sequence[Guest],
+        claimants: Sequence[ClaimingController],
         limits: JointLimits,
         say: Callable[[str], None] = lambda sentence: None,
     ) -> None:
         self.joints = tuple(joints)
         self._modes = {mode.name: mode for mode in modes}
-        self._guests = tuple(guests)
+        self._claimants = tuple(claimants)
         self._limits = limits
         self._say = say
         self._blend = Blend(len(self.joints))
@@ -121,8 +121,8 @@ class ControllerManager:
 
     def reset(self) -> None:
         """Begin anew with the next observation, from where the joints are then."""
-        for guest in self._guests:
-            guest.cancel()
+        for claimant in self._claimants:
+            claimant.cancel()
         for mode in self._modes.values():
             mode.forget()
         self._last: JointTargets | None = None
@@ -133,7 +133,7 @@ class ControllerManager:
 
     def owner(self, joint: str) -> str:
         """
-        Look up the controller that owns a joint now.
+        Look up the controller that has claimed a joint now.
 
         Parameters
         ----------
@@ -143,24 +143,24 @@ class ControllerManager:
         Returns
         -------
         str
-            The name of the mode or of the guest.
+            The name of the mode or of the claimant.
 
         """
         return self._name_of(self._owners[self.joints.index(joint)])
 
     @property
-    def guests(self) -> tuple[Guest, ...]:
-        """Return all who may borrow joints, in the order of their priority."""
-        return self._guests
+    def claimants(self) -> tuple[ClaimingController, ...]:
+        """Return the controllers that may claim joints, in the order of their priority."""
+        return self._claimants
 
     def joints_of(self, name: str) -> tuple[str, ...]:
         """
-        List the joints that a mode or a guest owns now.
+        List the joints that a mode or a claimant has claimed now.
 
         Parameters
         ----------
         name
-            The name of the mode or of the guest.
+            The name of the mode or of the claimant.
 
         Returns
         -------
@@ -170,9 +170,9 @@ class ControllerManager:
         """
         return tuple(joint for joint in self.joints if self.owner(joint) == name)
 
-    def is_lent(self, places: Indices) -> bool:
+    def is_claimable(self, places: Indices) -> bool:
         """
-        Check whether the mode lends all of some joints now.
+        Check whether the mode leaves all of some joints to controllers now.
 
         Parameters
         ----------
@@ -180,57 +180,57 @@ class ControllerManager:
             Joint indices (m,).
 
         """
-        return bool(self._may_lend[places].all()) and not self.trouble
+        return bool(self._claimable[places].all()) and not self.trouble
 
-    def owns(self, guest: Guest, places: Indices) -> bool:
+    def owns(self, claimant: ClaimingController, places: Indices) -> bool:
         """
-        Check whether a guest owns all of some joints.
+        Check whether a claimant has claimed all of some joints.
 
         Parameters
         ----------
-        guest
-            One of `guests`.
+        claimant
+            One of `claimants`.
         places
             Joint indices (m,).
 
         """
-        return bool((self._owners[places] == self._guests.index(guest)).all())
+        return bool((self._owners[places] == self._claimants.index(claimant)).all())
 
-    def lent(self) -> dict[str, str]:
-        """Return the joints that belong to guests now, with the names of these."""
+    def claimed(self) -> dict[str, str]:
+        """Return the joints that are claimed now, with the names of their controllers."""
         places = np.flatnonzero(self._owners != _MODE)
         return {self.joints[place]: self._name_of(self._owners[place]) for place in places}
 
-    def check(self, guest: Guest, places: Indices) -> None:
+    def check(self, claimant: ClaimingController, places: Indices) -> None:
         """
-        Check that a guest may claim joints now.
+        Check that a claimant may claim joints now.
 
         Parameters
         ----------
-        guest
-            One of `guests`.
+        claimant
+            One of `claimants`.
         places
             Indices (m,) of the joints that it is to move.
 
         Raises
         ------
         CommandError
-            The mode does not lend one of the joints, or lends nothing at the moment, or a guest of
-            higher priority owns one.
+            The mode keeps one of the joints, or all of them at the moment, or a claimant of higher
+            priority has claimed one.
 
         """
-        for place in places[~self._may_lend[places]]:
-            raise CommandError(self._not_lent(self.joints[place]))
+        for place in places[~self._claimable[places]]:
+            raise CommandError(self._kept(self.joints[place]))
         if self.trouble:
             raise CommandError(
                 f"The mode '{self.mode}' accepts no joint commands now: {self.trouble}."
             )
-        rank = self._guests.index(guest)
+        rank = self._claimants.index(claimant)
         owners = self._owners[places]
         for place in places[(owners >= 0) & (owners < rank)]:
-            owner = self._guests[self._owners[place]]
+            owner = self._claimants[self._owners[place]]
             raise CommandError(
-                f"'{self.joints[place]}' belongs to '{owner.name}'. Leave the joint out, or "
+                f"'{self.joints[place]}' is claimed by '{owner.name}'. Leave the joint out, or "
                 f'{owner.way_out}.'
             )
 
@@ -238,7 +238,7 @@ class ControllerManager:
         """
         Compute the targets of all joints for the coming period. Call once per control period.
 
-        It switches the mode if that was requested and is possible, assigns joints to the guests
+        It switches the mode if that was requested and is possible, assigns joints to the claimants
         that claim them, and blends and limits the targets of the owners.
 
         Parameters
@@ -268,19 +268,19 @@ class ControllerManager:
         return self._last
 
     def _enter(self, mode: Mode) -> None:
-        """Begin a mode; guests have to say anew what they want."""
+        """Enter a mode; claimants have to claim anew."""
         if mode.controller.joints != self.joints:
             raise ValueError(
                 f"The controller of mode '{mode.name}' must claim all joints of the robot, in "
                 f'the order {self.joints}, but claims {mode.controller.joints}.'
             )
         self._mode, self._next, self._entered = mode, mode, True
-        self._may_lend = np.isin(self.joints, mode.lends)
-        for guest in self._guests:
-            guest.cancel()
+        self._claimable = np.isin(self.joints, mode.claimable)
+        for claimant in self._claimants:
+            claimant.cancel()
 
     def _change_owners(self, observation: Observation, held: JointTargets) -> Mask | None:
-        """Start those who get joints; return which joints these are, None for none."""
+        """Start the controllers that get joints; return which joints these are, None for none."""
         owners = self._owners_at(observation.time_s)
         news = self._news(owners)
         if not (self._entered or news.any()):
@@ -288,33 +288,33 @@ class ControllerManager:
         self._start(owners, news, observation, held)
         self._owners, self._entered = owners, False
         self._active = {
-            rank: owners == rank for rank in range(len(self._guests)) if (owners == rank).any()
+            rank: owners == rank for rank in range(len(self._claimants)) if (owners == rank).any()
         }
         return news
 
     def _owners_at(self, now_s: float) -> Owners:
-        """Return who owns each joint, (n,): the rank of a guest, or _MODE."""
+        """Return who claims each joint, (n,): the rank of a claimant, or _MODE."""
         owners = np.full(len(self.joints), _MODE)
         if self.trouble:
             return owners
-        for rank in reversed(range(len(self._guests))):
-            owners[self._guests[rank].wanted(now_s) & self._may_lend] = rank
+        for rank in reversed(range(len(self._claimants))):
+            owners[self._claimants[rank].wanted(now_s) & self._claimable] = rank
         return owners
 
     def _news(self, owners: Owners) -> Mask:
-        """Return the joints whose owner begins with them, (n,)."""
+        """Return the joints that change hands, (n,)."""
         if self._entered:
-            return np.ones_like(self._may_lend)
+            return np.ones_like(self._claimable)
         news: Mask = owners != self._owners
-        for rank, guest in enumerate(self._guests):
-            if guest.waits:
+        for rank, claimant in enumerate(self._claimants):
+            if claimant.waits:
                 news |= owners == rank
         return news
 
     def _start(
         self, owners: Owners, news: Mask, observation: Observation, held: JointTargets
     ) -> None:
-        """Tell those who get joints."""
+        """Notify controllers of the joints that they were given."""
         returned = news & (owners == _MODE)
         if self._entered:
             self._mode.controller.start(observation, held)
@@ -322,18 +322,18 @@ class ControllerManager:
             self._mode.take_back(returned, held)
         if self._mode.supports:
             held = replace(held, efforts_nm=np.zeros(len(self.joints)))
-        for rank, guest in enumerate(self._guests):
+        for rank, claimant in enumerate(self._claimants):
             if (news & (owners == rank)).any():
-                guest.start(observation, held)
+                claimant.start(observation, held)
 
     def _wished(self, observation: Observation, held: JointTargets) -> JointTargets:
         """Return what the owners ask for, together."""
         own = wished = self._mode.controller.update(observation)
         for rank, joints in self._active.items():
-            wished = _merged(wished, self._guests[rank].update(observation), joints)
+            wished = _merged(wished, self._claimants[rank].update(observation), joints)
         if self._active and self._mode.supports:
-            lent = self._owners != _MODE
-            wished = replace(wished, efforts_nm=wished.efforts_nm + lent * own.efforts_nm)
+            claimed = self._owners != _MODE
+            wished = replace(wished, efforts_nm=wished.efforts_nm + claimed * own.efforts_nm)
         return wished if _is_finite(wished) else self._repaired(wished, held)
 
     def _repaired(self, wished: JointTargets, held: JointTargets) -> JointTargets:
@@ -348,14 +348,17 @@ class ControllerManager:
         return _merged(rest, wished, sound)
 
     def _name_of(self, rank: int) -> str:
-        return self.mode if rank == _MODE else self._guests[rank].name
+        return self.mode if rank == _MODE else self._claimants[rank].name
 
-    def _not_lent(self, joint: str) -> str:
+    def _kept(self, joint: str) -> str:
         """Build the sentence on a joint that the mode keeps for itself."""
-        ways = [mode.name for mode in self._modes.values() if joint in mode.lends]
-        lends = 'some other joints alone' if self._mode.lends else 'no joint'
+        ways = [mode.name for mode in self._modes.values() if joint in mode.claimable]
+        leaves = 'only other joints' if self._mode.claimable else 'no joint'
         out = f"Leave it out, or set the mode to '{ways[0]}'." if ways else 'Leave it out.'
-        return f"'{joint}' belongs to the mode '{self.mode}', which lends {lends}. {out}"
+        return (
+            f"'{joint}' is claimed by the mode '{self.mode}', which leaves {leaves} to "
+            f'controllers. {out}'
+        )
 
 
 def _at_rest(observation: Observation) -> JointTargets:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a robot does as a whole, and which joints others may borrow meanwhile."""
+"""What a robot does as a whole, and which joints other controllers may claim meanwhile."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ def _no_reason() -> str:
 @dataclass(frozen=True)
 class Mode:
     """
-    A controller of all joints, and the joints that it lends.
+    A controller of all joints, and the joints that other controllers may claim from it.
 
     `take_back` is told which joints come back, (n,) true, and what they were told last. The mode
-    can be left when `may_end` says so, and lends nothing while `needs_all_because` gives a reason.
-    `forget` is called when the robot has been put somewhere. The efforts of a mode that `supports`
-    bear the weight of all joints wherever they are, those that it lends too: what guests exert
-    comes on top.
+    can be left when `may_end` says so, and keeps all joints while `needs_all_because` gives a
+    reason. `forget` is called when the robot has been put somewhere. The efforts of a mode that
+    `supports` bear the weight of all joints wherever they are, the claimed ones too: what their
+    controllers exert comes on top.
     """
 
     name: str
     controller: Controller
-    lends: tuple[str, ...]
+    claimable: tuple[str, ...]
     take_back: Callable[[Mask, JointTargets], None] = _nothing
     may_end: Callable[[], bool] = _always
     needs_all_because: Callable[[], str] = _no_reason
@@ -53,7 +53,7 @@ class Mode:
 
 def hold_mode(joints: Sequence[str]) -> Mode:
     """
-    Build the mode in which every joint is held and none is lent.
+    Build the mode in which every joint is held and none can be claimed.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def hold_mode(joints: Sequence[str]) -> Mode:
 
 def follow_mode(joints: Sequence[str]) -> Mode:
     """
-    Build the mode in which every joint is lent, and held while nobody moves it.
+    Build the mode in which every joint can be claimed, and is held while nobody moves it.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ import numpy as np
 
 class Still(Hold):
     """
-    Controller that claims every joint that the mode lends while it is on, to hold it in place.
+    Controller that holds the joints in place that the mode leaves to controllers, while it is on.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The walk as a controller of all joints, which lends those above the legs."""
+"""The walk as a controller of all joints, which leaves those above the legs to others."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from humanoid_control.controllers.modes import Mode
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 
-LENT = ('head_', 'waist_', 'shoulder', 'elbow', 'wrist', 'gripper')
+CLAIMABLE = ('head_', 'waist_', 'shoulder', 'elbow', 'wrist', 'gripper')
 """A joint whose name contains one of these is not needed to walk."""
 
 MOVING = ('walk', 'stop', 'stand_up')
@@ -56,7 +56,7 @@ class WalkingController:
         Returns
         -------
         JointTargets
-            Of all n joints of the robot, those that are lent too.
+            Of all n joints of the robot, those that are claimed too.
 
         Raises
         ------
@@ -71,7 +71,7 @@ class WalkingController:
         return self.walker.phase not in MOVING
 
     def needs_all_because(self) -> str:
-        """Return why it lends nothing for the moment, or nothing."""
+        """Return why it keeps all joints for the moment, or nothing."""
         return DOWN if self.walker.has_fallen else ''
 
     def drive(self, velocity: VelocityCommand) -> None:
@@ -90,7 +90,7 @@ class WalkingController:
 
 def walking_mode(controller: WalkingController) -> Mode:
     """
-    Build the mode in which the robot walks and lends all joints but those of the legs.
+    Build the mode in which the robot walks and leaves all joints but those of the legs to others.
 
     Parameters
     ----------
@@ -98,11 +98,13 @@ def walking_mode(controller: WalkingController) -> Mode:
         The controller of all joints of the robot.
 
     """
-    lent = tuple(joint for joint in controller.joints if any(part in joint for part in LENT))
+    claimable = tuple(
+        joint for joint in controller.joints if any(part in joint for part in CLAIMABLE)
+    )
     return Mode(
         controller.name,
         controller,
-        lent,
+        claimable,
         may_end=controller.is_at_rest,
         needs_all_because=controller.needs_all_because,
         forget=controller.walker.reset,

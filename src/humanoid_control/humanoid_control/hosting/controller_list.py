@@ -80,12 +80,14 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
 
     """
     manager = control.manager
-    lends = any(manager.is_lent(controller.places) for controller in control.controllers.values())
+    claimable = any(
+        manager.is_claimable(controller.places) for controller in control.controllers.values()
+    )
     limbs = [
         ControllerInfo(
             name,
             controller.kind,
-            controller.is_active and manager.is_lent(controller.places),
+            controller.is_active and manager.is_claimable(controller.places),
             manager.joints_of(name),
             controller.own,
         )
@@ -97,14 +99,14 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     ]
     others = [
         ControllerInfo(
-            guest.name,
-            f'humanoid_control/{type(guest).__name__}',
-            control.must_hold if guest is control.still else lends,
-            manager.joints_of(guest.name),
+            claimant.name,
+            f'humanoid_control/{type(claimant).__name__}',
+            control.must_hold if claimant is control.still else claimable,
+            manager.joints_of(claimant.name),
             (),
         )
-        for guest in manager.guests
-        if not isinstance(guest, GoalController)
+        for claimant in manager.claimants
+        if not isinstance(claimant, GoalController)
     ]
     return limbs + modes + others
 
@@ -168,10 +170,14 @@ def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> s
     controller = control.controllers.get(name)
     if controller is None:
         return _not_switched(control, name)
-    if active and not control.manager.is_lent(controller.places):
+    if active and not control.manager.is_claimable(controller.places):
         reason = control.manager.trouble
-        lends = f'accepts no commands now: {reason}' if reason else 'does not lend its joints'
-        return f"'{name}' cannot be active: the mode '{control.manager.mode}' {lends}."
+        keeps = (
+            f'accepts no commands now: {reason}'
+            if reason
+            else 'leaves its joints to no controller'
+        )
+        return f"'{name}' cannot be active: the mode '{control.manager.mode}' {keeps}."
     if is_strict and controller.is_active == active:
         return f"'{name}' is {ACTIVE if active else INACTIVE} already."
     return ''

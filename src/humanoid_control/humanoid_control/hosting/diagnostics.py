@@ -78,7 +78,7 @@ class HostDiagnostics:
 def _robot_status(robot: str, health: RobotHealth) -> PartStatus:
     """Return the status of a robot."""
     level, message = _verdict(health)
-    values = {'mode': health.mode, 'walk': health.walk, **health.lent}
+    values = {'mode': health.mode, 'walk': health.walk, **health.claimed}
     return PartStatus(robot or 'robot', message, level, values)
 
 

@@ -29,7 +29,7 @@ class RobotHealth:
     is_blocked: bool
     """Whether something is in its way."""
     holds_because: str
-    lent: Mapping[str, str]
+    claimed: Mapping[str, str]
     """The joints that belong to others than the mode, and these."""
 
 
@@ -138,5 +138,5 @@ class HostedRobots:
             trouble=manager.trouble,
             is_blocked=robot.walker.is_blocked,
             holds_because=self._inputs[name].stop.guard.reason,
-            lent=manager.lent(),
+            claimed=manager.claimed(),
         )

@@ -42,7 +42,8 @@ class HostParameters:
     )
     mode: str = parameter(
         WALKING,
-        'What the robots do: walking lends what is above the legs, follow all joints, hold none.',
+        'What the robots do, and which joints controllers may claim meanwhile: with walking those '
+        'above the legs, with follow all, with hold none.',
         choices=MODES,
     )
     joint_states_rate_hz: float = parameter(

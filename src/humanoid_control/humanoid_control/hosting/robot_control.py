@@ -10,12 +10,12 @@ from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers import (
     checked_goal,
     checked_trajectory,
+    ClaimingController,
     CommandError,
     ControllerManager,
     Follower,
     GoalController,
     Grip,
-    Guest,
     JointNames,
     Mode,
     TrajectoryGoal,
@@ -41,7 +41,8 @@ class RobotControl:
     Control of one robot: its modes and controllers, the commands for them, and a stop.
 
     Commands are stored, and obeyed in the next period. While the robot must hold still, it walks
-    at velocity zero, every joint that its mode lends is held, and commands are not heard.
+    at velocity zero, every joint that its mode leaves to controllers is held, and commands are
+    not heard.
 
     Parameters
     ----------
@@ -97,8 +98,8 @@ class RobotControl:
         }
         """All that take goals, by their names."""
         limbs = self.controllers.values()
-        guests: list[Guest] = [self.still, *limbs, self._runner, self._follower]
-        self.manager = ControllerManager(joints, modes, guests, limits, say)
+        claimants: list[ClaimingController] = [self.still, *limbs, self._runner, self._follower]
+        self.manager = ControllerManager(joints, modes, claimants, limits, say)
 
     @property
     def must_hold(self) -> bool:
