@@ -83,7 +83,7 @@ class Robot:
     def command(self, joint: str, position_rad: float) -> None:
         """Command a joint from outside."""
         command = NAMES.targets([joint], [position_rad])
-        self.manager.check(self.follower, command.places)
+        self.manager.check(self.follower, command.indices)
         self.follower.accept(command)
 
     def largest_step_rad(self) -> float:

@@ -139,7 +139,7 @@ class InPinocchio:
         self.model = self.pin.buildModelFromXML(urdf, self.pin.JointModelFreeFlyer())
         self.links = tuple(model.links)
         joints = [self.model.joints[self.model.getJointId(name)] for name in model.joints]
-        self.places = np.array([joint.idx_q for joint in joints])
+        self.indices = np.array([joint.idx_q for joint in joints])
         self.dofs = np.array([joint.idx_v for joint in joints])
         self.armature = np.diag(model.armature_kgm2)
 
@@ -147,7 +147,7 @@ class InPinocchio:
         """Return what Pinocchio computes."""
         pin, model, data = self.pin, self.model, self.model.createData()
         q, v = pin.neutral(model), np.zeros(model.nv)
-        q[3:7], q[self.places] = np.roll(motion.quaternion, -1), motion.positions
+        q[3:7], q[self.indices] = np.roll(motion.quaternion, -1), motion.positions
         v[3:6], v[self.dofs] = motion.turning, motion.velocities
         bias = pin.nonLinearEffects(model, data, q, v).copy()
         inertia = pin.crba(model, data, q)

@@ -16,7 +16,7 @@ NAMES = JointNames(JOINTS)
 def test_taken() -> None:
     """A command may name some joints in any order; what it leaves out is zero."""
     command = NAMES.targets(['left_knee', 'left_elbow'], [0.3, 0.1], [], [2.0, 1.0])
-    assert command.places.tolist() == [2, 0]
+    assert command.indices.tolist() == [2, 0]
     assert command.targets.positions_rad.tolist() == [0.3, 0.1]
     assert command.targets.velocities_rad_s.tolist() == [0.0, 0.0]
     assert command.targets.efforts_nm.tolist() == [2.0, 1.0]

@@ -8,7 +8,7 @@ import numpy as np
 
 
 def test_group(model: BodyModel) -> None:
-    """A group knows the places of its joints, which carries which, and their armature."""
+    """A group knows the indices of its joints, which carries which, and their armature."""
     group = model.group(['left_knee', 'left_hip_roll', 'right_knee'])
     assert group.indices.tolist() == [model.index(joint) for joint in group.joints]
     assert group.carries.tolist() == [[1, 0, 0], [1, 1, 0], [0, 0, 1]]

@@ -22,9 +22,9 @@ class CommandError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class PartialTargets:
-    """Targets of some joints of a robot: their places among all joints, (m,), and m targets."""
+    """Targets of some joints of a robot: their indices among all joints, (m,), and m targets."""
 
-    places: Indices
+    indices: Indices
     targets: JointTargets
 
 
@@ -41,9 +41,9 @@ class JointNames:
 
     def __init__(self, joints: Sequence[str]) -> None:
         self.joints = tuple(joints)
-        self._place_of = {joint: place for place, joint in enumerate(joints)}
+        self._index_of = {joint: index for index, joint in enumerate(joints)}
 
-    def places(self, names: Sequence[str]) -> Indices:
+    def indices(self, names: Sequence[str]) -> Indices:
         """
         Look up the indices of joints by their names.
 
@@ -66,13 +66,13 @@ class JointNames:
         if not names:
             raise CommandError('It names no joint. Name those that are to move.')
         for name in names:
-            if name not in self._place_of:
+            if name not in self._index_of:
                 raise CommandError(self._unknown(name))
-        places = np.array([self._place_of[name] for name in names], dtype=np.intp)
+        indices = np.array([self._index_of[name] for name in names], dtype=np.intp)
         if len(set(names)) < len(names):
             twice = next(name for name in names if list(names).count(name) > 1)
             raise CommandError(f"It names '{twice}' more than once. Name every joint once.")
-        return places
+        return indices
 
     def targets(
         self,
@@ -104,13 +104,13 @@ class JointNames:
             not finite or beyond `LARGEST`.
 
         """
-        places = self.places(names)
+        indices = self.indices(names)
         targets = JointTargets(
             checked_values('position', positions_rad, names),
             optional_values('velocity', velocities_rad_s, names),
             optional_values('effort', efforts_nm, names),
         )
-        return PartialTargets(places, targets)
+        return PartialTargets(indices, targets)
 
     def _unknown(self, name: str) -> str:
         """Build the sentence on a joint that there is not."""
@@ -173,15 +173,15 @@ def checked_values(field: str, values: Sequence[float], names: Sequence[str]) ->
     array = np.array(values, dtype=np.float64)
     finite = np.isfinite(array)
     if not finite.all():
-        place = int(np.argmin(finite))
+        index = int(np.argmin(finite))
         raise CommandError(
-            f"The {field} of '{names[place]}' is {array[place]}. Give finite numbers."
+            f"The {field} of '{names[index]}' is {array[index]}. Give finite numbers."
         )
     sizes = np.abs(array)
     if sizes.max() > LARGEST:
-        place = int(np.argmax(sizes))
+        index = int(np.argmax(sizes))
         raise CommandError(
-            f"The {field} of '{names[place]}' is {array[place]:g}, beyond all that a joint can "
+            f"The {field} of '{names[index]}' is {array[index]:g}, beyond all that a joint can "
             f'do. Give at most {LARGEST:g}.'
         )
     return array

@@ -78,11 +78,11 @@ class Follower:
             Checked targets of some joints, whose timeout starts anew; other joints keep theirs.
 
         """
-        targets, places = self._targets, command.places
-        targets.positions_rad[places] = command.targets.positions_rad
-        targets.velocities_rad_s[places] = command.targets.velocities_rad_s
-        targets.efforts_nm[places] = command.targets.efforts_nm
-        self._silence_of(places.tolist()).heard()
+        targets, indices = self._targets, command.indices
+        targets.positions_rad[indices] = command.targets.positions_rad
+        targets.velocities_rad_s[indices] = command.targets.velocities_rad_s
+        targets.efforts_nm[indices] = command.targets.efforts_nm
+        self._silence_of(indices.tolist()).heard()
 
     def wanted(self, now_s: float) -> Mask:
         """
@@ -127,14 +127,14 @@ class Follower:
         """Forget all commands."""
         self._silences = {}
 
-    def _silence_of(self, places: list[int]) -> Silence:
+    def _silence_of(self, indices: list[int]) -> Silence:
         """Return the silence of a set of joints that is commanded together."""
-        key = tuple(places)
+        key = tuple(indices)
         if key not in self._silences:
-            self._silences[key] = (self._mask(places), Silence(self._timeout_s, self._clock))
+            self._silences[key] = (self._mask(indices), Silence(self._timeout_s, self._clock))
         return self._silences[key][1]
 
-    def _mask(self, places: list[int]) -> Mask:
+    def _mask(self, indices: list[int]) -> Mask:
         mask = np.zeros(len(self.joints), dtype=np.bool_)
-        mask[places] = True
+        mask[indices] = True
         return mask

@@ -38,7 +38,7 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
 
     Attributes
     ----------
-    places
+    indices
         Indices (m,) of its own joints among all.
     is_active
         Whether it may be given goals; it is active at the start.
@@ -51,10 +51,10 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
 
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
         self.name, self.joints, self.own = name, tuple(joints), tuple(own)
-        self.places = np.array([self.joints.index(joint) for joint in own], dtype=np.intp)
+        self.indices = np.array([self.joints.index(joint) for joint in own], dtype=np.intp)
         self.is_active = True
         self._mask = np.zeros(len(self.joints), dtype=np.bool_)
-        self._mask[self.places] = True
+        self._mask[self.indices] = True
         self._none = np.zeros_like(self._mask)
         self._claims = self._starts = False
         self._goal: GoalT | None = None

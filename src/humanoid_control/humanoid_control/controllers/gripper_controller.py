@@ -94,11 +94,11 @@ class GripperController(GoalController[Grip, GripResult]):
 
     def __init__(self, name: str, joints: Sequence[str], own: str, limits: JointLimits) -> None:
         super().__init__(name, joints, (own,))
-        self._place = place = int(self.places[0])
-        self.widest_m = 2.0 * float(limits.upper_rad[place])
+        self._index = index = int(self.indices[0])
+        self.widest_m = 2.0 * float(limits.upper_rad[index])
         """The gap of the open gripper."""
-        self._strongest_n = float(limits.effort_nm[place])
-        self._stiffness_n_m = float(limits.kp_nm_rad[place])
+        self._strongest_n = float(limits.effort_nm[index])
+        self._stiffness_n_m = float(limits.kp_nm_rad[index])
         self.state = GripState()
         self._set = Grip(0.0, self._strongest_n)
         self._anchor_m, self._anchor_s = 0.0, -math.inf
@@ -148,7 +148,7 @@ class GripperController(GoalController[Grip, GripResult]):
             self._set = self._goal
             self._anchor_s = -math.inf
         else:
-            self._set = Grip(2.0 * float(held.positions_rad[self._place]), self._set.most_n)
+            self._set = Grip(2.0 * float(held.positions_rad[self._index]), self._set.most_n)
 
     def update(self, observation: Observation) -> JointTargets:
         """
@@ -168,11 +168,11 @@ class GripperController(GoalController[Grip, GripResult]):
             Of all n joints of the robot; only the position (m) of the finger means something.
 
         """
-        at_m = float(observation.positions_rad[self._place])
+        at_m = float(observation.positions_rad[self._index])
         way_m = self._set.most_n / self._stiffness_n_m
         wanted_m = self._set.gap_m / 2.0
         target_m = min(max(wanted_m, at_m - way_m), at_m + way_m)
-        self._targets.positions_rad[self._place] = target_m
+        self._targets.positions_rad[self._index] = target_m
         self._watch(at_m, abs(wanted_m - at_m) <= TOLERANCE_M / 2.0, observation)
         return self._targets
 
@@ -182,7 +182,7 @@ class GripperController(GoalController[Grip, GripResult]):
         if abs(at_m - self._anchor_m) > STALL_M or math.isinf(self._anchor_s):
             self._anchor_m, self._anchor_s = at_m, now_s
         stalled = not reached and now_s - self._anchor_s >= STALL_S
-        effort_n = float(observation.efforts_nm[self._place])
+        effort_n = float(observation.efforts_nm[self._index])
         self.state = GripState(2.0 * at_m, effort_n, stalled, reached)
         if reached or stalled:
             self._end(GripResult(self.state, REACHED if reached else STALLED), stays=True)

@@ -91,9 +91,9 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
             self._start_s = observation.time_s
             self._spline = spline_from(self._goal.trajectory, held)
             return
-        own_rad = held.positions_rad[self.places] if hold_rad is None else hold_rad
-        self._targets.positions_rad[self.places] = own_rad
-        self._targets.velocities_rad_s[self.places] = 0.0
+        own_rad = held.positions_rad[self.indices] if hold_rad is None else hold_rad
+        self._targets.positions_rad[self.indices] = own_rad
+        self._targets.velocities_rad_s[self.indices] = 0.0
 
     def update(self, observation: Observation) -> JointTargets:
         """
@@ -114,14 +114,14 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
         if self._goal is not None and self._spline is not None:
             time_s = observation.time_s - self._start_s
             positions_rad, velocities_rad_s = self._spline.at(time_s)
-            self._targets.positions_rad[self.places] = positions_rad
-            self._targets.velocities_rad_s[self.places] = velocities_rad_s
+            self._targets.positions_rad[self.indices] = positions_rad
+            self._targets.velocities_rad_s[self.indices] = velocities_rad_s
             self.progress = Progress(
                 time_s,
                 positions_rad,
                 velocities_rad_s,
-                observation.positions_rad[self.places],
-                observation.velocities_rad_s[self.places],
+                observation.positions_rad[self.indices],
+                observation.velocities_rad_s[self.indices],
             )
             self._watch(self._goal, self.progress, self._spline.end_s)
         return self._targets

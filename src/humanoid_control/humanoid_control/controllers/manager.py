@@ -170,19 +170,19 @@ class ControllerManager:
         """
         return tuple(joint for joint in self.joints if self.owner(joint) == name)
 
-    def is_claimable(self, places: Indices) -> bool:
+    def is_claimable(self, indices: Indices) -> bool:
         """
         Check whether the mode leaves all of some joints to controllers now.
 
         Parameters
         ----------
-        places
+        indices
             Joint indices (m,).
 
         """
-        return bool(self._claimable[places].all()) and not self.trouble
+        return bool(self._claimable[indices].all()) and not self.trouble
 
-    def owns(self, claimant: ClaimingController, places: Indices) -> bool:
+    def owns(self, claimant: ClaimingController, indices: Indices) -> bool:
         """
         Check whether a claimant has claimed all of some joints.
 
@@ -190,18 +190,18 @@ class ControllerManager:
         ----------
         claimant
             One of `claimants`.
-        places
+        indices
             Joint indices (m,).
 
         """
-        return bool((self._owners[places] == self._claimants.index(claimant)).all())
+        return bool((self._owners[indices] == self._claimants.index(claimant)).all())
 
     def claimed(self) -> dict[str, str]:
         """Return the joints that are claimed now, with the names of their controllers."""
-        places = np.flatnonzero(self._owners != _MODE)
-        return {self.joints[place]: self._name_of(self._owners[place]) for place in places}
+        indices = np.flatnonzero(self._owners != _MODE)
+        return {self.joints[index]: self._name_of(self._owners[index]) for index in indices}
 
-    def check(self, claimant: ClaimingController, places: Indices) -> None:
+    def check(self, claimant: ClaimingController, indices: Indices) -> None:
         """
         Check that a claimant may claim joints now.
 
@@ -209,7 +209,7 @@ class ControllerManager:
         ----------
         claimant
             One of `claimants`.
-        places
+        indices
             Indices (m,) of the joints that it is to move.
 
         Raises
@@ -219,18 +219,18 @@ class ControllerManager:
             priority has claimed one.
 
         """
-        for place in places[~self._claimable[places]]:
-            raise CommandError(self._kept(self.joints[place]))
+        for index in indices[~self._claimable[indices]]:
+            raise CommandError(self._kept(self.joints[index]))
         if self.trouble:
             raise CommandError(
                 f"The mode '{self.mode}' accepts no joint commands now: {self.trouble}."
             )
         rank = self._claimants.index(claimant)
-        owners = self._owners[places]
-        for place in places[(owners >= 0) & (owners < rank)]:
-            owner = self._claimants[self._owners[place]]
+        owners = self._owners[indices]
+        for index in indices[(owners >= 0) & (owners < rank)]:
+            owner = self._claimants[self._owners[index]]
             raise CommandError(
-                f"'{self.joints[place]}' is claimed by '{owner.name}'. Leave the joint out, or "
+                f"'{self.joints[index]}' is claimed by '{owner.name}'. Leave the joint out, or "
                 f'{owner.way_out}.'
             )
 
@@ -339,10 +339,10 @@ class ControllerManager:
     def _repaired(self, wished: JointTargets, held: JointTargets) -> JointTargets:
         """Keep joints where they are whose owner asks for what is no number, and say so."""
         sound = np.isfinite(wished.positions_rad + wished.velocities_rad_s + wished.efforts_nm)
-        place = int(np.argmin(sound))
+        index = int(np.argmin(sound))
         self._say(
-            f"'{self._name_of(self._owners[place])}' asks for a target of "
-            f"'{self.joints[place]}' that is not finite: the joint is held."
+            f"'{self._name_of(self._owners[index])}' asks for a target of "
+            f"'{self.joints[index]}' that is not finite: the joint is held."
         )
         rest = JointTargets(held.positions_rad, *np.zeros((2, len(self.joints))))
         return _merged(rest, wished, sound)

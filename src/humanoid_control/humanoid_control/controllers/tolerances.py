@@ -61,9 +61,9 @@ class StateTolerances:
         position_rad = np.full(len(joints), default_rad)
         velocity_rad_s = np.full(len(joints), np.inf)
         for each in given:
-            place = _place(each.joint, joints)
-            position_rad[place] = _limit('position', each.joint, each.position_rad, default_rad)
-            velocity_rad_s[place] = _limit('velocity', each.joint, each.velocity_rad_s, math.inf)
+            index = _index(each.joint, joints)
+            position_rad[index] = _limit('position', each.joint, each.position_rad, default_rad)
+            velocity_rad_s[index] = _limit('velocity', each.joint, each.velocity_rad_s, math.inf)
         return cls(tuple(joints), position_rad, velocity_rad_s)
 
     def violation(self, positions_rad: Array, velocities_rad_s: Array) -> str:
@@ -83,16 +83,16 @@ class StateTolerances:
             sizes = np.abs(errors)
             beyond = sizes > limits
             if beyond.any():
-                place = int(np.argmax(np.where(beyond, sizes, -1.0)))
+                index = int(np.argmax(np.where(beyond, sizes, -1.0)))
                 return (
-                    f"'{self.joints[place]}' is off by {sizes[place]:.3f} {unit}, and "
-                    f'{limits[place]:g} {unit} are tolerated'
+                    f"'{self.joints[index]}' is off by {sizes[index]:.3f} {unit}, and "
+                    f'{limits[index]:g} {unit} are tolerated'
                 )
         return ''
 
 
-def _place(joint: str, joints: Sequence[str]) -> int:
-    """Return the place of a joint; refuse one that is not among the joints."""
+def _index(joint: str, joints: Sequence[str]) -> int:
+    """Return the index of a joint; refuse one that is not among the joints."""
     if joint not in joints:
         raise CommandError(
             f"It has a tolerance of '{shortened(joint)}', which is no joint of this controller. "

@@ -35,7 +35,7 @@ class TrajectoryPoint:
 class Trajectory:
     """A sound trajectory of m joints through k points; None is what no point gives."""
 
-    places: Indices
+    indices: Indices
     times_s: Array
     """(k,)"""
     positions_rad: Array
@@ -77,20 +77,20 @@ def checked_trajectory(
         position or velocity beyond the limits.
 
     """
-    places = joints.places(names)
+    indices = joints.indices(names)
     if not points:
         raise CommandError('It has no points. Give at least one.')
     if len(points) > MOST_POINTS:
         raise CommandError(f'It has {len(points)} points. Give at most {MOST_POINTS}.')
     times_s = _checked_times(points)
     positions_rad = _checked_rows('position', [point.positions_rad for point in points], names)
-    _check_range(positions_rad, places, limits, names)
-    _check_speed(times_s, positions_rad, places, limits, names)
+    _check_range(positions_rad, indices, limits, names)
+    _check_speed(times_s, positions_rad, indices, limits, names)
     velocities_rad_s = _given('velocity', [point.velocities_rad_s for point in points], names)
     if velocities_rad_s is not None:
-        _check_velocities(velocities_rad_s, limits.velocity_rad_s[places], names)
+        _check_velocities(velocities_rad_s, limits.velocity_rad_s[indices], names)
     return Trajectory(
-        places,
+        indices,
         times_s,
         positions_rad,
         velocities_rad_s,
@@ -128,10 +128,10 @@ def _checked_rows(field: str, rows: Sequence[Sequence[float]], names: Sequence[s
 
 
 def _check_range(
-    positions_rad: Array, places: Indices, limits: JointLimits, names: Sequence[str]
+    positions_rad: Array, indices: Indices, limits: JointLimits, names: Sequence[str]
 ) -> None:
     """Refuse positions that joints do not reach."""
-    lower, upper = limits.lower_rad[places], limits.upper_rad[places]
+    lower, upper = limits.lower_rad[indices], limits.upper_rad[indices]
     outside = _first((positions_rad < lower) | (positions_rad > upper))
     if outside is not None:
         point, joint = outside
@@ -144,12 +144,12 @@ def _check_range(
 def _check_speed(
     times_s: Array,
     positions_rad: Array,
-    places: Indices,
+    indices: Indices,
     limits: JointLimits,
     names: Sequence[str],
 ) -> None:
     """Refuse points that joints cannot get to in time, even at full speed."""
-    fastest_rad_s = limits.velocity_rad_s[places]
+    fastest_rad_s = limits.velocity_rad_s[indices]
     speeds_rad_s = np.abs(np.diff(positions_rad, axis=0)) / np.diff(times_s)[:, None]
     too_fast = _first(speeds_rad_s > fastest_rad_s)
     if too_fast is not None:

@@ -91,7 +91,7 @@ def _check_joints(
     controller: str, own: Sequence[str], robot: JointNames, given: Sequence[str]
 ) -> None:
     """Refuse a goal that does not name just the joints of the controller."""
-    robot.places(given)
+    robot.indices(given)
     foreign = [joint for joint in given if joint not in own]
     if foreign:
         raise CommandError(
@@ -123,7 +123,7 @@ def _ordered(trajectory: Trajectory, own: Sequence[str], given: Sequence[str]) -
     order = [list(given).index(joint) for joint in own]
     velocities, accelerations = trajectory.velocities_rad_s, trajectory.accelerations_rad_s2
     return Trajectory(
-        trajectory.places[order],
+        trajectory.indices[order],
         trajectory.times_s,
         trajectory.positions_rad[:, order],
         None if velocities is None else velocities[:, order],

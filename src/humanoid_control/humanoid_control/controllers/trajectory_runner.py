@@ -38,7 +38,7 @@ class TrajectoryRunner:
         self._spline: Spline | None = None
         self._start_s = 0.0
         self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
-        self._places = np.zeros(0, dtype=np.intp)
+        self._indices = np.zeros(0, dtype=np.intp)
         rest = np.zeros(len(self.joints))
         self._targets = JointTargets(rest, rest.copy(), rest.copy())
 
@@ -59,7 +59,7 @@ class TrajectoryRunner:
         """
         self._waiting, self._spline = trajectory, None
         self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
-        self._wanted[trajectory.places] = True
+        self._wanted[trajectory.indices] = True
 
     def wanted(self, now_s: float) -> Mask:
         """
@@ -95,7 +95,7 @@ class TrajectoryRunner:
         if self._waiting is not None:
             trajectory, self._waiting = self._waiting, None
             self._start_s = observation.time_s
-            self._places = trajectory.places
+            self._indices = trajectory.indices
             self._spline = spline_from(trajectory, held)
 
     def update(self, observation: Observation) -> JointTargets:
@@ -115,8 +115,8 @@ class TrajectoryRunner:
         """
         if self._spline is not None:
             positions_rad, velocities_rad_s = self._spline.at(observation.time_s - self._start_s)
-            self._targets.positions_rad[self._places] = positions_rad
-            self._targets.velocities_rad_s[self._places] = velocities_rad_s
+            self._targets.positions_rad[self._indices] = positions_rad
+            self._targets.velocities_rad_s[self._indices] = velocities_rad_s
         return self._targets
 
     def cancel(self) -> None:
@@ -148,13 +148,13 @@ def spline_from(trajectory: Trajectory, held: JointTargets) -> Spline:
     begins = times_s[0] > 0.0
     if begins:
         times_s = np.concatenate(([0.0], times_s))
-        positions_rad = _led_by(held.positions_rad[trajectory.places], positions_rad)
+        positions_rad = _led_by(held.positions_rad[trajectory.indices], positions_rad)
     if velocities_rad_s is None:
         velocities_rad_s = inner_velocities(times_s, positions_rad)
         if begins:
-            velocities_rad_s[0] = held.velocities_rad_s[trajectory.places]
+            velocities_rad_s[0] = held.velocities_rad_s[trajectory.indices]
     elif begins:
-        velocities_rad_s = _led_by(held.velocities_rad_s[trajectory.places], velocities_rad_s)
+        velocities_rad_s = _led_by(held.velocities_rad_s[trajectory.indices], velocities_rad_s)
     if accelerations is not None and begins:
         accelerations = _led_by(np.zeros_like(accelerations[0]), accelerations)
     return Spline(times_s, positions_rad, velocities_rad_s, accelerations)

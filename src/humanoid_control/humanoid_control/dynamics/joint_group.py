@@ -18,7 +18,7 @@ class JointGroup:
 
     joints: tuple[str, ...]
     indices: NDArray[np.intp]
-    """(k,) their places in the model"""
+    """(k,) their indices in the model"""
     carries: Array
     """(k, k) 1 where the joint of the row moves all that the joint of the column moves"""
     armature_kgm2: Array

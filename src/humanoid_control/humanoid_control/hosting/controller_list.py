@@ -81,13 +81,13 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     """
     manager = control.manager
     claimable = any(
-        manager.is_claimable(controller.places) for controller in control.controllers.values()
+        manager.is_claimable(controller.indices) for controller in control.controllers.values()
     )
     limbs = [
         ControllerInfo(
             name,
             controller.kind,
-            controller.is_active and manager.is_claimable(controller.places),
+            controller.is_active and manager.is_claimable(controller.indices),
             manager.joints_of(name),
             controller.own,
         )
@@ -170,7 +170,7 @@ def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> s
     controller = control.controllers.get(name)
     if controller is None:
         return _not_switched(control, name)
-    if active and not control.manager.is_claimable(controller.places):
+    if active and not control.manager.is_claimable(controller.indices):
         reason = control.manager.trouble
         keeps = (
             f'accepts no commands now: {reason}'

@@ -84,7 +84,7 @@ class StateEstimator:
                 rotation, rates, observation.positions_rad, observation.velocities_rad_s
             )
         except (DynamicsError, ValueError) as error:
-            raise WalkingError(f'Nobody can walk by this observation: {error}') from error
+            raise WalkingError(f'The observation cannot be used: {error}') from error
         left_n, right_n = observation.foot_forces_n[:, 2].tolist()
         x, y, z = rates.tolist()
         return RobotState(
@@ -114,7 +114,7 @@ class StateEstimator:
 
 
 def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
-    """Refuse what nobody can walk by."""
+    """Reject a wrong shape and what is not finite."""
     if values.shape != shape:
         raise WalkingError(f'{name} has the shape {values.shape}, but {shape} is needed.')
     # The sum is finite only if all are.

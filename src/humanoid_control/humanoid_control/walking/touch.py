@@ -139,5 +139,5 @@ def _outside(last: RobotState, now: RobotState, passed_s: float) -> Array:
 
 
 def _joints(robot: WalkingRobot, pitch: str, roll: str) -> Sequence[tuple[int, int]]:
-    """Return the places of two joints, left and right, among all."""
+    """Return the indices of two joints, left and right, among all."""
     return [(robot.index(f'{side}_{pitch}'), robot.index(f'{side}_{roll}')) for side in NAMES]

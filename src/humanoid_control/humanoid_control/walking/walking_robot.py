@@ -57,7 +57,7 @@ class Leg:
 
     @property
     def indices(self) -> NDArray[np.intp]:
-        """Return the places (6,) of its joints among all, from the hip down."""
+        """Return the indices (6,) of its joints among all, from the hip down."""
         return self.group.indices
 
 
@@ -77,7 +77,7 @@ class WalkingRobot:
     """(3, 3)"""
     joints: tuple[str, ...]
     """The names of all driven joints, in the order of observations and targets."""
-    places: NDArray[np.intp]
+    indices: NDArray[np.intp]
     """(n,) where those of the walk are among them."""
 
     @classmethod
@@ -109,8 +109,8 @@ class WalkingRobot:
         body = BodyModel.of(robot, own, [drives[joint].armature for joint in own])
         legs = (Leg.of(robot, body, LEFT), Leg.of(robot, body, RIGHT))
         imu = pose_along(chain(robot, robot.prefix + 'imu_link'), {})
-        places = np.array([joints.index(joint) for joint in own], dtype=np.intp)
-        return cls(body, robot.prefix, legs, imu[:3, :3], tuple(joints), places)
+        indices = np.array([joints.index(joint) for joint in own], dtype=np.intp)
+        return cls(body, robot.prefix, legs, imu[:3, :3], tuple(joints), indices)
 
     def own(self, observation: Observation) -> Observation:
         """
@@ -132,7 +132,7 @@ class WalkingRobot:
             The observation is not one of all joints.
 
         """
-        whole, count = len(self.joints), len(self.places)
+        whole, count = len(self.joints), len(self.indices)
         for name in ('positions_rad', 'velocities_rad_s', 'efforts_nm'):
             shape = getattr(observation, name).shape
             if shape != (whole,):
@@ -143,9 +143,9 @@ class WalkingRobot:
             return observation
         return replace(
             observation,
-            positions_rad=observation.positions_rad[self.places],
-            velocities_rad_s=observation.velocities_rad_s[self.places],
-            efforts_nm=observation.efforts_nm[self.places],
+            positions_rad=observation.positions_rad[self.indices],
+            velocities_rad_s=observation.velocities_rad_s[self.indices],
+            efforts_nm=observation.efforts_nm[self.indices],
         )
 
     def whole(self, targets: JointTargets) -> JointTargets:
@@ -163,7 +163,7 @@ class WalkingRobot:
             Of all driven joints; those that do not count for walking go to zero.
 
         """
-        if len(self.places) == len(self.joints):
+        if len(self.indices) == len(self.joints):
             return targets
         return JointTargets(
             self.spread(targets.positions_rad),
@@ -187,7 +187,7 @@ class WalkingRobot:
 
         """
         spread = np.zeros(len(self.joints))
-        spread[self.places] = values
+        spread[self.indices] = values
         return spread
 
     def index(self, joint: str) -> int:
