@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the launch files of the whole humanoid need to compute."""
+"""Helpers of the launch files of the whole humanoid."""

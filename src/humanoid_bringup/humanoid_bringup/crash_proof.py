@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start a process anew that has crashed, but not one that somebody has closed."""
+"""Respawn a process that has crashed, but not one that was closed by the user."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _MOST = 5
 
 class Once(Substitution):
     """
-    Stands for what others stand for when they are first looked at.
+    Substitution that is performed only once: later calls return the same text.
 
-    A process that is started later is out of the scope in which a launch file was included, and
-    with that of its arguments.
+    A process that is respawned is outside of the scope in which its launch file was included, and
+    so outside of the scope of the launch arguments.
 
     Parameters
     ----------
     wrapped
-        The others.
+        The substitutions to perform.
 
     """
 
@@ -40,17 +40,17 @@ class Once(Substitution):
         self._text: str | None = None
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a human-readable description."""
         return f'Once({", ".join(each.describe() for each in self._wrapped)})'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Resolve the substitutions at the first call, and return the same text ever after.
+        Perform the substitutions at the first call, and return the same text afterwards.
 
         Parameters
         ----------
         context
-            The context of the launch; only that of the first call counts.
+            The launch context; only that of the first call is used.
 
         """
         if self._text is None:
@@ -60,16 +60,16 @@ class Once(Substitution):
 
 def crash_proof(make: Callable[..., Node], most: int = _MOST) -> Node:
     """
-    Return a node that is started anew after it has ended with an error or by a signal.
+    Return a node that is respawned after it has ended with an error or by a signal.
 
     `respawn=True` would also bring back a window that was closed.
 
     Parameters
     ----------
     make
-        Makes the node, with the keyword arguments that it gets; its substitutions are `Once`.
+        Makes the node, passing on its keyword arguments; the substitutions must be `Once`.
     most
-        How often it is started anew at most.
+        Maximum number of respawns.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Name the robots of a fleet."""
+"""The namespaces of a fleet of robots."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def robot_namespaces(count: str) -> list[str]:
     Raises
     ------
     ValueError
-        The text is no whole number within that range.
+        The text is not an integer within that range.
 
     """
     is_number = count.isascii() and count.isdigit()
@@ -28,7 +28,7 @@ def robot_namespaces(count: str) -> list[str]:
 
 
 def _refusal(count: str) -> str:
-    """Build the sentence that refuses a count."""
+    """Build the error message for an invalid count."""
     return (
         f"Launch argument 'robots' is '{count}', but must be a whole number "
         f"from 1 to {MOST_ROBOTS}. Pass for example 'robots:=3'."

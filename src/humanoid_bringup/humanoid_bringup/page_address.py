@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say the address of the page once more when all is up, so that it is what one sees last."""
+"""Log the address of the page again after startup, so that it is the last output."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from launch.events.process import ProcessIO
 ADDRESS = re.compile(r'RViz is at (http\S+)\s')
 ROBOT = re.compile(r'(Simulator|Mock robot) started')
 SETTLE_S = 2.0
-"""What else has to say something at the start has then said it."""
+"""Delay after which other nodes have logged their startup messages."""
 _LONGEST = 4096
 
 
 class Startup:
-    """Finds in what processes write whether the robot and its page are there."""
+    """Detects in the output of processes that the robot and its page have started."""
 
     def __init__(self) -> None:
         self._written: dict[str, str] = {}
@@ -28,19 +28,19 @@ class Startup:
 
     def hear(self, process: str, text: str) -> Optional[str]:
         """
-        Process the output of a process, in pieces of any size.
+        Search the output of a process, in pieces of any size.
 
         Parameters
         ----------
         process
             The name of the process.
         text
-            What it has written since the last call.
+            Its output since the last call.
 
         Returns
         -------
         Optional[str]
-            The address of the page, once, when the robot has started as well.
+            The address of the page, once, when the robot has started as well; otherwise None.
 
         """
         if self._is_over:
@@ -54,7 +54,7 @@ class Startup:
 
 
 def announce_page() -> OnProcessIO:
-    """Return what says the address of the page when the robot and the page are there."""
+    """Build the event handler that logs the page address once robot and page have started."""
     startup = Startup()
 
     def hear(event: ProcessIO) -> Optional[list[Action]]:
@@ -68,7 +68,7 @@ def announce_page() -> OnProcessIO:
 
 def announcement(url: str) -> str:
     """
-    Format the lines that show where the page is.
+    Format the lines that show the address of the page.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whose time the nodes of a launch take."""
+"""The time source of the nodes of a launch."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ __all__ = ['is_simulated', 'robot_time']
 
 
 def is_simulated() -> Substitution:
-    """Return whether the argument `backend` is the simulator: `true` or `false`."""
+    """Build the substitution `true` if the argument `backend` is the simulator, else `false`."""
     return EqualsSubstitution(LaunchConfiguration('backend'), 'mujoco')
 
 
 def robot_time() -> Substitution:
-    """Return `use_sim_time` for nodes: as it was given, or, if that is `auto`, by the backend."""
+    """Build the substitution for `use_sim_time`: the argument, or, if `auto`, by the backend."""
     given = LaunchConfiguration('use_sim_time')
     return IfElseSubstitution(EqualsSubstitution(given, 'auto'), is_simulated(), given)

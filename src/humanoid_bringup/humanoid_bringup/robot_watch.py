@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notice that the robot itself is gone: the simulator, or the mock robot."""
+"""Report the exit of the robot's process: the simulator or the mock robot."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 ROBOTS = ('simulator', 'mock_robot')
-"""The executables that are the robot to all other nodes."""
+"""The executables that act as the robot for all other nodes."""
 
 
 def watch_robot(argument: str) -> OnProcessExit:
     """
-    Build the event handler that reports the end of the robot's process.
+    Build the event handler that reports the exit of the robot's process.
 
     Parameters
     ----------
     argument
-        The name of a launch argument; if its value is `shutdown`, everything else ends as well.
+        The name of a launch argument; if its value is `shutdown`, the launch is shut down as well.
 
     """
 
@@ -40,14 +40,14 @@ def watch_robot(argument: str) -> OnProcessExit:
 
 def exit_report(process: str, status: int, ends_all: bool, argument: str) -> str:
     """
-    Return what is said of a robot that has ended.
+    Format the exit report of the robot's process.
 
     Parameters
     ----------
     process, status
         Its name, and its exit status; negative for a signal.
     ends_all, argument
-        Whether all else ends with it, and the launch argument that decides that.
+        Whether the launch is shut down, and the launch argument that decides that.
 
     """
     cause = f'was killed by signal {-status}' if status < 0 else f'has ended with status {status}'
@@ -60,5 +60,5 @@ def exit_report(process: str, status: int, ends_all: bool, argument: str) -> str
 
 
 def _is_robot(action: Action) -> bool:
-    """Tell whether an action is the process that is the robot."""
+    """Check whether an action is the robot's process."""
     return isinstance(action, Node) and action.node_executable in ROBOTS

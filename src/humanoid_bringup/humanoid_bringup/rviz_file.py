@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A file of RViz with displays that only some launches need."""
+"""An RViz configuration with displays that only some launches need."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ __all__ = ['RvizFile']
 
 class RvizFile(Substitution):
     """
-    Stands for the path of an RViz file that has the displays of another one as well.
+    Substitution for the path of an RViz configuration that has the displays of another as well.
 
     Parameters
     ----------
     base
-        The path of a file.
+        The path of a configuration.
     added
-        The path of one whose displays come after those of the first.
+        The path of one whose displays are appended to those of the first.
     condition
-        Only if this is 'true'; else it stands for the first file itself.
+        Append the displays only if this is 'true'; otherwise the path is that of the first file.
 
     """
 
@@ -41,7 +41,7 @@ class RvizFile(Substitution):
         )
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a human-readable description."""
         return 'RvizFile()'
 
     def perform(self, context: LaunchContext) -> str:
@@ -51,7 +51,7 @@ class RvizFile(Substitution):
         Parameters
         ----------
         context
-            The context of the launch.
+            The launch context.
 
         Returns
         -------
@@ -78,7 +78,7 @@ class RvizFile(Substitution):
 
 
 def _joined(base: Path, added: Path) -> Path:
-    """Write a temporary file with all displays; a dry run has no folder for its log."""
+    """Write a temporary file with all displays, as a dry run has no log directory."""
     content, more = (yaml.safe_load(path.read_text(encoding='utf-8')) for path in (base, added))
     content['Visualization Manager']['Displays'] += more['Visualization Manager']['Displays']
     with NamedTemporaryFile(

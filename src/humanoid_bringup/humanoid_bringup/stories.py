@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stories: what a robot is told, what is to come of it, and how it ended by ground truth."""
+"""Stories: commands to a robot, with checks of their results by ground truth."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ _ANSWER_S, _PLAN_S = 60.0, 3.0
 
 @dataclass
 class Scene:
-    """What a check looks at: the robot that was told, and where it was before."""
+    """The input of a check: the robot, and its true pose before the command."""
 
     told: ToldRobot
     before: PlanarPose
 
     @property
     def said(self) -> str:
-        """All that was said since."""
+        """All that the robot has said since the command."""
         return ' '.join(self.told.said)
 
     @property
     def turned_deg(self) -> float:
-        """By how much the robot has truly turned, to the left."""
+        """Return the true rotation of the robot since the command, positive to the left."""
         turn = self.told.robot.pose.yaw_rad - self.before.yaw_rad
         return math.degrees(math.remainder(turn, math.tau))
 
     @property
     def moved_m(self) -> complex:
-        """How far it has truly walked, ahead and to the left of how it faced before."""
+        """Return the true displacement since the command: x along the old heading, y leftwards."""
         way = self.told.robot.pose.position_m - self.before.position_m
         return way * complex(math.cos(self.before.yaw_rad), -math.sin(self.before.yaw_rad))
 
@@ -52,27 +52,27 @@ Play = Callable[[ToldRobot], None]
 
 @dataclass(frozen=True)
 class Story:
-    """A command of a kind, what is to come of it, and, if it is spoken, the WAV file."""
+    """A command of a kind, the check of its result, and, if it is spoken, the WAV file."""
 
     kind: str
     command: str
     check: Check
     wav: Path | None = None
     play: Play = lambda told: None
-    """What happens after the command."""
+    """Called after the command, to act on the robot or its world."""
 
     within_s: float = 600.0
-    """The time within which it is over, by the clock of the wall."""
+    """Timeout of each plan, in s of real time."""
 
 
 def stays(text: str) -> Check:
     """
-    Build the check that the robot says something and does nothing.
+    Build the check that the robot says something but does not move.
 
     Parameters
     ----------
     text
-        A part of what it is to say.
+        A part of what it must say.
 
     Returns
     -------
@@ -87,14 +87,14 @@ def stays(text: str) -> Check:
 
 def tell_all(told: ToldRobot, stories: Sequence[Story], capsys: Any) -> list[str]:
     """
-    Tell one story after another, print a row of a table for each, and return how each ended.
+    Run one story after another, print a table row for each, and return their results.
 
     Parameters
     ----------
     told, stories
-        Who is told what.
+        The robot, and the stories to run.
     capsys
-        That of the test, whose output is shown at once.
+        The fixture of the test; it is disabled while rows are printed.
 
     """
     ends = []
@@ -114,7 +114,7 @@ def tell_all(told: ToldRobot, stories: Sequence[Story], capsys: Any) -> list[str
 
 
 def _tell(told: ToldRobot, story: Story) -> str:
-    """Tell a story, and return how it ended."""
+    """Run a story, and return its result."""
     told.forget()
     scene = Scene(told, told.robot.pose)
     try:
@@ -124,7 +124,7 @@ def _tell(told: ToldRobot, story: Story) -> str:
             told.tell(story.command)
         story.play(told)
         told.wait_until(lambda: bool(told.said or told.plan), _ANSWER_S, 'an answer')
-        told.robot.wait(_PLAN_S)  # what is only said has no plan
+        told.robot.wait(_PLAN_S)  # a mere answer has no plan
         if told.plan is not None:
             told.wait_for_the_end(story.within_s)
     except WaitedInVainError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell a simulated robot what to do, hear what it says, and see what it truly does; for tests."""
+"""Command a simulated robot by text or speech, and observe what it says and does; for tests."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ _PIECE_S, _SILENCE_S = 0.03, 1.0
 _OVER = ('succeeded', 'failed', 'canceled')
 _ANSWER_S = 5.0
 _LISTENERS = 2
-"""Who hears a command: the planner, and the executor, for a stop."""
+"""The subscribers of a command: the planner, and the executor, for a stop."""
 _ANYTHING = 'turn left by 10 degrees'
 
 
 class ToldRobot:
     """
-    A robot in the simulated apartment, and somebody who tells it what to do.
+    A robot in the simulated apartment, commanded by text or speech.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are. The full system has been launched in its domain.
+        The nodes of the test. The full system has been launched in its domain.
 
     """
 
@@ -48,7 +48,7 @@ class ToldRobot:
         self.said: list[str] = []
         """What the robot has said since `forget`."""
         self.plan: dict[str, Any] | None = None
-        """The newest plan since `forget`, with its steps and how they are."""
+        """The newest plan since `forget`, with its steps and their states."""
         self._node = ros.observer()
         self._node.create_subscription(String, 'speech/say', self._hear, EVENT)
         self._node.create_subscription(String, 'executor/state', self._take_state, LATCHED)
@@ -71,7 +71,7 @@ class ToldRobot:
 
     @property
     def room(self) -> str:
-        """Return the name of the room in which the robot truly is."""
+        """Return the name of the room that the robot is truly in."""
         at = self.robot.pose.position_m
         return self.places.room_at(at.real, at.imag)
 
@@ -83,7 +83,7 @@ class ToldRobot:
 
     @property
     def has_succeeded(self) -> bool:
-        """Whether all steps of the newest plan have succeeded, as the robot says."""
+        """Whether all steps of the newest plan have succeeded, as the robot reports."""
         return (
             self.is_over
             and self.plan is not None
@@ -91,7 +91,7 @@ class ToldRobot:
         )
 
     def forget(self) -> None:
-        """Forget what was said and done so far."""
+        """Clear what was said, and the plan."""
         self.said.clear()
         self.plan = None
 
@@ -109,7 +109,7 @@ class ToldRobot:
 
     def speak(self, path: Path) -> None:
         """
-        Play a WAV file to the recogniser, as fast as somebody speaks, when the robot is silent.
+        Play a WAV file to the recogniser in real time, once the robot is silent.
 
         Parameters
         ----------
@@ -133,7 +133,7 @@ class ToldRobot:
         timeout_s
             How long to wait.
         what
-            What is waited for, for the error message.
+            Description of the condition, for the error message.
 
         Raises
         ------
@@ -159,14 +159,14 @@ class ToldRobot:
         text
             A part of it.
         timeout_s
-            As for `wait_until`, which also tells what is raised.
+            As for `wait_until`, which also documents the exceptions.
 
         """
         self.wait_until(lambda: any(text in each for each in self.said), timeout_s, repr(text))
 
     def wait_for_the_end(self, timeout_s: float = PATIENCE_S) -> None:
         """
-        Wait until a plan is over, no other one follows, and the robot has said something about it.
+        Wait until a plan has ended without a successor, and the robot has said something about it.
 
         Parameters
         ----------
@@ -182,7 +182,7 @@ class ToldRobot:
                 return
 
     def wait_until_it_plans(self) -> None:
-        """Wait until the planner knows what runs."""
+        """Wait until the planner answers a request with a plan."""
 
         def plans() -> bool:
             heard_by = self._commands.get_subscription_count()
@@ -191,7 +191,7 @@ class ToldRobot:
             answer = self._planner.call_async(MakePlan.Request(command=_ANYTHING))
             try:
                 self.ros.wait_until(answer.done, _ANSWER_S, 'a plan')
-            except WaitedInVainError:  # a planner that was killed is seen for some seconds
+            except WaitedInVainError:  # a killed planner stays in the graph for some seconds
                 return False
             return bool(answer.result().success)
 
@@ -202,7 +202,7 @@ class ToldRobot:
 
     def _take_state(self, message: String) -> None:
         told = json.loads(message.data)
-        self.plan = told if told['steps'] else None  # an executor that has just begun has none
+        self.plan = told if told['steps'] else None  # an executor that has just started has none
 
     def _take_speaking(self, message: Bool) -> None:
         self._is_speaking = message.data

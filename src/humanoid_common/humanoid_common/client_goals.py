@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goals that another node works on: what comes of them, and how to end them."""
+"""Goals that were sent to another node: their results, and their cancellation."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ _PERIOD_S = 5.0
 
 class GoalResult:
     """
-    The answer of a goal that was accepted; it is asked for again from time to time.
+    Result of an accepted goal, which is requested again from time to time.
 
-    A client was seen to wait for minutes after its goal had succeeded; why is not known. A further
-    request costs little, and the first answer that comes counts.
+    A client was seen to wait for minutes after its goal had succeeded, for an unknown reason.
+    Another request costs little, and the first response counts.
 
     Parameters
     ----------
     handle
-        That of the goal.
+        The client goal handle.
     now_s
-        A clock that nobody stops.
+        Returns the time of a steady clock in s.
 
     """
 
@@ -40,7 +40,7 @@ class GoalResult:
         self._asked_s = now_s()
 
     def done(self) -> bool:
-        """Return whether the answer has come; to be called all the time until then."""
+        """Check whether the result has come. Call repeatedly until then."""
         if any(each.done() for each in self._answers):
             return True
         if self._now_s() - self._asked_s > _PERIOD_S:
@@ -49,16 +49,16 @@ class GoalResult:
         return False
 
     def result(self) -> Any:
-        """Return the answer, with status and result, when it has come."""
+        """Return the response, with status and result, once it has come."""
         return next(each.result() for each in self._answers if each.done())
 
 
 def cancel_goal(sent: Future[Any]) -> None:
     """
-    Cancel a goal that was sent, as soon as its handle is there.
+    Cancel a goal that was sent, as soon as its handle is available.
 
-    Work that waits is ended by the garbage collector if its node is destroyed before; with the
-    client gone, nothing can be canceled any more, and that is no error.
+    A coroutine that still waits when its node is destroyed is ended by the garbage collector; with
+    the client gone, nothing can be canceled any more, which is not an error.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def cancel_goal(sent: Future[Any]) -> None:
 
 
 def _cancel(sent: Future[Any]) -> None:
-    """Cancel a goal whose handle is there."""
+    """Cancel a goal whose handle has come."""
     handle = sent.result() if not sent.cancelled() else None
     if handle is None or not handle.accepted:
         return

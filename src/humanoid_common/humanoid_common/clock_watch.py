@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why nothing happens when a node waits for a time that nobody tells."""
+"""Warn when a node waits for simulated time that does not come."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def complaint(publishers: int) -> str:
     Parameters
     ----------
     publishers
-        How many publishers /clock has.
+        Number of publishers of /clock.
 
     """
     why = f'no time has come on {TOPIC} so far' if publishers else f'nobody publishes {TOPIC}'

@@ -32,7 +32,7 @@ def descriptor_of(spec: ParameterSpec) -> ParameterDescriptor:
 
 
 def _add_range(descriptor: ParameterDescriptor, spec: ParameterSpec) -> None:
-    """State the limits; those of a list are stated in words, as ROS has no range for lists."""
+    """Add the limits; those of a list are put in words, as ROS has no range for lists."""
     low, high = spec.rules.at_least, spec.rules.at_most
     if spec.is_list:
         between = f'between {low} and {high}'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say once a second how the parts of a node are, on the topic `diagnostics`."""
+"""Diagnostics of the parts of a node, once a second on the topic `diagnostics`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PERIOD_S = 1.0
 
 
 class Level(Enum):
-    """How bad something is."""
+    """Severity of a status."""
 
     OK = DiagnosticStatus.OK
     WARN = DiagnosticStatus.WARN
@@ -29,18 +29,18 @@ class Level(Enum):
 @dataclass(frozen=True)
 class PartStatus:
     """
-    How a part of a node is.
+    Status of a part of a node.
 
     Attributes
     ----------
     part
-        Its name: `speech`.
+        Name of the part, such as `speech`.
     message
-        How it is, as a few words or a sentence.
+        Description of the status, as a few words or a sentence.
     level
-        How bad that is.
+        Severity of the status.
     values
-        Further facts by their names.
+        Further values, by name.
 
     """
 
@@ -52,16 +52,16 @@ class PartStatus:
 
 class Diagnostics:
     """
-    Publishes how the parts of a node are, by a clock that nobody stops.
+    Publisher of the status of the parts of a node, timed by a steady clock.
 
     Parameters
     ----------
     node
-        The node, whose name stands before that of each part.
+        The node, whose name precedes that of each part.
     report
         Returns the status of each part.
     time_s
-        Tells the time of the stamps in s; without it they are of the clock of the node.
+        Returns the time of the stamps in s; without it they are of the clock of the node.
 
     """
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The errors that end a node with a sentence."""
+"""Errors that end a node with a message."""
 
 from __future__ import annotations
 
 
 class NodeStartError(Exception):
     """
-    Tell why a node cannot start, or go on.
+    A node cannot start, or cannot continue.
 
-    The text is shown to the user as it is: sentences that say what is wrong and what to do.
+    The message is shown to the user as it is: sentences that state what is wrong and what to do.
     """

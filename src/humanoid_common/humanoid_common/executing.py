@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The executor of the nodes: rclpy's EventsExecutor, and what it needs to be relied on.
+Executor of the nodes: rclpy's EventsExecutor, with workarounds that make it reliable.
 
-Waiting costs it a third of what it costs SingleThreadedExecutor, which tells the middleware anew
-of every subscription and timer before each callback. As it is experimental in ROS 2 Jazzy:
+Waiting costs a third of what it costs with SingleThreadedExecutor, which rebuilds the wait set of
+all subscriptions and timers before each callback. EventsExecutor is experimental in ROS 2 Jazzy:
 
 - Guard conditions are not supported. Use `Executor.create_task` to wake it from another thread.
-- Without a timeout, no timer fires while it waits. `spin_until` always gives one.
+- Without a timeout, no timer fires while it waits. `spin_until` always sets one.
 - An exception in a task of an executor with a single node crashes the process. `make_executor`
-  adds a second one, which has nothing to do.
-- A subscription's callback gets the message only, and no information about it.
-- A service whose callback is a coroutine is not awaited. `create_async_service` awaits it.
-- While a coroutine waits, it is asked again and again, which takes a whole processor. That of
-  `make_executor` sleeps.
+  adds a second one, which is empty.
+- Subscription callbacks receive only the message, without message info.
+- A service callback that is a coroutine is not awaited. `create_async_service` awaits it.
+- A waiting coroutine is polled continuously, which takes a whole CPU core. With `make_executor` it
+  sleeps.
 """
 
 from __future__ import annotations
@@ -37,17 +37,17 @@ AsyncCallback = Callable[[Any, Any], Awaitable[Any]]
 
 
 class _NoNode:
-    """What an executor takes for a node without anything to do."""
+    """Stand-in for a node without any entities."""
 
     executor = None
     subscriptions = timers = clients = services = guards = waitables = ()
 
 
 class _SleepingExecutor(_EventsExecutor):
-    """An executor of events whose tasks sleep while they wait."""
+    """EventsExecutor whose tasks sleep while they wait."""
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Any:
-        """Run a callback, or a coroutine function until its end, from any thread."""
+        """Schedule a callback, or a coroutine function to be run to its end, from any thread."""
         if not inspect.iscoroutinefunction(callback):
             return super().create_task(callback, *args, **kwargs)
         end: Future[Any] = Future(executor=self)
@@ -55,7 +55,7 @@ class _SleepingExecutor(_EventsExecutor):
         return end
 
     def _resume(self, coroutine: Coroutine[Any, Any, Any], end: Future[Any]) -> None:
-        """Run a coroutine until it waits; go on when what it waits for is done."""
+        """Run a coroutine until it waits for a future; resume it when that is done."""
         try:
             coroutine.send(None)
         except StopIteration as stop:
@@ -76,7 +76,7 @@ class _SleepingExecutor(_EventsExecutor):
 
 
 def _awaited(coroutine: Any) -> Future[Any] | None:
-    """Return the future for which a coroutine waits; what it yields does not tell in Jazzy."""
+    """Find the future that a coroutine awaits; in Jazzy, what it yields does not reveal it."""
     while inspect.iscoroutine(coroutine):
         coroutine = coroutine.cr_await
     frame = getattr(coroutine, 'gi_frame', None)
@@ -86,7 +86,7 @@ def _awaited(coroutine: Any) -> Future[Any] | None:
 
 def make_executor(context: Context | None = None) -> Executor:
     """
-    Make the executor that all nodes of this workspace use.
+    Create the executor that all nodes of this workspace use.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def make_executor(context: Context | None = None) -> Executor:
     Returns
     -------
     Executor
-        An EventsExecutor, or a SingleThreadedExecutor where rclpy is older than that.
+        An EventsExecutor, or a SingleThreadedExecutor if rclpy is too old to have one.
 
     """
     if _EventsExecutor is object:
@@ -146,8 +146,8 @@ def create_async_service(
     kind, name, options
         As for `Node.create_service`.
     callback
-        Takes request and response, and returns the response when it is there. An exception in it
-        ends the node, as in other callbacks.
+        Receives request and response, and returns the response when it is ready. An exception in
+        it ends the node, as in other callbacks.
 
     """
     service = node.create_service(kind, name, callback, **options)
@@ -170,14 +170,14 @@ def destroy(node: Node) -> None:
     """
     Destroy a node together with its action servers and clients.
 
-    `Node.destroy_node` leaves action servers and clients to the garbage collector. Until it comes,
-    others see the node; and when it comes, the log of a node of the same name, which may have been
-    made meanwhile, is no longer published on /rosout.
+    `Node.destroy_node` leaves action servers and clients to the garbage collector. Until it runs,
+    the node stays visible to others; when it runs, the log of a node of the same name that was
+    created meanwhile is no longer published on /rosout.
 
     Parameters
     ----------
     node
-        The node, which no executor spins any more.
+        The node, which no executor may spin any more.
 
     """
     for waitable in list(node.waitables):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Cancel the goals that a node has given to others when its process dies, even by `kill -9`.
+Cancel the goals that a node has sent to others when its process dies, even by `kill -9`.
 
-A robot goes on with what it was told last: an arm to the end of its trajectory, navigation to its
-goal. Who told it to may be gone by then. So a second process learns of each goal through a pipe,
-which the kernel closes at the moment the first one ends, however it ends. It needs no period and
-no timeout that a busy computer could exceed.
+A robot continues with its last goal: an arm to the end of its trajectory, navigation to its goal,
+even if the client that sent it has died. A second process therefore receives each goal through a
+pipe, which the kernel closes at the moment the first one ends, however it ends. This needs no
+polling and no timeout that a busy computer could exceed.
 """
 
 from __future__ import annotations
@@ -34,22 +34,22 @@ __all__ = ['GoalGuard', 'GuardedActionClient', 'main']
 
 _MODULE = 'humanoid_common.goal_guard'
 _APPEAR_S, _ANSWER_S = 0.5, 0.3
-"""How long an action may take to be found, and to answer, when goals are canceled. One that was
-asked gets the request, whether or not its answer is waited for."""
+"""Maximum time to discover an action, and to wait for its response, when goals are canceled. A
+request that was sent arrives, whether or not its response is awaited."""
 _START_S = 5.0
-"""How long after its start a guard may take to find actions."""
+"""Time after its start in which a guard can still discover actions."""
 
 
 class GoalGuard:
     """
-    Starts the process that cancels the goals of a node when this process ends.
+    Watchdog process that cancels the goals of a node when this process ends.
 
-    Of each action it keeps the newest goal, since a controller works on one at a time.
+    It keeps the newest goal of each action, since a controller runs one at a time.
 
     Parameters
     ----------
     node
-        The node that gives goals to others. Its guard is a hidden node beside it.
+        The node that sends goals to others. Its guard is a hidden node beside it.
 
     """
 
@@ -60,26 +60,27 @@ class GoalGuard:
 
     def add(self, action: str, goal_id: UUID) -> None:
         """
-        Have a goal canceled if this process ends.
+        Register a goal, to be canceled if this process ends.
 
         Parameters
         ----------
         action, goal_id
-            The action, as the node calls it, and the goal; it need not be accepted yet.
+            Name of the action, as the node uses it, and id of the goal, which need not be accepted
+            yet.
 
         """
         service = self.node.resolve_service_name(f'{action}/_action/cancel_goal')
         self._goals[service] = bytes(goal_id.uuid).hex()
         try:
             self._tell(service)
-        except OSError:  # somebody has killed it
+        except OSError:  # it was killed
             self.close()
             self._process = self._start()
             for each in self._goals:
                 self._tell(each)
 
     def close(self) -> None:
-        """End the guard, which cancels what still goes on."""
+        """End the guard, which cancels the goals that are still running."""
         assert self._process.stdin is not None
         with suppress(OSError):
             self._process.stdin.close()
@@ -102,12 +103,12 @@ class GoalGuard:
 
 class GuardedActionClient(ActionClient):
     """
-    A client of an action whose goals end with this process.
+    Action client whose goals are canceled when this process ends.
 
     Parameters
     ----------
     guard
-        Who sees to that.
+        The guard that cancels the goals.
     kind, name
         As for `rclpy.action.ActionClient`.
 
@@ -126,7 +127,7 @@ class GuardedActionClient(ActionClient):
         Parameters
         ----------
         goal, feedback_callback, goal_uuid
-            As there; the guard knows of the goal before it is sent.
+            As there; the goal is registered with the guard before it is sent.
 
         """
         goal_id = goal_uuid or UUID(uuid=list(uuid4().bytes))
@@ -142,7 +143,7 @@ def main() -> int:
     parser.add_argument('node', help='its name')
     parser.add_argument('namespace', help='that of the node')
     told = parser.parse_args()
-    for number in STOP_SIGNALS:  # a Ctrl-C ends the other process, and so this one
+    for number in STOP_SIGNALS:  # Ctrl-C ends the other process, and thereby this one
         signal.signal(number, signal.SIG_IGN)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = Node(
@@ -156,7 +157,7 @@ def main() -> int:
     goals: dict[str, str] = {}
     for line in sys.stdin:
         service, goal_id = line.split()
-        if service not in clients:  # made now, as it takes a while to find the other side
+        if service not in clients:  # created now, as discovery takes a while
             clients[service] = node.create_client(CancelGoal, service)
         goals[service] = goal_id
     end_s = max(time.monotonic() + _APPEAR_S, begin_s + _START_S)
@@ -167,7 +168,7 @@ def main() -> int:
 
 
 def _cancel(node: Node, goals: dict[Client, str], end_s: float) -> None:
-    """Cancel goals, each of the action of its client; those are looked for until some time."""
+    """Cancel each goal with its service client; discover the services until the deadline."""
     left, answers = dict(goals), []
     while time.monotonic() < end_s:
         for client in [each for each in left if each.service_is_ready()]:

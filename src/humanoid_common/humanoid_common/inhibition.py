@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the robot may be sent somewhere, and if not, why."""
+"""Motion inhibition: whether the robot may be sent to a goal, and if not, why."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ STANDING_UP = 'The robot is being put onto its feet. Send the goal again when it
 
 
 class Inhibition:
-    """Knows from what the robot's controllers say why it cannot go anywhere, if it cannot."""
+    """Motion inhibition, from the walking state and the stop state of the robot."""
 
     def __init__(self) -> None:
         self._walking = ''
@@ -18,7 +18,7 @@ class Inhibition:
 
     @property
     def reason(self) -> str:
-        """Why the robot cannot go anywhere, as a sentence; empty if it can."""
+        """Return why the robot cannot be sent to a goal, as a message; empty if it can."""
         if self._stopped:
             return f'The robot holds still: {self._stopped}.'
         return {'fallen': FALLEN, 'stand_up': STANDING_UP}.get(self._walking, '')
@@ -30,7 +30,7 @@ class Inhibition:
         Parameters
         ----------
         state
-            What the topic `walking_state` says; `fallen` and `stand_up` inhibit motion.
+            The value of the topic `walking_state`; `fallen` and `stand_up` inhibit motion.
 
         """
         self._walking = state
@@ -42,7 +42,7 @@ class Inhibition:
         Parameters
         ----------
         reason
-            What the topic `stop_state` says: why the robot holds still; empty if it may move.
+            The value of the topic `stop_state`: why the robot holds still; empty if it may move.
 
         """
         self._stopped = reason

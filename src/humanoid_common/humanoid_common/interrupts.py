@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What SIGINT and SIGTERM do to a node."""
+"""Handling of SIGINT and SIGTERM in a node."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from humanoid_common.stop_request import StopRequest
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 WAKE_S = 0.05
-"""How long the main thread has to see a signal before it is sent to it again."""
+"""Time for the main thread to handle a signal before it is sent again."""
 JOIN_S = 1.0
-"""How long the end of a node waits for its thread, which has nothing left to do then."""
+"""Maximum wait for the thread at the end of a node; it has nothing left to do then."""
 
 
 class PatientInterrupt:
     """
     Signal handler that lets the node end by itself.
 
-    Raising KeyboardInterrupt would break into whatever runs at that moment. Only when the node
-    still runs after the patience, a further signal raises, so that a callback that never returns
-    can be ended; and when the request says that it is better to break off.
+    Raising KeyboardInterrupt would interrupt whatever runs at that moment. It is raised only by a
+    further signal after the patience, so that a callback that never returns can be ended, or when
+    the request is to interrupt at once.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class PatientInterrupt:
     patience_s
         How long after the first signal the node may take to end by itself.
     clock
-        Tells the time of a steady clock in s.
+        Returns the time of a steady clock in s.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class PatientInterrupt:
         self.was_called = False
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
-        """Note the first signal; raise KeyboardInterrupt when patience is at an end."""
+        """Handle a signal; raise KeyboardInterrupt if the patience has run out."""
         self.was_called = True
         if self._request.at_once:
             self._request.make()
@@ -74,12 +74,12 @@ def stop_on_signals() -> Iterator[StopRequest]:
     """
     Turn SIGINT and SIGTERM into a request to stop.
 
-    The main thread may be waiting inside ROS, where no Python runs. So the interpreter writes
-    the number of each signal to a socket, and a thread of its own reads it and makes the
-    request. After the block both signals are ignored: the process is at its end already.
+    The main thread may be blocked inside ROS, where no Python runs. The interpreter therefore
+    writes the number of each signal to a socket, and a dedicated thread reads it and makes the
+    request. After the block both signals are ignored, as the process is about to end.
 
-    A signal that came just before the main thread began to wait, or to another thread, does not
-    end its wait: while the node is being made, the thread sends it again.
+    A signal that arrives just before the main thread blocks, or in another thread, does not end
+    its wait: while the node is being created, the dedicated thread sends it again.
     """
     request = StopRequest()
     reader, writer = socket.socketpair()
@@ -102,7 +102,7 @@ def stop_on_signals() -> Iterator[StopRequest]:
 
 
 def _watch(reader: socket.socket, request: StopRequest, handler: PatientInterrupt) -> None:
-    """Make the request for each signal that asks for it, until the socket is shut down."""
+    """Make the request for each stop signal, until the socket is shut down."""
     while numbers := reader.recv(64):
         stops = [number for number in numbers if number in STOP_SIGNALS]
         if stops:
@@ -111,7 +111,7 @@ def _watch(reader: socket.socket, request: StopRequest, handler: PatientInterrup
 
 
 def _wake_main_thread(number: int, request: StopRequest, handler: PatientInterrupt) -> None:
-    """Send a signal again that the main thread has not seen, as it waits in the kernel."""
+    """Resend a signal that the main thread has not handled, as it is blocked in the kernel."""
 
     def is_unseen() -> bool:
         return request.at_once and not handler.was_called

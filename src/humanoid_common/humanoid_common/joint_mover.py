@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Move joints by the action of their trajectory controller."""
+"""Client of the action of a joint trajectory controller."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ _OFF = (
     FollowJointTrajectory.Result.PATH_TOLERANCE_VIOLATED,
     FollowJointTrajectory.Result.GOAL_TOLERANCE_VIOLATED,
 )
-"""How a motion ends that something was in the way of."""
+"""Error codes of a motion that was obstructed."""
 
 
 def trajectory_point(
     time_s: float, positions: Sequence[float], velocities: Sequence[float] = ()
 ) -> JointTrajectoryPoint:
     """
-    Return the point of a trajectory.
+    Build a trajectory point.
 
     Parameters
     ----------
     time_s
-        When it is to be reached, since the start of the trajectory.
+        Time from the start of the trajectory.
     positions, velocities
-        Of each joint in rad and rad/s, or m and m/s; velocities may be left out.
+        Of each joint in rad and rad/s, or m and m/s; velocities are optional.
 
     """
     return JointTrajectoryPoint(
@@ -53,21 +53,21 @@ def _duration(seconds: float) -> Duration:
 
 class JointMover:
     """
-    Sends one motion after another to a trajectory controller.
+    Client that sends one motion after another to a joint trajectory controller.
 
     Parameters
     ----------
     node
-        The node whose topics count.
+        The node of the action client.
     joints
         The names of all joints of the controller.
     controller
-        Its name.
+        Name of the controller.
     code, blocked
-        The names of the error codes of goals that fail because of it: and of those whose joints
-        do not come to where they were told to be, if that is another one.
+        Names of the error codes of goals that fail because of the controller, and of goals whose
+        joints do not reach their targets; by default the same.
     guard
-        Ends a motion with this process; without one, it goes on then.
+        Cancels the motion when this process ends; without one, the motion continues.
 
     """
 
@@ -93,7 +93,7 @@ class JointMover:
 
     @property
     def is_ready(self) -> bool:
-        """Whether the controller is there."""
+        """Whether the controller is available."""
         return bool(self._client.server_is_ready())
 
     def send(
@@ -103,16 +103,16 @@ class JointMover:
         goal_time_s: float = 0.0,
     ) -> None:
         """
-        Begin to move; a motion that still goes on is replaced.
+        Start a motion, which replaces the one that is still running.
 
         Parameters
         ----------
         points
-            The way.
+            The trajectory points.
         path_tolerance_rad
-            From how far a joint may be off on the way; 0 is any error.
+            Path tolerance of each joint; 0 is any error.
         goal_time_s
-            By how much the end may be reached late; 0 is any time.
+            Goal time tolerance; 0 is any time.
 
         """
         goal = FollowJointTrajectory.Goal(
@@ -139,7 +139,7 @@ class JointMover:
 
     def has_arrived(self) -> bool:
         """
-        Whether the motion that was begun last is over.
+        Check whether the last motion has reached its end.
 
         Raises
         ------
@@ -165,7 +165,7 @@ class JointMover:
         return True
 
     def stop(self) -> None:
-        """End a motion that goes on; the joints stay where they are."""
+        """Cancel the running motion, if any; the joints stay where they are."""
         if self._end is not None and not self._end.done():
             cancel_goal(self._sent)
         self._sent = self._handle = self._end = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the name that was meant."""
+"""Suggestions for misspelt names."""
 
 from __future__ import annotations
 

@@ -28,15 +28,15 @@ _WIDER = {
 
 class NodeParameters(Generic[T]):
     """
-    Declare the fields of a parameter dataclass on a node, and keep the current snapshot.
+    Parameters of a node, declared from a dataclass, with their current snapshot.
 
     A change at run time is checked as a whole and rejected with its reason; an accepted one
-    replaces the snapshot and is handed to `on_change`.
+    replaces the snapshot and is passed to `on_change`.
 
     Parameters
     ----------
     node
-        The node, whose parameter files and `-p` arguments set the first values.
+        The node, whose parameter files and `-p` arguments set the initial values.
     kind
         The dataclass, whose fields are declared with `parameter`.
     on_change
@@ -45,7 +45,7 @@ class NodeParameters(Generic[T]):
     Raises
     ------
     ParameterError
-        A value that was given at the start is not valid; the text names the node.
+        An initial value is invalid; the message names the node.
 
     """
 
@@ -70,7 +70,7 @@ class NodeParameters(Generic[T]):
         return self._current
 
     def _declare(self) -> T:
-        """Check the values given at the start, declare all parameters, warn of unknown ones."""
+        """Check the initial values, declare all parameters, and warn of unknown ones."""
         given = _given_values(self._node)
         known = {name: value for name, value in given.items() if name in self._specs}
         snapshot = self._build_at_start(known)
@@ -82,7 +82,7 @@ class NodeParameters(Generic[T]):
         return snapshot
 
     def _build_at_start(self, values: dict[str, Any]) -> T:
-        """Build the first snapshot; name the node when a value is refused."""
+        """Build the initial snapshot; an error names the node."""
         try:
             return build(self._kind, values)
         except ParameterError as error:
@@ -93,7 +93,7 @@ class NodeParameters(Generic[T]):
             ) from error
 
     def _warn_of_unknown(self, given: dict[str, Any]) -> None:
-        """Log a warning for each given value that no parameter takes."""
+        """Log a warning for each given value of an unknown parameter."""
         others = [
             name
             for name in given
@@ -103,11 +103,11 @@ class NodeParameters(Generic[T]):
             self._node.get_logger().warning(warning)
 
     def _widen(self, changes: list[Parameter]) -> list[Parameter]:
-        """Accept integers where a floating-point number is meant."""
+        """Convert integers where a floating-point number is expected."""
         return [self._widen_one(change) for change in changes]
 
     def _widen_one(self, change: Parameter) -> Parameter:
-        """Turn an integer into the floating-point number that the parameter asks for."""
+        """Convert an integer if the parameter is a floating-point number."""
         spec = self._specs.get(change.name)
         wide_type = _WIDER.get(change.type_)
         if spec is None or spec.element is not float or wide_type is None:
@@ -123,7 +123,7 @@ class NodeParameters(Generic[T]):
         return SetParametersResult(successful=True)
 
     def _swap(self, changes: list[Parameter]) -> None:
-        """Replace the snapshot after an accepted change, and tell the node."""
+        """Replace the snapshot after an accepted change, and notify the node."""
         snapshot = self._changed(changes)
         if snapshot != self._current:
             self._current = snapshot
@@ -138,7 +138,7 @@ class NodeParameters(Generic[T]):
 
 def _given_values(node: Node) -> dict[str, Any]:
     """
-    Return what parameter files and `-p` arguments set for this node.
+    Return the values that parameter files and `-p` arguments set for this node.
 
     rclpy offers no public way to ask for values of parameters that are not declared.
     """

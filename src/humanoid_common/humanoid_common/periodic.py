@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A timer for what moves in the world, by the clock of its node."""
+"""Periodic timer by the clock of its node."""
 
 from __future__ import annotations
 
@@ -14,23 +14,22 @@ _NANOSECONDS = 1_000_000_000
 
 class PeriodicTimer:
     """
-    Calls a function at a steady rate, with the seconds that have passed since the first call.
+    Timer that calls a function at a constant rate, with the seconds since the first call.
 
-    With `use_sim_time` these are seconds of `/clock`: what the function moves stands still while
-    the simulation is paused, and is slow while it is slow. Otherwise they are those of a steady
-    clock, which nobody sets. Which of the two it is stays as it was when the timer was made.
+    With `use_sim_time` these are seconds of `/clock`: motion that the function generates pauses
+    and slows down with the simulation. Otherwise they are those of a steady clock. Which of the
+    two is used is decided when the timer is created.
 
-    The moments are evenly spaced: calls that the computer is late for are made up for, with the
-    times at which they were due.
+    The times are evenly spaced: late calls are made up for, with the times at which they were due.
 
     Parameters
     ----------
     node
-        The node whose clock counts, and whose executor makes the calls.
+        The node whose clock is used, and whose executor makes the calls.
     rate_hz
-        Calls in a second of that clock.
+        Calls per second of that clock.
     callback
-        Gets the time of the call in seconds. It begins with 0.0 and never goes back.
+        Receives the time of the call in seconds, which starts at 0.0 and never decreases.
 
     """
 
@@ -46,12 +45,12 @@ class PeriodicTimer:
 
     def set_rate(self, rate_hz: float) -> None:
         """
-        Change the rate of the calls at once; their time goes on without a jump.
+        Change the rate of the calls at once; their time continues without a jump.
 
         Parameters
         ----------
         rate_hz
-            Calls in a second of the clock of the timer.
+            Calls per second of the clock of the timer.
 
         """
         period_ns = int(_NANOSECONDS / rate_hz)
@@ -61,12 +60,12 @@ class PeriodicTimer:
             self._timer.reset()
 
     def _call(self) -> None:
-        """Hand each time that is due to the function."""
+        """Call the function for each time that is due."""
         for due_s in self._ticks.due(self._clock.now().nanoseconds):
             self._callback(due_s)
 
 
 def _clock_of(node: Node) -> Clock:
-    """Return the clock of the node if it is simulated, else one that nobody sets."""
+    """Return the clock of the node if its time is simulated, else a steady clock."""
     clock = node.get_clock()
     return clock if clock.ros_time_is_active else Clock(clock_type=ClockType.STEADY_TIME)

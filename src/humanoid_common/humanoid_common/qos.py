@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Quality of service by name, so that both ends of a topic choose the same."""
+"""QoS profiles by name, so that both ends of a topic use the same."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ def _keep_last(
 
 
 SENSOR = _keep_last(5, ReliabilityPolicy.BEST_EFFORT)
-"""Measurements: a newer one replaces a lost one, so nobody waits for it to be sent again."""
+"""Measurements: a newer one replaces a lost one, so no one waits for a retransmission."""
 
 STATE = _keep_last(10, ReliabilityPolicy.RELIABLE)
-"""What is true now: every subscriber gets each message, with room for a short pause."""
+"""Current state: every subscriber receives each message, with room for a short pause."""
 
 COMMAND = _keep_last(1, ReliabilityPolicy.RELIABLE)
-"""What to do now: it must arrive, and only the newest one may be obeyed."""
+"""Commands: they must arrive, and only the newest one may be obeyed."""
 
 LATCHED = _keep_last(1, ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL)
-"""What seldom changes, such as a robot description: also those who join late receive it."""
+"""Rarely changing data, such as a robot description: late-joining subscribers receive it too."""
 
 EVENT = _keep_last(50, ReliabilityPolicy.RELIABLE)
-"""What happened: each one counts, so a burst must fit into the queue."""
+"""Events: each one counts, so a burst must fit into the queue."""

@@ -23,7 +23,7 @@ from rclpy.task import Future
 NodeFactory = Callable[[], Node]
 P = ParamSpec('P')
 _ends: dict[Context, Future[None]] = {}
-"""What ends the node that `run_node` runs, by its context."""
+"""Futures that end the node that `run_node` runs, by its context."""
 
 
 def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
@@ -36,7 +36,7 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     factory
-        Makes the node, once ROS is initialised.
+        Creates the node, once ROS is initialised.
     args : Sequence[str] | None
         Command line arguments, including those for ROS; by default `sys.argv`.
 
@@ -59,8 +59,8 @@ def ending(node: Node, callback: Callable[P, None]) -> Callable[P, None]:
     """
     Wrap a callback of a node so that it ends the node when it raises NodeStartError.
 
-    `run_node` then shows the message, and nothing else. A node that is run otherwise gets the
-    error.
+    `run_node` then shows the message, and nothing else. In a node that is run otherwise, the error
+    propagates.
 
     Parameters
     ----------
@@ -86,10 +86,9 @@ def ending(node: Node, callback: Callable[P, None]) -> Callable[P, None]:
 
 def _initialize(args: Sequence[str] | None) -> None:
     """
-    Start ROS, with a sentence instead of a traceback when it refuses the arguments.
+    Initialise rclpy; invalid ROS arguments end in a message instead of a traceback.
 
-    ROS leaves the signals alone: its own handling would take the context away from a callback
-    that is running.
+    rclpy installs no signal handlers: they would shut down the context under a running callback.
     """
     try:
         rclpy.init(
@@ -101,7 +100,7 @@ def _initialize(args: Sequence[str] | None) -> None:
 
 
 def _refusal(reason: str) -> str:
-    """Say what ROS refuses at its start, and what to do."""
+    """Build the message about a failed initialisation, with what to do."""
     if 'initialize logging' in reason:
         return (
             f'This node cannot write its log: {reason}. '
@@ -115,9 +114,9 @@ def _refusal(reason: str) -> str:
 
 def _made(factory: NodeFactory, stop: StopRequest) -> Node:
     """
-    Make the node; break off if it is to stop before it has begun, which may be seconds.
+    Create the node, which may take seconds; a stop request interrupts it.
 
-    What a signal breaks into may turn KeyboardInterrupt into an error of its own.
+    Code that a signal interrupts may turn KeyboardInterrupt into an error of its own.
     """
     stop.at_once = True
     try:
@@ -131,7 +130,7 @@ def _made(factory: NodeFactory, stop: StopRequest) -> Node:
 
 
 def _run(factory: NodeFactory, stop: StopRequest) -> None:
-    """Make the node, run its callbacks until the request to stop, and destroy it."""
+    """Create the node, run its callbacks until the stop request, and destroy it."""
     node = _made(factory, stop)
     watch_clock(node)
     executor = make_executor()

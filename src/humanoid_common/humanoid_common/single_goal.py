@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Actions of which one goal runs at a time, because they move the same joints."""
+"""Actions that run one goal at a time, because they move the same joints."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ['GoalAborted', 'GoalCanceled', 'RunningGoal', 'SingleGoal']
 
 _TICK_HZ = 20.0
 _PATIENCE_S = 5.0
-"""How long what a goal needs may take to come."""
+"""Maximum wait for a condition that a goal needs."""
 
 
 class GoalCanceled(Exception):
@@ -27,7 +27,7 @@ class GoalCanceled(Exception):
 
 
 class GoalAborted(Exception):
-    """A goal cannot be reached; `name` is that of a code of its result, the text says why."""
+    """A goal cannot be reached; `name` is an error code of its result, `text` the reason."""
 
     def __init__(self, name: str, text: str) -> None:
         super().__init__(text)
@@ -36,16 +36,16 @@ class GoalAborted(Exception):
 
 class RunningGoal:
     """
-    A goal that is being worked on: its request, its result, and whether it may go on.
+    A running goal: its request, its result, and whether it may continue.
 
     Parameters
     ----------
     owner
-        Runs the goals, and knows the newest one and why the robot may not move.
+        Runs the goals; knows the newest one and the reason why the robot may not move.
     handle
-        The goal as the action server has it.
+        The server goal handle.
     result
-        The result message, which the work fills in.
+        The result message, which the work of the goal fills in.
 
     Attributes
     ----------
@@ -74,14 +74,14 @@ class RunningGoal:
 
     def check(self) -> None:
         """
-        Leave the work if the goal is to end now.
+        Raise an exception if the goal is to end now.
 
         Raises
         ------
         GoalCanceled
-            The client wants that.
+            The client has requested it.
         GoalAborted
-            A newer goal is there, or the robot may not move.
+            A newer goal has come, or the robot may not move.
 
         """
         if self._handle.is_cancel_requested and not self._is_ending:
@@ -94,7 +94,7 @@ class RunningGoal:
 
     @contextmanager
     def ending(self) -> Iterator[None]:
-        """Let a goal that is canceled go on meanwhile, to leave things in order."""
+        """Ignore a cancel request within the block, so that the goal can clean up."""
         self._is_ending = True
         try:
             yield
@@ -102,7 +102,7 @@ class RunningGoal:
             self._is_ending = False
 
     async def tick(self) -> None:
-        """Wait a moment by a clock that nobody stops, and check."""
+        """Wait for a period of a steady clock, then `check`."""
         await self._owner.tick()
         self.check()
 
@@ -141,23 +141,24 @@ class RunningGoal:
         check: Callable[[], None] = lambda: None,
     ) -> Any:
         """
-        Have another action do a part of this goal; return its answer, with status and result.
+        Delegate a part of this goal to another action; return its response with status and result.
 
-        If this goal ends meanwhile, that part is canceled.
+        If this goal ends meanwhile, the delegated goal is canceled.
 
         Parameters
         ----------
         client, wanted
             The client of the other action, and the goal that it is given.
         action, code
-            The name of the action, for sentences, and of the code if it is of no use.
+            Name of the action, for messages, and of the error code if it fails.
         check
-            Called all the time; raises what ends the goal.
+            Called in every period; raises an exception to end the goal.
 
         Raises
         ------
         GoalAborted
-            The action is not there, does not answer, rejects the goal, or ends in its middle.
+            The action is not available, does not answer, rejects the goal, or vanishes while it
+            runs.
 
         """
         if not await self.comes(client.server_is_ready):
@@ -186,21 +187,21 @@ Work = Callable[[RunningGoal], Awaitable[None]]
 
 class SingleGoal:
     """
-    Works on the goals of some actions, one at a time; the newest takes the place of others.
+    Runs the goals of several actions, one at a time; the newest preempts the others.
 
     Parameters
     ----------
     node
         The node that offers the actions.
     inhibition
-        Returns why the robot may not move; nothing if it may.
+        Returns the reason why the robot may not move; empty if it may.
 
     """
 
     def __init__(self, node: Node, inhibition: Callable[[], str]) -> None:
         self._node, self.inhibition = node, inhibition
         self.newest: ServerGoalHandle | None = None
-        """The goal that came last."""
+        """The goal that was accepted last."""
         self._running: Future[None] | None = None
         self._servers: list[ActionServer] = []
         self._clock = Clock(clock_type=ClockType.STEADY_TIME)
@@ -218,9 +219,9 @@ class SingleGoal:
         kind, name
             Its type and name.
         work
-            A coroutine function that reaches a goal; it awaits `RunningGoal.tick` again and again.
+            Coroutine function that executes a goal; it awaits `RunningGoal.tick` repeatedly.
         check
-            Returns why a goal is rejected; nothing if it is not.
+            Returns the reason why a goal is rejected; empty if it is not.
 
         """
 
@@ -256,7 +257,7 @@ class SingleGoal:
         )
 
     async def tick(self) -> None:
-        """Wait a moment, by a clock that nobody stops."""
+        """Wait for a period of a steady clock, or until woken."""
         if self._timer is None:
             self._timer = self._node.create_timer(1.0 / _TICK_HZ, self._fire, clock=self._clock)
         elif self._timer.is_canceled():
@@ -266,7 +267,7 @@ class SingleGoal:
         await done
 
     def _wake(self) -> None:
-        """End the moment for which the work waits: it is to look whether it may go on."""
+        """End the wait of the running work at once, so that it checks whether it may continue."""
         self._node.executor.create_task(self._fire)
 
     def _fire(self) -> None:
@@ -277,7 +278,7 @@ class SingleGoal:
             self._timer.cancel()
 
     async def _execute(self, kind: Any, name: str, work: Work, handle: ServerGoalHandle) -> Any:
-        """Wait for the goal before, work on this one, and say how it ended."""
+        """Wait for the previous goal, run this one, and return its result."""
         while self._running is not None:
             await self._running
         self._running = Future(executor=self._node.executor)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wish that a node ends, made by a signal and fulfilled by the loop of the node."""
+"""Stop request for a node, made by a signal and obeyed by the loop of the node."""
 
 from __future__ import annotations
 
@@ -8,23 +8,22 @@ import threading
 
 
 class StopRequest:
-    """Made once, from any thread; whoever waits is woken."""
+    """Stop request that is made once, from any thread, and wakes the waiting loop."""
 
     def __init__(self) -> None:
-        """Start without a request, and with nobody to wake."""
         self._made = threading.Event()
         self._lock = threading.Lock()
         self._wake: Callable[[], None] | None = None
         self.at_once = False
-        """Whether it is better to break off what runs than to let it come to its end."""
+        """Whether to interrupt what runs rather than let it finish."""
 
     @property
     def is_made(self) -> bool:
-        """Tell whether the node is to end."""
+        """Whether the node is to stop."""
         return self._made.is_set()
 
     def make(self) -> None:
-        """Ask the node to end."""
+        """Request the node to stop."""
         with self._lock:
             self._made.set()
             if self._wake is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When a periodic function is due, with late calls made up for."""
+"""Schedule of a periodic function, which makes up for late calls."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ _NANOSECONDS = 1_000_000_000
 
 class Ticks:
     """
-    Evenly spaced moments of the time that has passed since the first look at a clock.
+    Evenly spaced ticks of the time since the first reading of a clock.
 
-    A computer that was busy elsewhere asks late. The moments that have passed meanwhile are all
-    due then, so that the mean rate holds and no sample of a motion is left out; but none that is
-    older than `LONGEST_DELAY_S`. When the clock is set back, as by a simulator that starts anew,
-    the time that has passed goes on from where it was.
+    On a busy computer, calls come late. All ticks that have passed meanwhile are due then, except
+    those older than `LONGEST_DELAY_S`, so that the mean rate is kept and no sample of a motion is
+    skipped. When the clock is set back, as by a simulator that restarts, the time continues from
+    where it was.
 
     Parameters
     ----------
     rate_hz
-        How many moments there are in a second of the clock.
+        Ticks per second of the clock.
 
     """
 
@@ -33,7 +33,7 @@ class Ticks:
 
     def due(self, clock_ns: int) -> Iterator[float]:
         """
-        Yield the moments that have come and were not yielded before, the oldest first.
+        Yield the times of the ticks that are due and were not yielded before, oldest first.
 
         Parameters
         ----------
@@ -43,7 +43,7 @@ class Ticks:
         Yields
         ------
         float
-            The time of the moment in seconds.
+            The time of the tick in seconds.
 
         """
         passed_ns = self._passed_ns(clock_ns)
@@ -68,12 +68,12 @@ class Ticks:
 
     def set_rate(self, rate_hz: float, clock_ns: int) -> None:
         """
-        Change the rate: the next moment is one new period from now.
+        Change the rate: the next tick is one new period from now.
 
         Parameters
         ----------
         rate_hz
-            How many moments there are in a second of the clock.
+            Ticks per second of the clock.
         clock_ns
             The clock, in nanoseconds.
 
@@ -83,7 +83,7 @@ class Ticks:
             self._next_ns = self._passed_ns(clock_ns) + self._period_ns
 
     def _passed_ns(self, clock_ns: int) -> int:
-        """Return the time since the first look at the clock; it never goes back."""
+        """Compute the time since the first reading of the clock; it never decreases."""
         if self._origin_ns is None:
             self._origin_ns = clock_ns
         elif clock_ns < self._clock_ns:

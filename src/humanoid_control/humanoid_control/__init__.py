@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that move the joints of the humanoid and watch them."""
+"""Nodes that move and monitor the joints of the humanoid."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn commands into messages."""
+"""Convert joint commands to messages."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where joints are to be, and how fast they are to move there."""
+"""Joint commands: target positions and velocities."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class JointCommand:
     velocities_rad_s: list[float]
 
     def still(self) -> JointCommand:
-        """Return the command to stay there."""
+        """Return a command that holds the same positions, at zero velocity."""
         return replace(self, velocities_rad_s=[0.0] * len(self.joints))
 
 

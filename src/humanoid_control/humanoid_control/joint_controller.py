@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish joint commands that swing the arms."""
+"""Node that publishes joint commands to swing the arms."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from sensor_msgs.msg import JointState
 
 class HumanoidJointController(Node):
     """
-    Swings the joints that its parameters name, on the topic `joint_commands`, until a stop.
+    Node that swings joints with commands on the topic `joint_commands`, until a stop.
 
-    The motion goes by the clock of the node: with `use_sim_time` it is as slow as the simulation,
-    and stands still with it. The watch over the person in control goes by a steady clock.
+    The motion follows the clock of the node: with `use_sim_time` it slows down and pauses with the
+    simulation. The heartbeat of the console in control is checked by a steady clock.
 
     Parameters
     ----------
@@ -33,7 +33,6 @@ class HumanoidJointController(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Start to publish."""
         super().__init__('humanoid_joint_controller', **options)
         self._settings = NodeParameters(self, JointControllerParameters, self._change)
         parameters = self._settings.current
@@ -44,14 +43,14 @@ class HumanoidJointController(Node):
         self.get_logger().info(f'Humanoid Joint Controller started ({parameters.rate_hz:g} Hz)')
 
     def _publish(self, now_s: float) -> None:
-        """Publish the command for this moment."""
+        """Publish the current command."""
         command = self._motion.command(now_s, self._stop.must_hold)
         if command is not None:
             stamp = self.get_clock().now().to_msg()
             self._publisher.publish(command_message(command, stamp))
 
     def _change(self, parameters: JointControllerParameters) -> None:
-        """Follow a change of the parameters."""
+        """Apply changed parameters."""
         self._motion.change(parameters.motion, self._timer.now_s())
         self._stop.guard.heartbeat_timeout_s = parameters.heartbeat_timeout_s
         self._timer.set_rate(parameters.rate_hz)

@@ -12,7 +12,7 @@ from humanoid_control.sine_motion import Motion, motion_of
 
 @dataclass(frozen=True)
 class JointControllerParameters:
-    """How fast to publish, and how each joint swings: one element a joint in every list."""
+    """Publishing rate, and the swing of each joint: every list has one element per joint."""
 
     rate_hz: float = parameter(
         50.0, 'How many joint commands are published a second.', at_least=1.0, at_most=1000.0
@@ -47,7 +47,7 @@ class JointControllerParameters:
     )
 
     def __post_init__(self) -> None:
-        """Check what must hold for all lists together."""
+        """Validate the lists against each other."""
         self._check_names()
         for name in ('amplitudes_rad', 'frequencies_rad_s', 'phases_rad'):
             self._check_length(name, len(getattr(self, name)))
@@ -58,7 +58,7 @@ class JointControllerParameters:
         return motion_of(self.joints, self.amplitudes_rad, self.frequencies_rad_s, self.phases_rad)
 
     def _check_names(self) -> None:
-        """Check that every joint has a name, and its own."""
+        """Check that the joint names are unique and not empty."""
         if '' in self.joints:
             raise ParameterError(
                 "Parameter 'joints' contains an empty name. Name every joint.", 'joints'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Report the first joint of a stream of joint states, now and then."""
+"""Rate-limited report of the first joint of a stream of joint states."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from collections.abc import Sequence
 
 class JointReporter:
     """
-    Format the first joint of joint states as a line of text, at most once in a period.
+    Formatter of the first joint of joint states as a line of text, at most once per period.
 
     Parameters
     ----------
     period_s
-        The least time between two reports.
+        Minimum time between two reports.
 
     """
 
@@ -49,5 +49,5 @@ class JointReporter:
         return f'{names[0]}: {positions_rad[0]:.3f} rad'
 
     def _is_due(self, now_s: float) -> bool:
-        """Tell whether a period has passed since the last report."""
+        """Check whether a period has passed since the last report."""
         return self._last_s is None or now_s - self._last_s >= self.period_s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What joints can do, and targets that ask for no more."""
+"""Joint limits, and joint targets clamped to them."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class JointLimits:
-    """Range, speed and strength of n joints, which may slide: then in m, m/s and N; each (n,)."""
+    """Position, velocity and effort limits of n joints (n,); in m, m/s and N if prismatic."""
 
     lower_rad: Array
     upper_rad: Array
     velocity_rad_s: Array
     effort_nm: Array
     kp_nm_rad: Array
-    """The stiffness of the servos, which makes an effort of a target farther off."""
+    """Stiffness of the servos: effort per position error."""
 
     @classmethod
     def of(cls, drives: Mapping[str, Drive], joints: Sequence[str]) -> JointLimits:
         """
-        Collect the limits of joints from their drives.
+        Collect the limits of joints from their actuators.
 
         Parameters
         ----------
         drives
-            The drive of each joint, by name.
+            The actuator of each joint, by name.
         joints
             Names of the n joints, in the order of the limits.
 
@@ -43,18 +43,18 @@ class JointLimits:
 
     def limited(self, targets: JointTargets, last_rad: Array, elapsed_s: float) -> JointTargets:
         """
-        Clip joint targets to the range, the speed and the strength of the joints.
+        Clamp joint targets to the position, velocity and effort limits.
 
-        A position changes by no more than the joint moves at full speed in the elapsed time.
+        A position changes by no more than the velocity limit allows in the elapsed time.
 
         Parameters
         ----------
         targets
             Targets of the n joints.
         last_rad
-            Target positions of the period before (n,).
+            Target positions of the previous period (n,).
         elapsed_s
-            Time since then.
+            Time since the previous period.
 
         """
         way_rad = self.velocity_rad_s * elapsed_s
@@ -67,6 +67,6 @@ class JointLimits:
 
 
 def _between(values: Array, low: Array, high: Array) -> Array:
-    """Clip values; np.clip is several times slower."""
+    """Clamp values; np.clip is several times slower."""
     clipped: Array = np.minimum(np.maximum(values, low), high)
     return clipped

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run robots without physics: what their joints are told comes true."""
+"""Node that runs robots without physics: joints follow their targets."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ NO_TURN = (
 
 class MockRobot(Node):
     """
-    Takes commands and says where the joints are, as a simulator does, but without physics.
+    Node that accepts commands and publishes joint states like a simulator, without physics.
 
     Parameters
     ----------
@@ -50,7 +50,6 @@ class MockRobot(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Start to run."""
         super().__init__('robot', **options)
         self._settings = NodeParameters(self, HostParameters, self._change)
         parameters = self._settings.current
@@ -72,7 +71,7 @@ class MockRobot(Node):
     def _build(
         self, parameters: HostParameters
     ) -> tuple[dict[str, WalkingRobotControl], MockBackend]:
-        """Return the control of every robot, and what moves them."""
+        """Build the control of every robot, and the backend that moves them."""
         scale, prefix, hands = parameters.scale, parameters.prefix, parameters.hands
         try:
             model = load_robot(humanoid_urdf(scale, prefix, hands=hands), 'the humanoid')
@@ -97,11 +96,11 @@ class MockRobot(Node):
         )
 
     def _now_s(self) -> float:
-        """Return the time of the clock by which this node tells it."""
+        """Return the time of the node's clock."""
         return float(self.get_clock().now().nanoseconds * 1e-9)
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:
-        """Publish what is due after a tick, stamped by the clock."""
+        """Publish what is due after a tick, stamped by the node's clock."""
         robot_s = next(iter(observations.values())).time_s
         stamp_s = self._stamps.stamp_s(robot_s, self._now_s())
         if stamp_s is not None:
@@ -113,13 +112,13 @@ class MockRobot(Node):
             )
 
     def _able(self, velocity: VelocityCommand) -> VelocityCommand:
-        """Leave out the turn, with a word on why, once."""
+        """Drop the turn from a velocity command, with a warning the first time."""
         if velocity.turn_rad_s:
             self.get_logger().warning(NO_TURN, once=True)
         return VelocityCommand(velocity.forward_m_s, velocity.left_m_s)
 
     def _change(self, parameters: HostParameters) -> None:
-        """Follow a change of the parameters."""
+        """Apply changed parameters."""
         self._robots.change(parameters)
 
 

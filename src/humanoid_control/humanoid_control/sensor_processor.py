@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Watch the joint commands and report the first joint."""
+"""Node that monitors the joint commands and reports the first joint."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from sensor_msgs.msg import JointState
 
 class SensorProcessor(Node):
     """
-    Logs the position of the first joint on the topic `joint_commands`.
+    Node that logs the position of the first joint on the topic `joint_commands`.
 
     Parameters
     ----------
@@ -28,7 +28,6 @@ class SensorProcessor(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Start to listen."""
         super().__init__('sensor_processor', **options)
         self._settings = NodeParameters(self, SensorProcessorParameters, self._change)
         self._reporter = JointReporter(self._settings.current.report_period_s)
@@ -42,7 +41,7 @@ class SensorProcessor(Node):
             self.get_logger().info(line)
 
     def _change(self, parameters: SensorProcessorParameters) -> None:
-        """Follow a change of the parameters."""
+        """Apply changed parameters."""
         self._reporter.period_s = parameters.report_period_s
 
 

@@ -10,7 +10,7 @@ from humanoid_common.parameters import parameter
 
 @dataclass(frozen=True)
 class SensorProcessorParameters:
-    """How often to report."""
+    """Report period of the sensor processor."""
 
     report_period_s: float = parameter(
         1.0, 'The least time between two reports.', at_least=0.1, at_most=3600.0

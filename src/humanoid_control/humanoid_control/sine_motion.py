@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Joints that swing like sine waves."""
+"""Sinusoidal joint motion."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import math
 @dataclass(frozen=True)
 class Swing:
     """
-    The motion of one joint: amplitude times the sine of a growing angle.
+    Sinusoidal motion of one joint: amplitude times the sine of a growing angle.
 
-    `turned_rad` is how far the angle has come at the time `since_s`; the phase is added to it.
+    `turned_rad` is the angle at the time `since_s`, to which the phase is added.
     """
 
     joint: str
@@ -49,14 +49,14 @@ class Swing:
 
     def followed_by(self, successor: Swing, now_s: float) -> Swing:
         """
-        Change the frequency of a swing while its angle goes on.
+        Switch to another swing with a continuous angle.
 
-        Amplitude and phase are those of the successor at once: the position jumps if they differ.
+        Amplitude and phase change at once: the position jumps if they differ.
 
         Parameters
         ----------
         successor
-            The swing to go over to.
+            The swing to switch to.
         now_s
             Time of the change.
 
@@ -70,13 +70,13 @@ class Swing:
         return replace(successor, turned_rad=turned_rad, since_s=now_s)
 
     def _angle_rad(self, now_s: float) -> float:
-        """Return the angle whose sine the joint follows."""
+        """Compute the angle of the sine wave."""
         return self.frequency_rad_s * (now_s - self.since_s) + self.turned_rad + self.phase_rad
 
 
 @dataclass(frozen=True)
 class Motion:
-    """The motion of several joints."""
+    """The sinusoidal motion of several joints."""
 
     swings: tuple[Swing, ...]
 
@@ -111,12 +111,12 @@ class Motion:
 
     def followed_by(self, successor: Motion, now_s: float) -> Motion:
         """
-        Change to another motion; see `Swing.followed_by` for joints that are in both.
+        Switch to another motion; see `Swing.followed_by` for joints that are in both.
 
         Parameters
         ----------
         successor
-            The motion to go over to.
+            The motion to switch to.
         now_s
             Time of the change.
 
@@ -142,14 +142,14 @@ def motion_of(
     phases_rad: Sequence[float],
 ) -> Motion:
     """
-    Build a motion from lists with one element a joint.
+    Build a motion from lists with one element per joint.
 
     Parameters
     ----------
     joints
         Names of the joints.
     amplitudes_rad
-        How far each joint swings to either side of zero.
+        Amplitudes of the swing of each joint about zero.
     frequencies_rad_s
         Angular frequencies.
     phases_rad

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decide whether the robot must hold still."""
+"""Stop logic: emergency stop, and heartbeat watchdog of the console in control."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ PRESSED = 'the emergency stop is pressed'
 
 class StopGuard:
     """
-    Decide whether the robot must hold still, and know why.
+    Watchdog that decides whether the robot must hold still, and why.
 
-    There are two reasons: somebody pressed the emergency stop, or the console that was in control
-    is gone. Both last until the emergency stop is released, which is for a person to do.
+    There are two reasons: the emergency stop was pressed, or the console in control was lost. Both
+    last until a person releases the emergency stop.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class StopGuard:
 
     @property
     def reason(self) -> str:
-        """Return why the robot must hold still, or nothing if it may move."""
+        """Return the reason why the robot must hold still; empty if it may move."""
         return self._reason
 
     def order(self, stop: bool) -> None:
@@ -51,7 +51,7 @@ class StopGuard:
         Parameters
         ----------
         in_control
-            Whether the console controls the robot; only then does it have to go on beating.
+            Whether the console controls the robot; only then are further heartbeats required.
 
         """
         self._in_control = in_control
@@ -61,8 +61,8 @@ class StopGuard:
         """
         Check the heartbeat timeout of the console in control; call it several times per timeout.
 
-        Of the time between two checks no more than half of the timeout counts: after a moment in
-        which this computer stood still, what has arrived meanwhile is heard first.
+        The time between two checks counts for at most half of the timeout: when this computer
+        stalled, messages that have arrived meanwhile are handled first.
 
         Parameters
         ----------
@@ -72,7 +72,7 @@ class StopGuard:
         Returns
         -------
         str
-            Why the robot must hold still; empty if it may move.
+            The reason why the robot must hold still; empty if it may move.
 
         """
         if self._checked_s is not None:
@@ -85,7 +85,7 @@ class StopGuard:
         return self._reason
 
     def _gone(self) -> str:
-        """Return the sentence on a console that is gone."""
+        """Build the message about a lost console."""
         return (
             'the console that was in control is gone, without a heartbeat for '
             f'{self.heartbeat_timeout_s:g} s'

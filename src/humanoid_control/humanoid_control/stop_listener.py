@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hear who stops the robot, and say that it holds still."""
+"""Topics of a stop: emergency stop, console heartbeat and stop state."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from std_msgs.msg import Bool, String
 
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 CHECK_S = 0.05
-"""How often a console that is gone is looked for, by a clock that nobody sets or stops."""
+"""Period of the check for a lost console, by a steady clock."""
 
 
 class StopListener:
     """
-    Subscribe to `emergency_stop` and `console_heartbeat`, and publish `stop_state`.
+    Subscriber to `emergency_stop` and `console_heartbeat`, and publisher of `stop_state`.
 
-    A stop is heard twice: once with what was said before this node started, and once from
-    publishers that keep nothing for those who join late, or send nothing twice.
+    `emergency_stop` has two subscriptions: a latched one, which also receives messages from before
+    this node started, and a best-effort one, for publishers that are volatile or best-effort.
 
-    People go by real time: the watch over the console goes on while a simulation is paused.
+    The heartbeat is checked in real time, also while a simulation is paused.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class StopListener:
     heartbeat_timeout_s
         How long the console in control may be silent, in real time.
     robot
-        Namespace of the robot in that of the node; empty if it has none of its own.
+        Namespace of the robot, relative to that of the node; empty if it has none of its own.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class StopListener:
         self._say_news()
 
     def _check(self) -> None:
-        """Look for a console that is gone."""
+        """Check the heartbeat of the console."""
         self.guard.check(time.monotonic())
         self._say_news()
 
@@ -78,7 +78,7 @@ class StopListener:
         self.guard.heartbeat(message.data)
 
     def _say_news(self) -> None:
-        """Say why the robot holds still, or that it moves on, when that is new."""
+        """Publish and log the stop state when it has changed."""
         reason = self.guard.reason
         if reason == self._said:
             return

@@ -7,15 +7,15 @@ from humanoid_control.joint_command import command_of, JointCommand
 from humanoid_control.sine_motion import Motion
 
 RESUME_S = 2.0
-"""How long it takes from a release until the joints are in their motion again."""
+"""Time from a release until the joints are back in their motion."""
 
 
 class StoppableMotion:
     """
     A motion whose time stands still while it is held.
 
-    After a release the joints go from where they were held into the motion, from rest and
-    steadily, even if it has become another one meanwhile.
+    After a release the joints blend smoothly from rest where they were held into the motion, even
+    if the motion has changed meanwhile.
 
     Parameters
     ----------
@@ -34,19 +34,19 @@ class StoppableMotion:
 
     def command(self, now_s: float, hold: bool) -> JointCommand | None:
         """
-        Compute the joint command of this moment, held or moving.
+        Compute the current joint command, held or moving.
 
         Parameters
         ----------
         now_s
-            Time of the clock by which the motion goes.
+            Time of the clock that the motion follows.
         hold
             Whether the joints must hold still; when that ends, they blend into the motion again.
 
         Returns
         -------
         JointCommand or None
-            None while joints are held that have had no command yet.
+            None while holding before the first command.
 
         """
         if hold:
@@ -58,14 +58,14 @@ class StoppableMotion:
 
     def change(self, motion: Motion, now_s: float) -> None:
         """
-        Change to another motion; joints that are held stay where they are.
+        Switch to another motion; joints that are held stay where they are.
 
         Parameters
         ----------
         motion
-            The motion to go over to, as in `Motion.followed_by`.
+            The motion to switch to, as in `Motion.followed_by`.
         now_s
-            Time of the clock by which the motion goes.
+            Time of the clock that the motion follows.
 
         """
         moment_s = now_s if self._held_since_s is None else self._held_since_s
@@ -85,7 +85,7 @@ class StoppableMotion:
             self._held = dict(zip(last.joints, last.positions_rad)) if last else {}
 
     def _blended(self, target: JointCommand, now_s: float) -> JointCommand:
-        """Return the way from where the joints were held into the motion."""
+        """Blend from where the joints were held into the motion."""
         if self._released_s is None:
             return target
         passed = (now_s - self._released_s) / RESUME_S

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot of three joints, for tests of backends and controllers."""
+"""Robot with three joints, for tests of backends and controllers."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def targets(*positions_rad: float, velocity_rad_s: float = 0.0) -> JointTargets:
     Parameters
     ----------
     *positions_rad
-        Target positions, one a joint.
+        Target positions, one per joint.
     velocity_rad_s
         Target velocity of each joint.
 

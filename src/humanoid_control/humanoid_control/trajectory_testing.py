@@ -15,14 +15,14 @@ def trajectory_goal(
     joints: Sequence[str], *points: tuple[float, Sequence[float]], **fields: Any
 ) -> FollowJointTrajectory.Goal:
     """
-    Return the goal of a trajectory.
+    Build a FollowJointTrajectory goal.
 
     Parameters
     ----------
     joints
         The names of the joints.
     points
-        Times since the start, in seconds, and positions of the joints.
+        Times from the start, in seconds, and joint positions.
     fields
         Other fields of the goal, such as tolerances.
 

@@ -48,6 +48,13 @@ def test_they_are_parameters_of_nodes() -> None:
         build(HostParameters, {'walk.timing.swing_s': 0.0})
 
 
+@pytest.mark.parametrize('rates', [(1.3, 1.6), (1.0, 2.0, 1.5), (1.0, 1.0)])
+def test_rates_of_a_hurried_step_grow(rates: tuple[float, ...]) -> None:
+    """From that of one that is not hurried; else none would be found for a step."""
+    with pytest.raises(ParameterError, match='must begin with 1.0 and grow'):
+        build(HostParameters, {'walk.step_adjustment.hurry_rates': rates})
+
+
 @pytest.mark.parametrize('scale', [0.0, -1.0, math.nan, math.inf])
 def test_no_size_is_refused(scale: float) -> None:
     """A scale that is no size is refused."""

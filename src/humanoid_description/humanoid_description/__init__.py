@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The model of the humanoid: its drives, its sizes, and checks of any robot's model."""
+"""The model of the humanoid: its actuators, its scaling, and checks of any robot model."""

@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    """Describe the command line."""
+    """Build the argument parser."""
     parser = argparse.ArgumentParser(
         prog='check_model',
         description='Check a model of a robot: its tree, bodies, joints, and, if it is the '
@@ -62,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
-    """Return the URDF to check, and what to call it."""
+    """Return the URDF to check, and its name for the report."""
     path: Path | None = arguments.file
     if path is None:
         return _humanoid(arguments)
@@ -81,7 +81,7 @@ def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
 
 
 def _file(path: Path, words: Sequence[str]) -> tuple[str, str]:
-    """Return the URDF in a file, or what a xacro file expands to, and what to call it."""
+    """Return the URDF of a URDF or xacro file, and its name for the report."""
     given = _given(path, words)
     text = path.read_text(encoding='utf-8')
     if path.suffix != '.xacro':
@@ -92,7 +92,7 @@ def _file(path: Path, words: Sequence[str]) -> tuple[str, str]:
 
 
 def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
-    """Return the arguments of a xacro file by their names."""
+    """Parse the arguments of a xacro file, by their names."""
     if ':=' in str(path):
         raise DescriptionError(
             f"'{path}' is an argument of a xacro file: name the file before it. The humanoid has "
@@ -109,7 +109,7 @@ def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
 
 
 def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
-    """Return the URDF of the humanoid that the arguments describe."""
+    """Return the URDF of the humanoid with the given options, and its name for the report."""
     from humanoid_description.expansion import humanoid_urdf
     from humanoid_description.scaling import load_scaling
 
@@ -123,7 +123,7 @@ def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
 
 
 def _check(text: str, source: str, folder: Path) -> int:
-    """Check a URDF, and print what was found."""
+    """Check a URDF, print the report, and return the exit status."""
     from humanoid_description.checks import check_robot
     from humanoid_description.loading import load_robot
     from humanoid_description.report import report
@@ -134,11 +134,11 @@ def _check(text: str, source: str, folder: Path) -> int:
 
 
 def _show(text: str) -> int:
-    """Print a text; return another exit status than 0 if nobody gets it."""
+    """Print a text; return a non-zero exit status if it cannot be written."""
     try:
         print(text, flush=True)
     except OSError as error:
-        # The interpreter would try once more at the end, and complain.
+        # Otherwise the interpreter would flush again at exit, and print an error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if isinstance(error, BrokenPipeError):
             return 128 + signal.SIGPIPE

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The drives of the humanoid's joints, as config/joints.yaml says.
+The drives (actuators) of the humanoid's joints, from config/joints.yaml.
 
-The model is made from the same file: who reads the drives here knows what the model knows, and
-the gains of the servos as well, for which a URDF has no place.
+The URDF is generated from the same file, so both agree. The drives also have the servo gains, for
+which a URDF has no element.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ REVOLUTE, PRISMATIC = 'revolute', 'prismatic'
 @dataclass(frozen=True)
 class Drive:
     """
-    What moves a joint.
+    The actuator of a joint.
 
     Attributes
     ----------
     lower, upper
-        Its range: rad, or m for a prismatic joint.
+        Position limits: rad, or m for a prismatic joint.
     effort, velocity
-        Its strength, in N m or N, and its greatest speed, in rad/s or m/s.
+        Effort limit, in N m or N, and velocity limit, in rad/s or m/s.
     damping, friction
-        Of the joint itself: N m s/rad or N s/m, and N m or N.
+        Damping and dry friction of the joint itself: N m s/rad or N s/m, and N m or N.
     kp, kd
-        The gains of its servo: N m/rad or N/m, and N m s/rad or N s/m.
+        Proportional and derivative gain of its servo: N m/rad or N/m, and N m s/rad or N s/m.
     armature
-        The rotor's inertia seen at the joint: kg m2, or kg.
+        Rotor inertia reflected to the joint: kg m2, or kg.
     kind
         The type of the joint, as in a URDF: `revolute` or `prismatic`.
 
@@ -70,7 +70,7 @@ def load_drives(
     Raises
     ------
     DescriptionError
-        There is no model of this scale.
+        The scale is out of range.
 
     """
     limbs = ('arm', *(('hand',) if hands else ()), *(() if upper_body_only else ('leg',)))
@@ -91,7 +91,7 @@ def drives_of(
     scaling, scale
         The scaling rules, and the size of the robot, 1.0 for the values of the file.
     limbs
-        Which ones: `arm`, `hand`, `leg`; each is on both sides.
+        The limbs to include: `arm`, `hand`, `leg`, each on both sides.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def drives_of(
     Raises
     ------
     DescriptionError
-        There is no model of this scale.
+        The scale is out of range.
 
     """
     return {
@@ -113,7 +113,7 @@ def drives_of(
 def _entries(
     table: Mapping[str, Any], limbs: Sequence[str]
 ) -> Iterator[tuple[str, Mapping[str, Any], bool]]:
-    """Yield every joint: its name, its entry, and whether it turns the other way."""
+    """Yield every joint: its name, its entry, and whether its limits are mirrored."""
     for name, entry in table['middle'].items():
         yield name, entry, False
     for side in SIDES:

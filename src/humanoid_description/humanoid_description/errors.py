@@ -5,4 +5,4 @@ from __future__ import annotations
 
 
 class DescriptionError(Exception):
-    """Tell in sentences why there is no model."""
+    """A robot model cannot be made or loaded; the message gives the reason."""

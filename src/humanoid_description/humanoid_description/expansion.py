@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a URDF from the humanoid's xacro files, or from others."""
+"""Expand the xacro files of the humanoid, or others, to a URDF."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ def humanoid_urdf(
     scale: float = 1.0, prefix: str = '', upper_body_only: bool = False, hands: bool = False
 ) -> str:
     """
-    Return the URDF of the humanoid.
+    Generate the URDF of the humanoid.
 
     Parameters
     ----------
     scale, prefix, upper_body_only, hands
-        The arguments of the model.
+        The xacro arguments of the model.
 
     Raises
     ------
     DescriptionError
-        xacro is missing, or refuses an argument.
+        xacro is missing, or rejects an argument.
 
     """
     return expand(

@@ -8,7 +8,7 @@ from typing import Any
 
 
 def share() -> Path:
-    """Return the folder with the model and its configuration."""
+    """Return the share directory of this package, with the model and its configuration."""
     from ament_index_python.packages import get_package_share_directory
 
     return Path(get_package_share_directory('humanoid_description'))

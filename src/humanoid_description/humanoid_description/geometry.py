@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Points, mass and area of a robot that stands still."""
+"""Geometry of a robot at rest: centre of mass, corners of shapes, and convex hulls."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from itertools import product
 from humanoid_description.robot import Array, Robot, Shape
 import numpy as np
 
-# A cylinder is as good as a prism of so many edges.
+# Number of edges of the prism that approximates a cylinder.
 EDGES = 24
 _AXES: Array = np.vstack([np.eye(3), -np.eye(3)])
 _SIGNS: Array = np.array(list(product((-1.0, 1.0), repeat=3)))
@@ -24,7 +24,7 @@ def centre_of_mass(robot: Robot, poses: dict[str, Array]) -> Array:
     robot
         A model with mass.
     poses
-        The pose (4, 4) of each link in the root by its name, as of `kinematics.poses`.
+        The pose (4, 4) of each link in the root by its name, as from `kinematics.poses`.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def outline(shapes: Iterable[Shape], pose: Array) -> Array:
     """
     Compute the corners of the shapes of a link.
 
-    A cylinder counts as a prism of 24 edges, a sphere by its six ends on the axes; a mesh has no
+    A cylinder counts as a prism of 24 edges, a sphere as its six points on the axes; a mesh has no
     corners.
 
     Parameters
@@ -64,13 +64,13 @@ def outline(shapes: Iterable[Shape], pose: Array) -> Array:
 
 
 def _placed(points: Array, pose: Array) -> Array:
-    """Return points in the frame in which the pose is given."""
+    """Transform points by a pose."""
     placed: Array = points @ pose[:3, :3].T + pose[:3, 3]
     return placed
 
 
 def _corners(shape: Shape) -> Array:
-    """Return points on the outside of a shape, in its own frame; of a mesh there are none."""
+    """Return the corners of a shape in its own frame; a mesh has none."""
     if shape.kind == 'box':
         edges: Array = np.array(shape.size_m)
         return _SIGNS * edges / 2
@@ -100,12 +100,12 @@ def margin_inside(point: Array, corners: Array) -> float:
     point
         x and y in m (2,).
     corners
-        The points (n, 2) in m whose hull it is, in the same frame.
+        Points (n, 2) in m that span the hull, in the same frame.
 
     Returns
     -------
     float
-        The distance in m from the nearest edge inside of the hull; negative outside.
+        Distance in m from the nearest edge; positive inside the hull, negative outside.
 
     """
     hull = convex_hull(corners)
@@ -137,7 +137,7 @@ def convex_hull(points: Array) -> Array:
 
 
 def _half_hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return the points that a string stretched below the points touches."""
+    """Compute the lower half of the hull of ordered points, or the upper half if reversed."""
     hull: list[tuple[float, float]] = []
     for point in points:
         while len(hull) > 1 and not _turns_left(hull[-2], hull[-1], point):
@@ -147,5 +147,5 @@ def _half_hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def _turns_left(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> bool:
-    """Tell whether the way from a over b to c bends to the left."""
+    """Check whether the path from a via b to c turns left."""
     return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the links of a robot are. Positions may be arrays: then so are the poses."""
+"""Forward kinematics. Joint positions may be arrays; then so are the poses."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def joint_motion(joint: Joint, position: Array | float) -> Array:
 
 
 def _position(joint: Joint, positions: Mapping[str, Array | float]) -> Array | float:
-    """Return the position of a joint, which may follow that of another."""
+    """Return the position of a joint; that of a mimic joint follows from the other joint."""
     mimics = joint.mimics
     if mimics is None or joint.name in positions:
         return positions.get(joint.name, 0.0)
@@ -114,7 +114,7 @@ def _position(joint: Joint, positions: Mapping[str, Array | float]) -> Array | f
 
 
 def _turn_less_identity(axis: Array, angle: Array) -> Array:
-    """Return the rotation about a unit axis, without the identity in it (Rodrigues)."""
+    """Compute the rotation matrix about a unit axis minus the identity (Rodrigues)."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn: Array = np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a URDF."""
+"""Parse a URDF to a robot model."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from humanoid_description.urdf_text import readable
 import numpy as np
 
 FORWARD = (1.0, 0.0, 0.0)
-"""The axis of a joint that names none."""
+"""The default axis of a joint."""
 
 
 def load_robot(text: str, source: str, folder: Path = Path()) -> Robot:
@@ -24,19 +24,19 @@ def load_robot(text: str, source: str, folder: Path = Path()) -> Robot:
     text
         The URDF, as XML.
     source
-        What error messages call it.
+        The name of the URDF in error messages.
     folder
-        Where mesh files are that are named without a scheme and by a relative path.
+        The folder to which mesh file names without a scheme are relative.
 
     Returns
     -------
     Robot
-        The model, of whose soundness nothing is known: `checks.check_robot` looks at that.
+        The model, not validated; see `checks.check_robot`.
 
     Raises
     ------
     DescriptionError
-        The text is no URDF; the message names the line.
+        The text is not a URDF; the message gives the line.
 
     """
     robot = readable(text, source)
@@ -61,7 +61,7 @@ def _link(link: Any) -> Link:
 
 
 def _body(inertial: Any) -> Body:
-    """Build what a link weighs."""
+    """Build the inertial parameters of a link."""
     inertia = inertial.find('inertia')
     xx, xy, xz, yy, yz, zz = (
         float(inertia.get(name)) for name in ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
@@ -103,14 +103,14 @@ def _joint(joint: Any) -> Joint:
 
 
 def _mimic(mimic: Any) -> Mimic:
-    """Build how a joint follows another."""
+    """Build the mimic rule of a joint."""
     return Mimic(
         mimic.get('joint'), float(mimic.get('multiplier', 1.0)), float(mimic.get('offset', 0.0))
     )
 
 
 def _limits(limit: Any) -> Limits:
-    """Build the limits of a joint; an end of the range that is not given is zero."""
+    """Build the limits of a joint; a missing position limit is zero."""
     lower, upper, effort, velocity = (
         None if limit.get(name) is None else float(limit.get(name))
         for name in ('lower', 'upper', 'effort', 'velocity')
@@ -119,7 +119,7 @@ def _limits(limit: Any) -> Limits:
 
 
 def _pose(element: Any) -> Array:
-    """Return the pose of an element, (4, 4), which may lack an origin."""
+    """Return the pose (4, 4) of an element; the identity if it has no origin."""
     pose: Array = np.eye(4)
     origin = element.find('origin')
     if origin is not None:
@@ -129,7 +129,7 @@ def _pose(element: Any) -> Array:
 
 
 def _turned(roll: float, pitch: float, yaw: float) -> Array:
-    """Return a rotation about the fixed axes x, then y, then z."""
+    """Compute the rotation matrix of roll, pitch and yaw about the fixed axes x, y and z."""
     (cr, cp, cy), (sr, sp, sy) = np.cos((roll, pitch, yaw)), np.sin((roll, pitch, yaw))
     return np.array(
         [
@@ -141,5 +141,5 @@ def _turned(roll: float, pitch: float, yaw: float) -> Array:
 
 
 def _numbers(text: str | None, default: Sequence[float] = ()) -> Sequence[float]:
-    """Return the numbers of an attribute, which may be missing."""
+    """Parse the numbers of an attribute; return the default if it is missing."""
     return default if text is None else [float(part) for part in text.split()]

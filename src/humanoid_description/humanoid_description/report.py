@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Show what the checks have found."""
+"""Format the report of the checks."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def report(source: str, outcomes: Sequence[Outcome]) -> str:
     Parameters
     ----------
     source
-        What was checked, as the verdict calls it.
+        The name of the checked model, for the verdict.
     outcomes
-        What the checks have found, in the order of the table.
+        The outcomes of the checks, in the order of the table.
 
     """
     return '\n'.join([*_table(outcomes), '', *_sentences(source, outcomes)])
@@ -36,7 +36,7 @@ def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
 
 
 def _rows(outcomes: Sequence[Outcome]) -> Iterator[tuple[str, str, str]]:
-    """Yield the cells of a line for each check, but one line for all that have one obstacle."""
+    """Yield the cells of one row per check, but one row for checks skipped for the same reason."""
     for obstacle, group in groupby(outcomes, key=lambda outcome: outcome.skipped):
         checks = list(group)
         if obstacle and len(checks) > 1:
@@ -46,7 +46,7 @@ def _rows(outcomes: Sequence[Outcome]) -> Iterator[tuple[str, str, str]]:
 
 
 def _sentences(source: str, outcomes: Sequence[Outcome]) -> Iterator[str]:
-    """Yield the defects, and how many there are."""
+    """Yield the defects, and the verdict."""
     defects = [defect for outcome in outcomes for defect in outcome.defects]
     skipped = sum(bool(outcome.skipped) for outcome in outcomes)
     passed = sum(not outcome.defects for outcome in outcomes) - skipped

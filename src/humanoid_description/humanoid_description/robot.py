@@ -18,7 +18,7 @@ DRIVEN_KINDS = ('revolute', 'continuous', 'prismatic')
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """Mass, centre of mass in the link, and inertia about it in the axes of pose."""
+    """Inertial parameters: mass, pose of the CoM in the link, inertia in the axes of that pose."""
 
     mass_kg: float
     pose: Array
@@ -37,7 +37,7 @@ class Shape:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """A rigid part; without a body it is a mere frame."""
+    """A rigid link; without a body it is a mere frame."""
 
     name: str
     body: Body | None = None
@@ -48,7 +48,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Limits:
-    """The range of a joint in rad or m, and its strength; None is not given."""
+    """Position limits of a joint in rad or m, effort and velocity limits; None if not given."""
 
     lower: float
     upper: float
@@ -58,7 +58,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Mimic:
-    """How a joint follows another: by a multiple of its position, and an offset in rad or m."""
+    """How a joint mimics another: by a multiplier of its position, and an offset in rad or m."""
 
     joint: str
     multiplier: float = 1.0
@@ -67,7 +67,7 @@ class Mimic:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """A connection: pose says where the child sits in the parent while the joint is at zero."""
+    """A joint; its pose is that of the child link in the parent link at position zero."""
 
     name: str
     kind: str
@@ -81,13 +81,13 @@ class Joint:
 
     @property
     def is_driven(self) -> bool:
-        """Tell whether the joint turns about its axis or slides along it."""
+        """Whether the joint is revolute, continuous or prismatic."""
         return self.kind in DRIVEN_KINDS
 
 
 @dataclass(frozen=True)
 class Robot:
-    """Links and joints, in the order of the file; nothing is known of their soundness."""
+    """Links and joints, in the order of the file; they are not validated."""
 
     name: str
     links: tuple[Link, ...]
@@ -96,39 +96,39 @@ class Robot:
 
     @cached_property
     def link(self) -> dict[str, Link]:
-        """Return the links by their names."""
+        """Return the links by name."""
         return {link.name: link for link in self.links}
 
     @cached_property
     def joint(self) -> dict[str, Joint]:
-        """Return the joints by their names."""
+        """Return the joints by name."""
         return {joint.name: joint for joint in self.joints}
 
     @cached_property
     def joint_above(self) -> dict[str, Joint]:
-        """Return the joint that each link but the root hangs from."""
+        """Return the parent joint of each link but the root, by the name of the link."""
         return {joint.child: joint for joint in self.joints}
 
     @cached_property
     def roots(self) -> tuple[str, ...]:
-        """Return the links that hang from no joint."""
+        """Return the names of the links without a parent joint."""
         return tuple(link.name for link in self.links if link.name not in self.joint_above)
 
     @cached_property
     def prefix(self) -> str:
-        """Return what the names begin with, if the root is a base_link."""
+        """Return the prefix of all names, if the root is a `base_link`; otherwise empty."""
         root = self.roots[0] if self.roots else ''
         return root.removesuffix('base_link') if root.endswith('base_link') else ''
 
     @cached_property
     def mass_kg(self) -> float:
-        """Return the mass of all links together."""
+        """Return the total mass of all links."""
         return sum(link.body.mass_kg for link in self.links if link.body)
 
 
 def line_of(part: Link | Joint) -> str:
     """
-    Format the line of a link or joint in its file, with which messages about it begin.
+    Format the line number of a link or joint, as the prefix of messages about it.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def repeated(names: Iterable[str]) -> list[str]:
     Parameters
     ----------
     names
-        Those of links or joints, in any order.
+        The names of links or joints, in any order.
 
     """
     return [name for name, times in Counter(names).items() if times > 1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a robot of another size differs, as config/scaling.yaml says."""
+"""Scaling rules for robots of other sizes, from config/scaling.yaml."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from humanoid_description.files import load_config
 
 @dataclass(frozen=True)
 class Scaling:
-    """The sizes that there are, and the power of the scale that each quantity grows with."""
+    """The range of the scale, and the exponent of the scale by which each quantity grows."""
 
     smallest: float
     largest: float
@@ -65,5 +65,5 @@ class Scaling:
 
 
 def load_scaling() -> Scaling:
-    """Return the installed rules."""
+    """Load the installed scaling rules."""
     return Scaling(**load_config('scaling.yaml'))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find what no reader of URDF could make sense of, with its line."""
+"""Validate the XML of a URDF; errors give the line."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from humanoid_description.errors import DescriptionError
 
-# How many numbers an attribute must have.
+# Required number of values of numeric attributes, by element.
 NUMBERS = {
     'origin': {'xyz': 3, 'rpy': 3},
     'axis': {'xyz': 3},
@@ -28,7 +28,7 @@ NUMBERS = {
         ('soft_lower_limit', 'soft_upper_limit', 'k_position', 'k_velocity'), 1
     ),
 }
-# What an element must have: attributes, and elements in it.
+# Required attributes and child elements, by element.
 ATTRIBUTES = {
     'robot': ('name',),
     'link': ('name',),
@@ -49,31 +49,31 @@ ELEMENTS = {
     'visual': ('geometry',),
     'collision': ('geometry',),
 }
-# Elements of these mean something else than those of a robot: nothing in them is read.
+# Extensions, whose child elements have other meanings than in a URDF: they are skipped.
 FOREIGN = ('gazebo', 'transmission', 'ros2_control', 'mujoco')
 SHAPES = ('box', 'cylinder', 'sphere', 'mesh')
 
 
 def readable(text: str, source: str) -> Any:
     """
-    Parse the XML of a URDF, and reject what no reader could make sense of.
+    Parse and validate the XML of a URDF.
 
     Parameters
     ----------
     text
         The URDF.
     source
-        What error messages call it.
+        The name of the URDF in error messages.
 
     Returns
     -------
     Any
-        The element `robot`, of lxml.
+        The lxml element `robot`.
 
     Raises
     ------
     DescriptionError
-        It is no XML, no URDF, or an element lacks something; the message names source and line.
+        The text is not XML, not a URDF, or has an invalid element; the message gives the line.
 
     """
     from lxml import etree
@@ -94,7 +94,7 @@ def readable(text: str, source: str) -> Any:
 
 
 def _elements(element: Any) -> Iterator[Any]:
-    """Yield the elements that describe the robot."""
+    """Yield the elements of the URDF, without extensions."""
     if not isinstance(element.tag, str) or element.tag in FOREIGN:
         return
     yield element
@@ -103,7 +103,7 @@ def _elements(element: Any) -> Iterator[Any]:
 
 
 def _problems(element: Any) -> Iterator[str]:
-    """Yield sentences on what is missing or no number, or what no program has expanded."""
+    """Yield messages on missing items, values that are not numbers, and unexpanded xacro."""
     if element.prefix == 'xacro':
         tag = f'xacro:{element.tag.rpartition("}")[2]}'
         yield f'<{tag}> is xacro and not URDF. Expand the file first, or name it .xacro.'
@@ -124,7 +124,7 @@ def _problems(element: Any) -> Iterator[str]:
 
 
 def _are_numbers(text: str, count: int) -> bool:
-    """Tell whether a text consists of so many finite numbers."""
+    """Check whether a text consists of a given count of finite numbers."""
     try:
         numbers = [float(part) for part in text.split()]
     except ValueError:
@@ -133,12 +133,12 @@ def _are_numbers(text: str, count: int) -> bool:
 
 
 def _count(count: int) -> str:
-    """Say how many numbers there should be."""
+    """Format the required number of values."""
     return 'a number' if count == 1 else f'{count} numbers'
 
 
 def _owner(element: Any) -> str:
-    """Say which link or joint an element belongs to."""
+    """Format the name of the link or joint that an element belongs to."""
     for ancestor in (element, *element.iterancestors()):
         if ancestor.tag in ('link', 'joint') and ancestor.get('name'):
             return f"{ancestor.tag} '{ancestor.get('name')}': "

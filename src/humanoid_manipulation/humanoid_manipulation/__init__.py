@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reach for things, take them and put them down."""
+"""Manipulation: reach for objects, pick them up and place them."""

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The joints of an arm for a pose of its gripper, in closed form.
+Closed-form inverse kinematics of an arm with six joints.
 
-The three axes of the shoulder meet in one point, so that the arm is one of those of which D. L.
-Pieper, The Kinematics of Manipulators under Computer Control (1968), showed that they have closed
-solutions: the distance from wrist to shoulder gives the elbow, the direction to the shoulder, seen
-from the hand, the wrist, and what is left of the rotation the shoulder. Each step but the first
-has two answers, as a square root has, and so there are up to eight postures for a pose.
+The three axes of the shoulder intersect in one point, so the arm has a closed-form solution by
+D. L. Pieper, The Kinematics of Manipulators under Computer Control (1968): the distance from wrist
+to shoulder gives the elbow angle, the direction to the shoulder in the frame of the hand gives the
+wrist angles, and the remaining rotation gives the shoulder angles. Each of the three steps has two
+solutions, so there are up to eight postures for a pose.
 """
 
 from __future__ import annotations
@@ -36,33 +36,33 @@ AXES = {
     'wrist_yaw': 'z',
     'wrist_pitch': 'y',
 }
-"""The joints from the shoulder to the hand, and the axes that they turn about."""
+"""The joints from the shoulder to the hand, and their axes."""
 
 _COUNT = len(AXES)
 _GRIPPERS = dict(zip(SIDES, ('l_gripper', 'r_gripper')))
 _TOLERANCE = 1e-9
 _STRETCHED_M = 1e-7
-"""So far from the line of the forearm, the shoulder is as good as on it: see `near`."""
+"""A shoulder within this distance of the forearm's line counts as on it: see `near`."""
 _COINCIDING = 1e-9
-"""The cosine of a roll that is a right angle, where pitch and yaw turn about one axis."""
+"""Cosine of the roll below which pitch and yaw share one axis: a singularity."""
 
 
 @dataclass(frozen=True, eq=False)
 class Arm:
     """
-    An arm with a hand, which hangs straight down at zero.
+    An arm with a hand, which hangs straight down at zero joint positions.
 
     Attributes
     ----------
     joints
         The names of its six joints, from the shoulder down.
     base, gripper
-        The link that the shoulder is part of, and the one between the fingers.
+        The parent link of the shoulder, and the link between the fingers.
     shoulder_m
-        Where the axes of the shoulder meet (3,), in the base.
+        The intersection of the shoulder axes (3,), in the base.
     upper_m, fore_m, hand_m
-        The distances from there to the elbow, on to the joint that bends the wrist, and on to the
-        middle of what the fingers hold.
+        The lengths from there to the elbow, on to the wrist pitch joint, and on to the centre of
+        the grip.
     lower_rad, upper_rad
         The limits of the joints (6,).
 
@@ -93,7 +93,7 @@ class Arm:
         Raises
         ------
         ManipulationError
-            The robot has no such arm, or one of another build.
+            The robot has no such arm, or its kinematics differ.
 
         """
         gripper = _gripper(robot, side)
@@ -121,7 +121,7 @@ class Arm:
 
     @property
     def reach_m(self) -> float:
-        """Return how far the joint that bends the wrist gets from the shoulder."""
+        """Return the largest distance of the wrist pitch joint from the shoulder."""
         return self.upper_m + self.fore_m
 
     def forward(self, posture: Sequence[float]) -> Frame:
@@ -177,7 +177,7 @@ class Arm:
         posture
             The positions of the six joints (rad), from the shoulder down.
         margin_rad
-            How far from its limits each joint has to stay.
+            The margin that each joint must keep from its limits.
 
         """
         return self.excess_rad(posture) <= -margin_rad
@@ -204,20 +204,20 @@ class Arm:
 
     def postures(self, gripper: Frame, near: Sequence[float] | None = None) -> list[Posture]:
         """
-        Return all postures that bring the gripper to a pose, the best one first.
+        Solve the inverse kinematics within the joint limits, the best posture first.
 
         Parameters
         ----------
         gripper
-            Where the gripper is to be in the base.
+            The target pose of the gripper in the base.
         near
-            Where the arm is now; the best posture is the one whose joints go the shortest way
-            from there. Without it, the one whose joints stay farthest from their limits.
+            The current posture; the best posture is the nearest to it in joint space. Without it,
+            the best posture is the one farthest from the joint limits.
 
         Returns
         -------
         list of Posture
-            Those within the limits; none if the pose is out of reach.
+            The postures within the limits; none if the pose is out of reach.
 
         """
         found = [each for each in self.solutions(gripper, near) if self.is_within_limits(each)]
@@ -227,14 +227,14 @@ class Arm:
 
     def solutions(self, gripper: Frame, near: Sequence[float] | None = None) -> Iterator[Posture]:
         """
-        Yield all postures that bring the gripper to a pose, whatever the limits.
+        Yield all solutions of the inverse kinematics, ignoring the joint limits.
 
         Parameters
         ----------
         gripper
-            Where the gripper is to be in the base.
+            The target pose of the gripper in the base.
         near
-            Gives the joints that can be any where two axes coincide; by default zero.
+            The posture that supplies the free joint at a singularity; zero by default.
 
         """
         (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = gripper.rotation.tolist()
@@ -246,7 +246,7 @@ class Arm:
             for wrist_yaw in _wrist_yaws(back, wy, given[4]):
                 ahead = back * math.cos(wrist_yaw)
                 wrist_pitch = math.atan2(wz, wx) - math.atan2(up, ahead)
-                # The rotation of the upper arm is that of the hand less those below it.
+                # The rotation of the upper arm is that of the hand, with the joints below undone.
                 c6, s6 = math.cos(wrist_pitch), math.sin(wrist_pitch)
                 c5, s5 = math.cos(wrist_yaw), math.sin(wrist_yaw)
                 c4, s4 = math.cos(elbow), math.sin(elbow)
@@ -281,18 +281,18 @@ class Arm:
 
     def lack_m(self, gripper: Frame) -> float:
         """
-        Return how far a pose is from having a posture, whatever the limits.
+        Compute by how far a pose misses the workspace of the arm, ignoring the joint limits.
 
         Parameters
         ----------
         gripper
-            Where the gripper is to be in the base.
+            The target pose of the gripper in the base.
 
         Returns
         -------
         float
-            By how much the wrist is too far from the shoulder, or too near, or the shoulder beside
-            the plane in which the hand bends, in m; 0 if there are postures.
+            By how much the wrist is too far from the shoulder or too near to it, or the shoulder
+            is too far off the plane in which the hand bends, in m; 0 if a solution exists.
 
         """
         wx, wy, wz = self._to_shoulder_m(gripper)
@@ -303,7 +303,7 @@ class Arm:
         return abs(distance_m - nearest_m) + beside_m
 
     def _to_shoulder_m(self, gripper: Frame) -> tuple[float, float, float]:
-        """Return the way from the wrist to the shoulder, in the axes of the hand."""
+        """Compute the vector from the wrist to the shoulder, in the axes of the hand."""
         (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = gripper.rotation.tolist()
         px, py, pz = gripper.position_m.tolist()
         sx, sy, sz = self.shoulder_m.tolist()
@@ -317,8 +317,8 @@ class Arm:
 
 
 def _elbows(upper_m: float, fore_m: float, distance_m: float) -> tuple[float, ...]:
-    """Return the turns of the elbow that bring wrist and shoulder to a distance."""
-    # With half angles: exact for an arm that is nearly stretched, where a cosine is not.
+    """Return the elbow angles that bring wrist and shoulder to a distance."""
+    # Half angles: accurate for a nearly stretched arm, where the cosine is not.
     shorter = (upper_m + fore_m - distance_m) * (upper_m + fore_m + distance_m)
     longer = (distance_m - upper_m + fore_m) * (distance_m + upper_m - fore_m)
     if not min(shorter, longer) >= -_TOLERANCE:
@@ -328,7 +328,7 @@ def _elbows(upper_m: float, fore_m: float, distance_m: float) -> tuple[float, ..
 
 
 def _wrist_yaws(back: float, across: float, given: float) -> tuple[float, ...]:
-    """Return the turns of the wrist that bring the upper arm to where it is across the hand."""
+    """Return the wrist yaw angles that give the shoulder's offset across the hand."""
     if abs(across) > abs(back) + _STRETCHED_M:
         return ()
     if abs(back) <= _STRETCHED_M:
@@ -348,7 +348,7 @@ def _gripper(robot: Robot, side: str) -> str:
 
 
 def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[Array]) -> None:
-    """Refuse an arm of another build; the poses are those of the joints at zero, in the root."""
+    """Validate the kinematics of an arm, from the joint poses at zero, in the root link."""
     needed = [f'{robot.prefix}{side}_{kind}' for kind in AXES]
     found = [joint.name for joint in joints]
     if found != needed:

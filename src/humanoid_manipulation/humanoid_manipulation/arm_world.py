@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What arms must keep clear of: the body, each other, and what is around the robot.
+Collision checking of the arms: with the body, each other, and the obstacles around the robot.
 
-MuJoCo finds the contacts: it knows boxes, cylinders and capsules exactly, and takes some
-microseconds for a posture. Nothing moves by itself here.
+MuJoCo finds the contacts: it treats boxes, cylinders and capsules exactly, and takes some
+microseconds per posture. Only kinematics is used; no dynamics is simulated.
 """
 
 from __future__ import annotations
@@ -26,24 +26,23 @@ __all__ = ['ArmWorld', 'Contact', 'Obstacle']
 
 _ARM_LINKS = ('upper_arm', 'forearm', 'palm', 'finger', 'thumb')
 _NEVER = (('finger', 'thumb'), ('forearm', 'palm'))
-"""Links of an arm that are built so that they overlap or meet."""
+"""Pairs of links of an arm that overlap or touch by design."""
 _COMPILER = '<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco></robot>'
 
 
 @dataclass(frozen=True, eq=False)
 class Obstacle:
     """
-    A box.
+    A box-shaped obstacle.
 
     Attributes
     ----------
     name
-        What it is called in sentences.
+        The name in messages.
     middle
-        Where its middle is, and how it is turned: in the pelvis, or, of what a hand holds, in the
-        gripper.
+        The pose of its centre: in the pelvis frame, or, for a held object, in the gripper frame.
     size_m
-        Its edges (3,) along its axes.
+        Its edge lengths (3,) along its axes.
 
     """
 
@@ -52,7 +51,7 @@ class Obstacle:
     size_m: tuple[float, float, float]
 
     def __post_init__(self) -> None:
-        """Refuse a box that cannot be."""
+        """Validate the pose and the size."""
         numbers = (*self.size_m, *self.middle.position_m, *self.middle.rotation.ravel())
         if min(self.size_m) <= 0.0 or not np.isfinite(numbers).all():
             raise ManipulationError(f"'{self.name}' is no box: its edges are {self.size_m} m.")
@@ -60,7 +59,7 @@ class Obstacle:
 
 @dataclass(frozen=True)
 class Contact:
-    """Two things that are nearer to each other than they may be; negative is overlap."""
+    """A pair of shapes nearer to each other than allowed; a negative distance is penetration."""
 
     one: str
     other: str
@@ -68,31 +67,31 @@ class Contact:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return what touches."""
+        """Return the names of the pair."""
         return frozenset((self.one, self.other))
 
     def __str__(self) -> str:
-        """Return it as a part of a sentence."""
+        """Return the text for messages."""
         return f"'{self.one}' would touch '{self.other}'"
 
 
 @dataclass(eq=False)
 class ArmWorld:
     """
-    Finds what the arms of a robot touch in a posture.
+    Collision checker for the arms of a robot.
 
     Parameters
     ----------
     urdf
-        The robot.
+        The URDF of the robot.
     body
         Its upper body.
     obstacles
-        What is around it.
+        The obstacles around it.
     held
-        What hands hold, by their sides; the boxes are in the grippers.
+        The boxes of held objects, each in its gripper frame, by side.
     clearance_m
-        So near to something an arm does not come.
+        The distance below which a pair counts as a contact.
 
     """
 
@@ -103,7 +102,7 @@ class ArmWorld:
     clearance_m: float = 0.01
 
     def __post_init__(self) -> None:
-        """Build the world."""
+        """Build the MuJoCo model."""
         self._robot = load_robot(self.urdf, 'the robot')
         spec = mujoco.MjSpec.from_string(self.urdf.replace('</robot>', _COMPILER))
         prefix = self._robot.prefix
@@ -131,12 +130,12 @@ class ArmWorld:
 
     def stand(self, positions: Mapping[str, float]) -> None:
         """
-        Take the posture of the whole robot, of which an arm is moved then.
+        Set the joint positions of the robot, from which `contacts` moves one arm.
 
         Parameters
         ----------
         positions
-            Of joints, by their names, in rad or m; others stay as they are.
+            Positions by joint name, in rad or m; other joints keep theirs.
 
         """
         for joint in self._robot.joints:
@@ -152,19 +151,20 @@ class ArmWorld:
         """
         Find the contacts of the arms in a posture of one of them.
 
-        The arm and the waist keep that posture; all other joints stay as they are: see `stand`.
+        The arm and the waist keep that posture afterwards; all other joints stay where `stand`
+        has set them.
 
         Parameters
         ----------
         side
-            `left` or `right`: which arm is moved.
+            `left` or `right`: the arm to move.
         reach
             The waist angle and the posture of that arm.
 
         Returns
         -------
         list of Contact
-            Pairs with an arm in them that are nearer to each other than `clearance_m`.
+            Pairs that involve an arm and are nearer to each other than `clearance_m`.
 
         """
         data = self._data
@@ -180,14 +180,15 @@ class ArmWorld:
 
     def is_free(self, side: str, reach: Reach, but: Mapping[frozenset[str], float] = {}) -> bool:
         """
-        Return whether nothing is touched.
+        Check whether a posture is collision-free.
 
         Parameters
         ----------
         side, reach
-            Which arm, and where it is.
+            The side of the arm, and its posture.
         but
-            How near, or deep in each other, pairs of names may be (m).
+            The least allowed distance of pairs of names (m), instead of the clearance; negative
+            allows penetration.
 
         """
         return all(
@@ -208,7 +209,7 @@ class ArmWorld:
         )
 
     def _name(self, geom: int) -> str:
-        """Return what a shape is called in sentences."""
+        """Return the name of a geom in messages."""
         body = self._model.body(int(self._model.geom_bodyid[geom])).name
         if body.startswith('obstacle '):
             return self.obstacles[int(body.split()[1])].name
@@ -218,5 +219,5 @@ class ArmWorld:
         return str(body)
 
     def _place(self, joint: str) -> int:
-        """Return where the position of a joint is among all."""
+        """Return the index of a joint in `qpos`."""
         return int(self._model.joint(joint).qposadr[0])

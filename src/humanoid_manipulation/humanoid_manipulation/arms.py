@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arms and the waist of the robot, moved by their controllers."""
+"""Client of the controllers of the arms, the waist and the grippers."""
 
 from __future__ import annotations
 
@@ -31,25 +31,26 @@ __all__ = ['Arms']
 
 _CODE, _BLOCKED = 'ARM_FAILED', 'BLOCKED'
 _OFF_RAD, _LATE_GOAL_S = 0.3, 1.0
-"""A joint that is farther off on the way, or later at its end, has met something."""
+"""Path tolerance and goal time tolerance: a joint that exceeds them has hit something."""
 _STILL_RAD = 1e-3
-"""A waist that is to turn by less stays where it is."""
+"""The waist is not moved for a smaller turn."""
 _LATE_S = 5.0
 """How much longer than planned a motion may take."""
 
 
 class Arms:
     """
-    Knows the robot's upper body and where its joints are, and moves them.
+    Interface to the upper body: its model, its joint states and its controllers.
 
-    Joint states are listened to only while a goal runs, since they come all the time.
+    It subscribes to the joint states only while a goal runs, because of their rate.
 
     Parameters
     ----------
     node
-        The node whose topics count.
+        The node that owns the subscriptions and the action clients.
     guard
-        Ends motions of joints with this process. A gripper goes on: it may hold something.
+        Cancels joint motions when this process ends. Gripper goals go on: a hand may hold
+        something.
 
     """
 
@@ -67,14 +68,14 @@ class Arms:
 
     @property
     def body(self) -> UpperBody:
-        """Return the upper body; GoalAborted if it is not known."""
+        """Return the upper body; raises GoalAborted while there is no valid robot description."""
         if self._body is None:
             raise GoalAborted(_CODE, self._reason)
         return self._body
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Listen to the joints meanwhile."""
+        """Subscribe to the joint states in the enclosed block."""
         self._positions = {}
         subscription = self._node.create_subscription(
             JointState, 'joint_states', self._take, SENSOR
@@ -86,19 +87,19 @@ class Arms:
 
     async def wait(self, goal: RunningGoal) -> None:
         """
-        Wait until the arms can be moved and it is known where they are. Call while `listening`.
+        Wait for the robot description, the controllers and the joint states. Call in `listening`.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
 
         Raises
         ------
         GoalAborted
-            The description of the robot, a controller, or a joint's state does not come.
+            The robot description, a controller, or a joint's state does not become available.
         GoalCanceled
-            The goal is canceled meanwhile.
+            The goal is canceled.
 
         """
         if not await goal.comes(lambda: not self._missing()):
@@ -106,7 +107,7 @@ class Arms:
 
     def reach_of(self, side: str) -> Reach:
         """
-        Read the measured posture of an arm and the waist. Call after `wait`.
+        Return the measured posture of an arm and the waist. Call after `wait`.
 
         Parameters
         ----------
@@ -125,7 +126,7 @@ class Arms:
 
     def grip_of(self, side: str) -> tuple[float, float]:
         """
-        Read the measured gap and force of a gripper. Call while `listening`.
+        Return the measured gap and force of a gripper. Call in `listening`.
 
         Parameters
         ----------
@@ -143,7 +144,7 @@ class Arms:
 
     def efforts_of(self, side: str) -> Array:
         """
-        Read the joint torques of an arm. Call while `listening`.
+        Return the measured joint torques of an arm. Call in `listening`.
 
         Parameters
         ----------
@@ -153,7 +154,7 @@ class Arms:
         Returns
         -------
         Array
-            The torques (6,) in N m, from the shoulder down; zero for joints that have told none.
+            The torques (6,) in N m, from the shoulder down; zero for joints that report none.
 
         """
         joints = self.body.arms[side].joints
@@ -166,16 +167,16 @@ class Arms:
         clearance_m: float,
     ) -> ArmWorld:
         """
-        Return what the arms must keep clear of, as the robot stands now.
+        Create a collision checker at the current joint positions.
 
         Parameters
         ----------
         obstacles
-            What is around, in the frame of the pelvis.
+            The obstacles, in the pelvis frame.
         held
-            What hands hold, each in the frame of its gripper, by side.
+            The boxes of held objects, each in its gripper frame, by side.
         clearance_m
-            How near the arms may come to anything.
+            The clearance that the arms must keep.
 
         """
         world = ArmWorld(self._urdf, self.body, obstacles, held, clearance_m)
@@ -190,16 +191,16 @@ class Arms:
         tell: Callable[[], None] = lambda: None,
     ) -> None:
         """
-        Move an arm, and the waist if it has to turn, and wait until they are there.
+        Execute a motion of an arm, and of the waist if it has to turn; wait until it is complete.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         side, motion
-            Which arm, and how it moves.
+            The side of the arm, and its motion.
         tell
-            Called all the time meanwhile.
+            Called at 20 Hz during the motion, for feedback.
 
         Raises
         ------
@@ -215,7 +216,7 @@ class Arms:
             ways.append((self._waist, waist, waist_speed))
         movers = [mover for mover, _, _ in ways]
         for mover, positions, velocities in ways:
-            # The way begins where the joints were told to be last: the first point is left out.
+            # Without the first point: the trajectory starts at the last commanded positions.
             mover.send(
                 [
                     trajectory_point(time_s, position, velocity)
@@ -247,14 +248,15 @@ class Arms:
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         side, gap_m, most_n
-            Which one, the gap between its fingers, and the greatest force; 0 is all of it.
+            The side of the hand, the gap between its fingers, and the force limit; 0 is the full
+            force.
 
         Raises
         ------
         GoalAborted
-            Its controller is not there, or does not do it.
+            Its controller is not available, or does not succeed.
 
         """
         name = f'{side}_gripper_controller/gripper_cmd'
@@ -272,7 +274,7 @@ class Arms:
         return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def _missing(self) -> str:
-        """Return what is not there yet; nothing if all is."""
+        """Return a message about what is still missing; empty if the arms are ready."""
         if self._body is None:
             return self._reason
         assert self._waist is not None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What goes wrong when a robot is to move its arms."""
+"""Exceptions of arm kinematics, motion planning and manipulation."""
 
 from __future__ import annotations
 
@@ -7,4 +7,4 @@ __all__ = ['ManipulationError']
 
 
 class ManipulationError(Exception):
-    """Something cannot be done with this robot, or with these numbers; the text says why."""
+    """An operation is impossible with this robot or these values; the message states why."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bring the robot to where it can reach something: by navigation, by steps, by bending."""
+"""Move the robot to a stance: by navigation, by steps, and by bending the body."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ __all__ = ['Feet']
 
 _CODE = 'WALK_FAILED'
 _NEAR_M, _NEAR_RAD = 0.035, 0.06
-"""How exactly the robot gets to where it is to stand."""
+"""Position and heading tolerances of a stance."""
 _GAIN_1_S = 0.9
 _FASTEST = (0.15, 0.08, 0.35)
-"""Ahead and to the side in m/s, and turning in rad/s."""
+"""Velocity limits: forward and sideways in m/s, turning in rad/s."""
 _STUCK_S, _PROGRESS_M, _LEVER_M = 4.0, 0.01, 0.2
-"""Steps that have not brought the robot nearer for so long do not get it there; a turn by 1 rad
-counts as much as a distance."""
+"""The robot is stuck if its error does not decrease by this distance within this time; a turn by
+1 rad counts as much as the lever."""
 _STUCK = 'I do not get any nearer than %.0f cm: something may be in my way.'
 _SETTLE_S = 1.0
 _BEND_S = 6.0
@@ -37,18 +37,18 @@ _BENT_RAD = 0.04
 
 class Feet:
     """
-    Walks and bends.
+    Interface to walking, navigation and the body pose.
 
     Parameters
     ----------
     node
-        The node whose topics count.
+        The node that publishes the commands.
     transforms
-        Where frames are.
+        The transform listener.
     base_frame
-        That of the pelvis.
+        The frame of the pelvis.
     guard
-        Ends what navigation does for this node with this process.
+        Cancels navigation goals when this process ends.
 
     """
 
@@ -64,9 +64,9 @@ class Feet:
 
     def place(self, frame: str) -> tuple[float, float, float]:
         """
-        Compute where the robot stands: the middle of its soles, and its heading.
+        Compute where the robot stands: the midpoint of its soles, and its heading.
 
-        The pelvis sways while the robot steps, and goes back when it bends.
+        The pelvis is no reference: it sways while the robot steps, and moves back when it bends.
 
         Parameters
         ----------
@@ -76,12 +76,12 @@ class Feet:
         Returns
         -------
         tuple
-            x and y in m, and the heading in rad, halfway between those of the soles.
+            x and y in m, and the heading in rad, the mean of those of the soles.
 
         Raises
         ------
-        TransformException
-            The pose of a sole in the frame is not known.
+        GoalAborted
+            The transform of a sole is not available.
 
         """
         soles = [self._transforms.pose(frame, sole) for sole in self.soles]
@@ -92,21 +92,21 @@ class Feet:
 
     async def go(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
         """
-        Walk to a pose by navigation, which ends near it.
+        Navigate to a pose; the robot stops near it.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         frame, at
             The pose: x and y in m, yaw in rad, in a frame.
 
         Raises
         ------
         GoalAborted
-            Navigation is not there, or does not get there: WALK_FAILED.
+            Navigation is not available, or does not succeed: WALK_FAILED.
         GoalCanceled
-            The goal is canceled; navigation is, too.
+            The goal is canceled; so is navigation.
 
         """
         wanted = NavigateToPose.Goal()
@@ -121,24 +121,24 @@ class Feet:
 
     async def step_to(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
         """
-        Walk some steps straight to a pose, to within centimetres.
+        Step straight to a pose, to within centimetres.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         frame, at
             The pose: x and y in m, yaw in rad, in a frame.
 
         Raises
         ------
         GoalAborted
-            The robot comes no nearer any more: WALK_FAILED.
+            The robot no longer gets nearer: WALK_FAILED.
         GoalCanceled
             The goal is canceled.
 
         """
-        # The odometry does not jump meanwhile, as the place in the map may.
+        # In odom the target does not jump, as it may in the map.
         shift = await self._transforms.known(goal, 'odom', frame)
         place = shift[:3, :3] @ np.array([at[0], at[1], 0.0]) + shift[:3, 3]
         yaw_rad = at[2] + yaw_of(shift[:3, :3])
@@ -174,9 +174,9 @@ class Feet:
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         bend
-            The pitch and height that are sent on `body_pose`.
+            The pitch and height to publish on `body_pose`.
 
         Raises
         ------
@@ -203,14 +203,14 @@ class Feet:
             await goal.tick()
 
     def straighten(self) -> None:
-        """Let the body come up, whatever else goes on."""
+        """Command the upright body pose, without waiting."""
         self._poses.publish(Pose())
 
     def _now_s(self) -> float:
         return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def _error(self, place: Array, yaw_rad: float) -> tuple[float, float, float]:
-        """Return how far it is still: ahead, to the left, and to turn."""
+        """Compute the remaining error: forward, to the left, and in heading."""
         x_m, y_m, heading_rad = self.place('odom')
         dx, dy = float(place[0]) - x_m, float(place[1]) - y_m
         c, s = math.cos(heading_rad), math.sin(heading_rad)

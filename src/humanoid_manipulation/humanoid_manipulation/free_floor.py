@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How much room there is on the floor, and between where the robot is and where it could stand."""
+"""Free space on the floor: the distance to obstacles, and the paths that they leave open."""
 
 from __future__ import annotations
 
@@ -15,14 +15,13 @@ from scipy.ndimage import distance_transform_edt, label
 __all__ = ['NAVIGABLE_M', 'FreeFloor']
 
 NAVIGABLE_M = 0.33
-"""Navigation gets nowhere nearer to what is mapped."""
+"""Smallest distance from mapped obstacles to which navigation goes."""
 _WIDE_M = 0.42
-"""The robot walks well where nothing is nearer: a way between two things that is as wide as a
-door."""
+"""Distance from obstacles from which the robot walks well: a passage as wide as a door."""
 _BESIDE_M = 0.8
-"""So far a robot that stands at furniture may be from where the floor is wide."""
+"""How far a robot that stands at furniture may be from a wide region of the floor."""
 _OCCUPIED = 50
-"""Cells of a map that are at least so surely occupied are."""
+"""Map cells with at least this probability (percent) count as occupied."""
 _STEP_M = 0.05
 
 Point = tuple[float, float]
@@ -30,14 +29,14 @@ Point = tuple[float, float]
 
 class FreeFloor:
     """
-    The floor, but for what is mapped and what stands on it.
+    The free space on the floor, outside mapped obstacles and what stands on it.
 
     Parameters
     ----------
     grid
-        The map, turned by nothing; without cells, the floor is free everywhere.
+        The map, with an unrotated origin; without cells, the floor is free everywhere.
     standing
-        What stands on the floor besides, such as people: x, y and the radius of each, in m.
+        Further obstacles on the floor, such as people: x, y and radius of each, in m.
 
     """
 
@@ -72,8 +71,8 @@ class FreeFloor:
         Returns
         -------
         float
-            The distance in m from what is mapped or stands there; infinite without a map, and zero
-            where the map says nothing.
+            The distance in m from mapped and standing obstacles; infinite without a map, and zero
+            in unknown cells and outside the map.
 
         """
         if not self._is_mapped:
@@ -85,12 +84,12 @@ class FreeFloor:
 
     def is_clear_way(self, begin_m: Point, end_m: Point) -> bool:
         """
-        Return whether the robot can step straight from one point to another, facing anywhere.
+        Check whether the straight line between two points is clear for stepping at any heading.
 
         Parameters
         ----------
         begin_m, end_m
-            Where the robot is, and where it is to be.
+            The start and the end of the line: x and y in m.
 
         """
         count = max(1, math.ceil(math.dist(begin_m, end_m) / _STEP_M))
@@ -107,15 +106,15 @@ class FreeFloor:
 
     def is_wide_way(self, begin_m: Point, end_m: Point) -> bool:
         """
-        Return whether a way, however long, leads from one point to another that is wide all along.
+        Check whether a path of any length that is wide throughout connects two points.
 
-        Where the floor is not wide at one of them, as before furniture, the way counts from where
-        it is wide near that.
+        A point in a narrow place, such as in front of furniture, counts as in the nearest wide
+        region within 0.8 m.
 
         Parameters
         ----------
         begin_m, end_m
-            Where the robot is, and where it is to be.
+            The start and the end of the path: x and y in m.
 
         """
         if not self._is_mapped:
@@ -124,20 +123,20 @@ class FreeFloor:
         return 0 < begin == end
 
     def _region(self, at_m: Point) -> int:
-        """Return the number of the wide region of a point; 0 if none is near."""
+        """Return the label of the wide region at or near a point; 0 if none is near."""
         row, column = self._cell(at_m)
         rows, columns = self._regions.shape
         inside = 0 <= row < rows and 0 <= column < columns
         return int(self._regions[row, column]) if inside else 0
 
     def _cell(self, at_m: Point) -> tuple[int, int]:
-        """Return the row and the column in which a point is."""
+        """Return the row and the column of the grid cell of a point."""
         column, row = np.floor((np.array(at_m) - self._origin_m) / self._resolution_m).tolist()
         return int(row), int(column)
 
 
 def _regions(wide: NDArray[np.bool_], reach: float) -> Array:
-    """Return the number of each cell's connected wide region, or of the nearest within reach."""
+    """Label each cell with its connected wide region, or the nearest one within reach."""
     numbers, count = label(wide)
     if not count:
         return np.asarray(numbers)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let go of what a hand holds: the work of `hand_over` and of `drop`."""
+"""Release a held object: the implementation of `hand_over` and `drop`."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ _OUT = {
     'left': Reach(0.0, (-0.75, 0.15, 0.0, -0.75, 0.0, -0.05)),
     'right': Reach(0.0, (-0.75, -0.15, 0.0, -0.75, 0.0, -0.05)),
 }
-"""A hand that is held out at the height of a table, level."""
+"""The arm postures with the hand held out, level, at the height of a table."""
 _PATIENCE_S = 30.0
 _STILL_S, _PULL_S = 0.8, 0.15
-"""How long an arm has to be still until a pull can be felt, and how long that lasts."""
+"""Averaging times of the efforts at rest, and of those that are compared to detect a pull."""
 _PULL_NM = 1.6
-"""How much the effort of a joint changes when somebody pulls."""
+"""Change of a joint's effort that counts as a pull."""
 
 
 class Giving(Handling):
     """
-    The work of `hand_over` and `drop`.
+    Implementation of the actions `hand_over` and `drop`.
 
     Parameters
     ----------
@@ -57,26 +57,26 @@ class Giving(Handling):
         Returns
         -------
         str
-            Why it is rejected, as a sentence; empty if it is accepted.
+            The rejection message; empty if the goal is accepted.
 
         """
         return unsound_side(request.side)
 
     async def hand_over(self, goal: RunningGoal) -> None:
         """
-        Hold out an object, and let go when somebody pulls at it.
+        Hold out an object, and release it when someone pulls on it.
 
         Parameters
         ----------
         goal
-            A goal of `hand_over`; its result gets the id of the object.
+            A goal of `hand_over`; its result is filled in with the id of the object.
 
         Raises
         ------
         GoalAborted
-            The hand is empty, nobody takes the object in time, or the arm cannot be moved.
+            The hand is empty, no one takes the object in time, or the arm cannot be moved.
         GoalCanceled
-            The goal is canceled; the arms are drawn back before.
+            The goal is canceled; the arms are retracted first.
 
         """
         with self.node.transforms.listening(), self.node.arms.listening():
@@ -92,10 +92,10 @@ class Giving(Handling):
                 raise
 
     async def _hold_out(self, goal: RunningGoal, side: str, held: Held) -> None:
-        """Hold out a thing until somebody pulls at it."""
+        """Hold out an object until someone pulls on it."""
         arms = self.node.arms
         self.tell(goal, 'reaching')
-        # Who takes it stands there: only the robot itself is kept clear of.
+        # The receiver stands there: only self-collisions are avoided.
         world = arms.world([], {side: held.box}, 0.0)
         with self.failing():
             await self.move(goal, side, plan(world, side, arms.reach_of(side), _OUT[side]))
@@ -105,14 +105,14 @@ class Giving(Handling):
             raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
 
     async def _give(self, goal: RunningGoal, side: str) -> None:
-        """Let go, and draw back."""
+        """Release the object, and retract the arms."""
         self.tell(goal, 'opening')
         await self.let_go(goal, side)
         await self._wait(goal, 1.0)
         await self._draw_back(goal)
 
     async def _draw_back(self, goal: RunningGoal) -> None:
-        """Bring the arms back, whoever stands there."""
+        """Retract the arms, avoiding only self-collisions: the receiver may stand there."""
         arms = self.node.arms
         for side, end in self.at_ease().items():
             world = arms.world([], self.node.held.boxes, 0.0)
@@ -122,12 +122,12 @@ class Giving(Handling):
 
     async def drop(self, goal: RunningGoal) -> None:
         """
-        Open a hand as wide as it gets, so that what it holds falls.
+        Open a hand fully, so that the object that it holds falls.
 
         Parameters
         ----------
         goal
-            A goal of `drop`; its result gets the id of the object.
+            A goal of `drop`; its result is filled in with the id of the object.
 
         Raises
         ------
@@ -144,7 +144,7 @@ class Giving(Handling):
             await self.let_go(goal, side, wide=True)
 
     async def _is_taken(self, goal: RunningGoal, side: str, held: Held) -> bool:
-        """Return whether somebody pulls within the time that they may take, or has got it."""
+        """Wait until someone pulls on the object or has taken it; False after the patience."""
         given = goal.request.patience
         patience_s = given.sec + given.nanosec * 1e-9 or _PATIENCE_S
         at_rest = await self._efforts_nm(goal, side, _STILL_S)
@@ -157,7 +157,7 @@ class Giving(Handling):
         return False
 
     async def _efforts_nm(self, goal: RunningGoal, side: str, seconds: float) -> Array:
-        """Return the mean efforts of an arm over some time, the fingers left out."""
+        """Average the efforts of an arm over some time, without those of the fingers."""
         efforts = []
         for _ in range(max(1, round(seconds * 20.0))):
             efforts.append(self.node.arms.efforts_of(side))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a thing can be grasped, from its shape and size: from the side and from above."""
+"""Generate grasps of an object from its shape and size: from the side and from above."""
 
 from __future__ import annotations
 
@@ -15,46 +15,46 @@ import numpy as np
 __all__ = ['Grasp', 'Graspable', 'Hand', 'grasps_of']
 
 ROUND = frozenset(('apple', 'ball', 'bottle', 'bowl', 'can', 'cup', 'mug', 'orange'))
-"""Classes of things that look the same from all sides: any side of them can be grasped."""
+"""Classes of rotationally symmetric objects, which can be grasped from any side."""
 BALLS = frozenset(('apple', 'ball', 'orange'))
-"""Of these, classes that are as round from above: the corners of their boxes are empty."""
+"""Those of them that are spherical: the corners of their boxes are empty."""
 HANDLED = frozenset(('cup', 'mug'))
-"""Classes of things with a handle, which is seen as a part of their width."""
+"""Classes of objects with a handle, which is detected as a part of their width."""
 _BODY = 0.85
-"""Of its height, by which the body of such a thing is not wider."""
+"""Largest width of the body of such an object, as a fraction of its height."""
 _AROUND, _ABOVE = 16, 8
-"""From how many sides, and in how many turns from above, a round thing is grasped."""
+"""Number of headings from the side, and of those from above, for a symmetric object."""
 _APPROACH_M = 0.10
 _LEAST_MARGIN_M, _MARGIN_M = 0.006, 0.020
-"""How much wider than the thing the gripper must open, and opens if it can, on each side."""
+"""Least and preferred clearance between the object and the open gripper, on each side."""
 _LOOKS_WIDER_M = 0.025
-"""How much wider than it is a thing may be remembered that was seen from afar."""
+"""By how much the width of an object seen from afar may be overestimated."""
 _ABOVE_M = 0.010
-"""How high above what a thing stands on the fingers stay."""
+"""Clearance between the fingers and the surface below the object."""
 _PALM_M = 0.005
-"""Between the palm and the thing."""
+"""Clearance between the palm and the object."""
 _ROLLS_M = 0.005
-"""How much more for what rolls away when it is touched."""
+"""Additional clearance for a ball, which rolls away when touched."""
 _TILTS_RAD = (0.0, 0.4, 0.8)
-"""How far a hand from the side points down: a level arm does not get to what is low."""
+"""Downward tilts of a hand that comes from the side: a level arm does not reach low objects."""
 _INSIDE_M, _HANGS_M = 0.03, 0.05
-"""How deep a hand from above holds what is tall, and how far its middle may hang below: fingers
-do not keep what is taller from swinging."""
+"""How far below its top a hand from above grasps a tall object, and how far the object's centre
+may hang below the grasp: the fingers do not keep a taller object from swinging."""
 
 
 @dataclass(frozen=True)
 class Hand:
     """
-    The size of a gripper.
+    The dimensions of a gripper.
 
     Attributes
     ----------
     widest_m
-        The gap between its fingers when it is open.
+        The largest gap between its fingers.
     palm_m, tip_m
-        How far the palm and the finger tips are from the middle of the grip.
+        The distances of the palm and the fingertips from the centre of the grip.
     finger_m
-        How wide a finger is, across the hand.
+        The width of a finger, across the hand.
 
     """
 
@@ -67,14 +67,14 @@ class Hand:
 @dataclass(frozen=True, eq=False)
 class Graspable:
     """
-    A thing that stands on something.
+    An object that stands on a surface.
 
     Attributes
     ----------
     class_id
-        What it is.
+        Its class.
     position_m, size_m, yaw_rad
-        Its upright box: middle (3,), edges (3,), and heading.
+        Its upright bounding box: centre (3,), edge lengths (3,), and yaw.
 
     """
 
@@ -85,30 +85,32 @@ class Graspable:
 
     @property
     def is_round(self) -> bool:
-        """Whether any side of it can be grasped alike."""
+        """Whether the object is rotationally symmetric: it can be grasped from any side."""
         return self.class_id in ROUND
 
     @property
     def bottom_m(self) -> float:
-        """Return the height of its underside."""
+        """Return the height of the underside of the object."""
         return float(self.position_m[2] - 0.5 * self.size_m[2])
 
 
 @dataclass(frozen=True, eq=False)
 class Grasp:
     """
-    A way to take hold of a thing.
+    A grasp of an object, or the release of a placed one.
 
     Attributes
     ----------
     gripper
-        Where the gripper closes, or opens.
+        The pose of the gripper at which it closes, or opens.
     gap_m, width_m
-        How far the gripper opens before, and how far it is open when it holds the thing.
+        The gap to which the gripper opens for the approach, and the gap at which it holds the
+        object.
     from_above
         Whether the hand points down.
     lowers_m
-        Of a thing that is put down: from how far above the hand comes, instead of along itself.
+        For a placed object: the height from which the hand is lowered vertically; 0 for a grasp,
+        which is approached along the hand.
 
     """
 
@@ -120,12 +122,12 @@ class Grasp:
 
     @property
     def is_lifted(self) -> bool:
-        """Whether a thing is taken, and not put down."""
+        """Whether the object is picked up, rather than placed."""
         return not self.lowers_m
 
     @property
     def approach_m(self) -> Array:
-        """Return the way (3,) from the gripper to where the hand is before."""
+        """Return the displacement (3,) from the grasp to the pre-grasp position."""
         if self.lowers_m:
             return np.array([0.0, 0.0, self.lowers_m])
         return _APPROACH_M * self.gripper.rotation[:, 2]
@@ -133,19 +135,19 @@ class Grasp:
 
 def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
     """
-    Yield the ways to take hold of a thing, those from the side first.
+    Yield candidate grasps of an object, those from the side first.
 
     Parameters
     ----------
     thing
-        What is to be grasped.
+        The object.
     hand
-        What it is grasped with.
+        The gripper.
 
     Returns
     -------
     Iterator of Grasp
-        In the frame of the thing's position. There are none if it is too wide for the hand.
+        Grasps in the frame of the object's position; none if it is too wide for the hand.
 
     """
     for heading_rad, width_m, depth_m in _sides(thing, hand):
@@ -156,7 +158,7 @@ def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
             below_m = hand.tip_m * sine + 0.5 * hand.finger_m * cosine + _ABOVE_M
             height_m = max(float(thing.position_m[2]), thing.bottom_m + below_m)
             above_m = thing.bottom_m + float(thing.size_m[2]) - height_m
-            # The hand stays so far back that the palm does not touch the near edge of the top.
+            # The hand stays far enough back for the palm to clear the near edge of the top.
             if thing.class_id in BALLS:
                 near_m = 0.5 * depth_m + _ROLLS_M
             else:
@@ -183,11 +185,11 @@ def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
 def _sides(
     thing: Graspable, hand: Hand, around: int = _AROUND
 ) -> Iterator[tuple[float, float, float]]:
-    """Yield directions to come from where the hand is wide enough: heading, width and depth."""
+    """Yield the approach headings for which the hand is wide enough, with width and depth."""
     most_m = hand.widest_m - 2.0 * _LEAST_MARGIN_M
     length, width, height = thing.size_m.tolist()
     if thing.is_round:
-        # A handle, or what is seen of another thing, makes a round thing longer than it is.
+        # A handle, or pixels of another object, make a symmetric object appear longer than it is.
         across = min(length, width)
         if thing.class_id in HANDLED:
             across = min(across, _BODY * height)
@@ -204,7 +206,7 @@ def _sides(
 
 
 def _pointing(ahead: Array) -> Array:
-    """Return the rotation of a hand that points somewhere, its fingers side by side."""
+    """Compute the rotation of a hand that points in a direction, its fingers side by side."""
     aside = np.array([-ahead[1], ahead[0], 0.0])
     aside /= np.linalg.norm(aside)
     return np.stack((np.cross(aside, -ahead), aside, -ahead), axis=1)

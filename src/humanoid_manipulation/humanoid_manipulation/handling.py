@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What taking things and putting them down have in common: standing, bending, moving a hand."""
+"""Common parts of pick, place, hand-over and drop: walking, bending and moving a hand."""
 
 from __future__ import annotations
 
@@ -38,45 +38,46 @@ TUCKED = {
     'left': Reach(0.0, (0.75, 0.2, 0.0, -2.1, 0.0, 0.0)),
     'right': Reach(0.0, (0.75, -0.2, 0.0, -2.1, 0.0, 0.0)),
 }
-"""Where hands are while the robot steps up to furniture and bends: elbows back, nothing ahead."""
+"""Arm postures for stepping up to furniture and bending: elbows back, nothing ahead."""
 TURNS_RAD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45)
-"""The turns of the waist that are tried."""
+"""The waist angles that are tried."""
 _BACK_M = 0.35
-"""How far the robot steps back from where it took a thing, or put it down."""
+"""How far the robot steps back after it picked or placed an object."""
 _BESIDE_M, _BESIDE_RAD = 0.25, 0.4
-"""A robot that is no farther from where it is to stand steps there at once."""
+"""Largest distance and turn to the stance for which the robot steps there directly."""
 _NEAR_M = 1.5
-"""A robot that is no farther from before that, and has nothing in its way, steps there."""
+"""Largest distance to `Stance.before` for which it steps there if the way is clear; otherwise it
+navigates."""
 _THERE_RAD = 0.05
 _SLOW_RAD_S = 0.5
 _APPROACHES, _EXACT_M = 3, 0.004
-"""How often a hand is brought to where it closes, until it is that near."""
+"""Attempts to bring a hand to its grasp, and the position error at which they end."""
 _SHARES = (1.0, 0.75, 0.5, 0.25)
 LEAST_SHARE = 0.5
-"""Of its width, by which the gripper must stay open if it holds the thing."""
+"""Smallest gap of a closed gripper that holds an object, as a fraction of the object's width."""
 GRIP_N = 25.0
 _OPENS_M, _WIDEST_M = 0.03, 0.10
-"""How much wider than a thing the gripper opens to let go of it, and how wide it can be."""
+"""How much wider than an object the gripper opens to release it, and its largest gap."""
 _THIN_M, _HOLDING_N = 0.008, 3.0
-"""A hand that is so far open although it closes with such a force holds something."""
+"""A hand that stays open by this gap while it closes with this force holds something."""
 _OTHER_M = 0.025
-"""Fingers that are so much farther or less far open than they were hold it no longer."""
+"""Change of the gap between the fingers from which an object counts as no longer held."""
 _SOMETHING_M = (0.07, 0.07, 0.15)
-"""The size of what a hand holds of which nobody knows what it is."""
+"""The assumed size of an unknown held object."""
 _OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED', 'SLIPPED')
-"""What may go better from elsewhere."""
+"""Errors after which another stance is tried."""
 
 
 class Handling:
     """
-    Stands, bends, and moves a hand, for goals that take things or put them down.
+    Base class of the actions that manipulate objects: walking, bending and moving a hand.
 
     Parameters
     ----------
     node
         The node, with its arms and its surroundings.
     feedback
-        The kind of feedback, which has a state.
+        The feedback message type of the action, with a field `state`.
 
     """
 
@@ -85,27 +86,27 @@ class Handling:
 
     def tell(self, goal: RunningGoal, state: str) -> None:
         """
-        Say how far it is.
+        Publish the state of a goal as feedback.
 
         Parameters
         ----------
         goal, state
-            What it is done for, and one of the states that the action's feedback knows.
+            The goal, and one of the states that the action's feedback defines.
 
         """
         goal.publish_feedback(self._feedback(state=state))
 
     async def begin(self, goal: RunningGoal) -> None:
         """
-        Wait until the arms can be moved, and feel what hands hold.
+        Wait until the arms can be moved, and update which hands hold an object.
 
-        A hand that is closed with a force around something holds that, whoever closed it; one
-        whose fingers have moved since then holds its thing no longer.
+        A hand that closes with a force but stays open holds something, whichever node closed it;
+        a hand whose fingers have moved since it grasped its object no longer holds it.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
 
         Raises
         ------
@@ -127,17 +128,17 @@ class Handling:
 
     def holding(self, asked: str) -> tuple[str, Held]:
         """
-        Return the hand that is meant, and what it holds.
+        Find the hand that a goal asks for, and the object that it holds.
 
         Parameters
         ----------
         asked
-            `left`, `right`, or nothing for any hand that holds something.
+            `left`, `right`, or empty for any hand that holds something.
 
         Raises
         ------
         GoalAborted
-            It holds nothing.
+            The hand is empty: EMPTY_HAND.
 
         """
         for side, held in self.node.held.items():
@@ -147,7 +148,7 @@ class Handling:
 
     @property
     def base(self) -> Frame:
-        """Return where the pelvis is in the map."""
+        """Return the pose of the pelvis in the map."""
         node = self.node
         base_frame = node.parameters.current.base_frame
         pose = node.transforms.pose(node.surroundings.frame, base_frame)
@@ -161,12 +162,12 @@ class Handling:
         exact: str = '',
     ) -> list[Obstacle]:
         """
-        Return what is near the robot, but for what it holds, which it sees as well.
+        List the obstacles near the robot, without the objects that it holds and also detects.
 
         Parameters
         ----------
         goal, but
-            What it is done for, and the names of what is left out.
+            The goal, and the names of obstacles to leave out.
         wider_m, exact
             See `Surroundings.obstacles`.
 
@@ -177,12 +178,12 @@ class Handling:
 
     async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
         """
-        Wait until it is known where the robot stands, and compute that: see `Feet.place`.
+        Wait for the transforms of the soles, and compute where the robot stands: see `Feet.place`.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
 
         Returns
         -------
@@ -192,7 +193,7 @@ class Handling:
         Raises
         ------
         GoalAborted
-            The pose of a sole does not become known: NO_TRANSFORM.
+            The transform of a sole does not become available: NO_TRANSFORM.
         GoalCanceled
             The goal is canceled.
 
@@ -204,20 +205,20 @@ class Handling:
 
     async def stand(self, goal: RunningGoal, stance: Stance) -> None:
         """
-        Walk to a stance, unless the robot is there.
+        Walk to a stance, unless the robot stands there already.
 
-        Long ways are for navigation, up to where the robot can still turn; the last half metre it
-        steps by itself, with the elbows back, and exactly.
+        Navigation takes the robot over long distances, to a point where it can still turn. It
+        steps the last half metre by itself, exactly and with the elbows back.
 
         Parameters
         ----------
         goal, stance
-            What it is done for, and where to stand, in the map.
+            The goal, and where to stand, in the map.
 
         Raises
         ------
         GoalAborted
-            The robot does not get there, or its arms have no free way.
+            The robot does not get there, or there is no collision-free path for its arms.
 
         """
         self.tell(goal, 'walking')
@@ -227,7 +228,7 @@ class Handling:
         turned_rad = abs(math.remainder(stance.yaw_rad - yaw_rad, math.tau))
         if math.dist((x_m, y_m), at[:2]) > _BESIDE_M or turned_rad > _BESIDE_RAD:
             await self.bring_arms(goal, self.at_ease())
-            # Navigation is for long ways: it turns in wide curves, and ends about there.
+            # Navigation is for long distances: it turns in wide curves, and ends roughly there.
             is_near = math.dist((x_m, y_m), before[:2]) < _NEAR_M
             if is_near and node.surroundings.floor.is_clear_way((x_m, y_m), before[:2]):
                 await feet.step_to(goal, frame, before)
@@ -238,7 +239,7 @@ class Handling:
         try:
             await feet.step_to(goal, frame, at)
         except GoalAborted as error:
-            # Navigation does not begin so near to furniture.
+            # Navigation does not start this near to furniture.
             if error.name == 'WALK_FAILED':
                 await self.step_back(goal)
                 await self.bring_arms(goal, self.at_ease())
@@ -246,17 +247,17 @@ class Handling:
 
     async def step_back(self, goal: RunningGoal) -> None:
         """
-        Step back by 0.35 m from where something was taken, put down, or in the way.
+        Step back by 0.35 m after a pick, a place, or a failed approach.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
 
         Raises
         ------
         GoalAborted
-            The robot does not get there, or it is not known where it stands.
+            The robot does not get there, or the transform of a sole is not available.
         GoalCanceled
             The goal is canceled.
 
@@ -266,7 +267,7 @@ class Handling:
         await self.node.feet.step_to(goal, self.node.surroundings.frame, back)
 
     def at_ease(self) -> dict[str, Reach]:
-        """Return where arms are while the robot walks about."""
+        """Return the arm postures for walking, by side: hanging, or carrying an object."""
         body, held = self.node.arms.body, self.node.held
         return {
             side: carrying(body, side, held[side]) if side in held else hanging
@@ -277,21 +278,21 @@ class Handling:
         self, goal: RunningGoal, ends: Mapping[str, Reach], but: Sequence[str] = ()
     ) -> None:
         """
-        Bring arms somewhere, free of all that is around but for some things.
+        Move arms to target postures on collision-free paths.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         ends
-            Where the arms are to be, by their sides; one after the other is moved.
+            The target postures by side; the arms are moved one after the other.
         but
-            The names of things that they may touch.
+            The names of obstacles that the arms may touch.
 
         Raises
         ------
         GoalAborted
-            There is no free way, or the arm does not get there.
+            There is no collision-free path, or the arm does not get there.
 
         """
         arms = self.node.arms
@@ -312,19 +313,19 @@ class Handling:
         work: Callable[[Stance], Awaitable[None]],
     ) -> None:
         """
-        Walk to one stance after another until some work can be done there.
+        Try stances one after another until the work succeeds from one of them.
 
         Parameters
         ----------
         goal, stances
-            What it is done for, and where; at least one.
+            The goal, and the stances in the order in which they are tried.
         work
-            Is given the stance.
+            A coroutine function that does the work; it receives the stance.
 
         Raises
         ------
         GoalAborted
-            It cannot be done from the last one, or from none.
+            The error of the last stance; NOT_REACHABLE if there is no stance.
 
         """
         node, trouble = self.node, GoalAborted('NOT_REACHABLE', 'There is nowhere to stand.')
@@ -363,27 +364,27 @@ class Handling:
         bends: Iterable[Bend] = BENDS,
     ) -> tuple[Grasp, Bend]:
         """
-        Return the grasp and the bend that are best from where the robot stands.
+        Choose the grasp and the bend with the lowest cost from where the robot stands.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         grasps, side
-            The grasps in the map, and whose hand.
+            The candidate grasps in the map, and the side of the hand.
         place
             Where the robot stands: see `Feet.place`.
         where
-            What that is called in sentences.
+            The name of the target in messages.
         but
-            The name of what the arm may touch.
+            The name of the obstacle that the arm may touch.
         bends
-            Those that are considered.
+            The candidate bends.
 
         Raises
         ------
         GoalAborted
-            The hand gets to none of them, or the arm would touch something there.
+            The hand reaches none of the grasps, or the arm would collide there.
 
         """
         node, body, grasps = self.node, self.node.arms.body, list(grasps)
@@ -420,19 +421,19 @@ class Handling:
 
     async def go_before(self, goal: RunningGoal, side: str, grasp: Grasp, name: str) -> None:
         """
-        Bring a hand before a grasp, which is in the map, on a free way.
+        Move a hand to the pre-grasp pose on a collision-free path.
 
         Parameters
         ----------
         goal, side, grasp
-            What it is done for, whose hand, and the grasp.
+            The goal, the side of the hand, and the grasp in the map.
         name
-            What that is called in sentences.
+            The name of the target in messages.
 
         Raises
         ------
         GoalAborted
-            It is out of reach, or there is no free way.
+            The grasp is out of reach, or there is no collision-free path.
 
         """
         arms = self.node.arms
@@ -444,21 +445,21 @@ class Handling:
 
     async def go_to(self, goal: RunningGoal, side: str, grasp: Grasp, but: str) -> None:
         """
-        Bring a hand to a grasp, straight; only one thing may be touched.
+        Move a hand from the pre-grasp pose to the grasp in a straight line.
 
-        The body sways with the arm; what the hand is off after that is made up for.
+        The body sways with the arm; the remaining position error is corrected afterwards.
 
         Parameters
         ----------
         goal, side, grasp
-            What it is done for, whose hand, which is before the grasp, and the grasp in the map.
+            The goal, the side of the hand, and the grasp in the map.
         but
-            The name of what may be touched.
+            The name of the only obstacle that may be touched.
 
         Raises
         ------
         GoalAborted
-            Something is in the way, the arm does not reach so far, or something stops it.
+            The line is blocked or out of reach, or the arm runs into something.
 
         """
         arms = self.node.arms
@@ -482,7 +483,7 @@ class Handling:
     def _check_clear(
         self, side: str, way: list[Reach], around: Sequence[Obstacle], but: str
     ) -> None:
-        """Raise if an arm would touch something on its way, but for one thing."""
+        """Raise `BlockedError` if an arm would collide on a path, except with one obstacle."""
         world = self.node.arms.world(around, self.node.held.boxes, 0.0)
         for reach in way:
             for contact in world.contacts(side, reach):
@@ -493,16 +494,16 @@ class Handling:
         self, goal: RunningGoal, side: str, step_m: Array, waist: bool = False
     ) -> None:
         """
-        Move a hand straight by a step, or as much of it as it can.
+        Move a hand in a straight line by a displacement, or by the part of it within reach.
 
         Parameters
         ----------
         goal, side
-            What it is done for, and whose hand.
+            The goal, and the side of the hand.
         step_m
-            The step (3,) in the map.
+            The displacement (3,) in the map.
         waist
-            Whether the waist may turn for that.
+            Whether the waist may turn as well.
 
         """
         arms = self.node.arms
@@ -517,16 +518,16 @@ class Handling:
 
     async def withdraw(self, goal: RunningGoal, but: Sequence[str] = ()) -> None:
         """
-        Come up, step back, and bring the arms to where they are while the robot walks.
+        Straighten up, step back, and move the arms to their postures for walking.
 
-        That is done as far as it can be: what was asked for is over by then.
+        Walking and planning errors are only logged, as the work of the goal has ended by then.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         but
-            The names of what arms may touch meanwhile.
+            The names of obstacles that the arms may touch.
 
         """
         try:
@@ -540,19 +541,19 @@ class Handling:
 
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:
         """
-        Close a hand, and return the gap between its fingers (m).
+        Close a hand, and check that an object is between its fingers.
 
         Parameters
         ----------
         goal, side
-            What it is done for, and whose hand.
+            The goal, and the side of the hand.
         width_m
-            Of what should be between the fingers.
+            The width of the object.
 
         Returns
         -------
         float
-            -1 if the fingers have closed too far for that.
+            The gap between the fingers (m); -1 if they have closed too far to hold the object.
 
         """
         closed = await self.node.arms.grip(goal, side, 0.0, GRIP_N)
@@ -560,14 +561,14 @@ class Handling:
 
     async def let_go(self, goal: RunningGoal, side: str, *, wide: bool = False) -> None:
         """
-        Open a hand, which holds nothing then.
+        Open a hand to release the object that it holds.
 
         Parameters
         ----------
         goal, side
-            What it is done for, and whose hand.
+            The goal, and the side of the hand.
         wide
-            Whether it opens as wide as it can, or no more than it has to beside other things.
+            Whether it opens to its largest gap, or only as far as needed, to spare objects nearby.
 
         """
         gap_m = _WIDEST_M if wide else min(self.node.held[side].width_m + _OPENS_M, _WIDEST_M)
@@ -578,19 +579,19 @@ class Handling:
         self, goal: RunningGoal, side: str, way: list[Reach], velocity_rad_s: float = 0.0
     ) -> None:
         """
-        Move an arm, and the waist, along a way.
+        Move an arm and the waist along a path.
 
         Parameters
         ----------
         goal, side, way
-            What it is done for, which arm, and the postures through which it goes.
+            The goal, the side of the arm, and the waypoints of the path.
         velocity_rad_s
-            How fast joints turn at most; 0 is the parameter `max_velocity`.
+            The joint velocity limit; 0 selects the parameter `max_velocity`.
 
         Raises
         ------
         GoalAborted
-            Something stops it, or its controller does.
+            The arm runs into something, or its controller aborts the motion.
 
         """
         speed = velocity_rad_s or self.node.parameters.current.max_velocity
@@ -598,7 +599,7 @@ class Handling:
 
     @contextmanager
     def failing(self) -> Iterator[None]:
-        """Let what cannot be planned end a goal, with the code for that."""
+        """Convert planning errors to `GoalAborted` with the matching result code."""
         try:
             yield
         except OutOfReachError as error:
@@ -610,14 +611,14 @@ class Handling:
 
 
 def _moved(obstacle: Obstacle, now: Frame, then: Frame) -> Obstacle:
-    """Return what is seen from the pelvis as it will be seen from another place of it."""
+    """Transform an obstacle from the current pelvis frame to that of another pelvis pose."""
     at = now.position_m + now.rotation @ obstacle.middle.position_m
     middle = Frame(at, now.rotation @ obstacle.middle.rotation)
     return Obstacle(obstacle.name, middle.seen_from(then), obstacle.size_m)
 
 
 def _something(arms: Arms, side: str, gap_m: float) -> Held:
-    """Return what a hand holds that was taken before this node ran, or by somebody else."""
+    """Create the held object for a grasp that this node did not perform."""
     gripper = arms.body.forward(side, arms.reach_of(side)).rotation
     box = Obstacle(SOMETHING, Frame(np.zeros(3), gripper.T), _SOMETHING_M)
     return Held(SOMETHING, (SOMETHING,), box, gap_m, gripper, 0.5 * _SOMETHING_M[2])
@@ -630,12 +631,12 @@ def unsound_side(side: str) -> str:
     Parameters
     ----------
     side
-        `left`, `right`, or nothing for the one that fits.
+        `left`, `right`, or empty for the one that fits.
 
     Returns
     -------
     str
-        What is wrong with it, as a sentence; empty if nothing is.
+        The error message; empty if the side is valid.
 
     """
     if side in ('', *SIDES):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What hands hold, how that is carried, and how others are told of it."""
+"""Held objects: which hand holds what, the message about them, and arm postures to carry them."""
 
 from __future__ import annotations
 
@@ -21,44 +21,45 @@ from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithP
 __all__ = ['HANGING', 'SOMETHING', 'Held', 'HeldThings', 'carrying', 'held_objects']
 
 SOMETHING = 'something'
-"""What a thing is called that a hand holds and of which nobody knows what it is."""
+"""The name of an unknown held object."""
 HANGING = {
     'left': Reach(0.0, (0.0, 0.15, 0.0, -0.5, 0.0, 0.0)),
     'right': Reach(0.0, (0.0, -0.15, 0.0, -0.5, 0.0, 0.0)),
 }
-"""Where hands are that do nothing."""
+"""The postures of idle arms."""
 _LEVEL = {
     'left': Reach(0.0, (-0.06, 0.15, 0.0, -2.0, 0.0, 0.49)),
     'right': Reach(0.0, (-0.06, -0.15, 0.0, -2.0, 0.0, 0.49)),
 }
-"""A hand that is level before the body, whatever that means for what it holds."""
+"""The fallback posture for carrying: the hand level in front of the body, whatever the tilt of
+the object."""
 _CARRIED_M = ((0.28, 0.20), (0.33, 0.24), (0.26, 0.28), (0.38, 0.20))
-"""Where a hand may carry something: how far ahead of the pelvis, and how far aside."""
+"""Candidate hand positions for carrying: forward and sideways from the pelvis."""
 _CLEAR_M = (0.16, 0.10, 0.04, -0.04, -0.12)
-"""How high above the pelvis the underside of what is carried may be; high enough for a kitchen
-counter is best."""
+"""Candidate heights of a carried object's underside above the pelvis, the best first: high enough
+to clear a kitchen counter."""
 _CARRIED_TURNS = 16
 _SLACK_RAD = 0.1
-"""So far from their limits joints stay while they carry something."""
+"""Margin that joints keep from their limits while the arm carries something."""
 
 
 @dataclass(frozen=True, eq=False)
 class Held:
     """
-    A thing in a hand.
+    An object in a hand.
 
     Attributes
     ----------
     object_id, names
-        Which one, and what it can be called: its class, and its colour and class.
+        Its id and its names: its class, and its colour and class.
     box
-        Its box, in the gripper.
+        Its bounding box, in the gripper frame.
     width_m
         The gap of the gripper that holds it.
     gripper
-        How the gripper was turned when it took the thing, seen along the heading of the hand.
+        The rotation (3, 3) of the gripper at the grasp, relative to the heading of the hand.
     below_m
-        How far its underside was below the middle of the gripper then.
+        How far its underside was below the centre of the gripper at the grasp.
 
     """
 
@@ -72,12 +73,12 @@ class Held:
 
 class HeldThings(UserDict[str, Held]):
     """
-    What hands hold, by their sides.
+    The held objects, by side.
 
     Parameters
     ----------
     tell
-        Is called after each change.
+        Called after each change.
 
     """
 
@@ -86,18 +87,18 @@ class HeldThings(UserDict[str, Held]):
         self._tell = tell
 
     def __setitem__(self, side: str, held: Held) -> None:
-        """Take note of what a hand has taken."""
+        """Store the object that a hand holds, and notify."""
         super().__setitem__(side, held)
         self._tell()
 
     def __delitem__(self, side: str) -> None:
-        """Take note that a hand is empty."""
+        """Mark a hand as empty, and notify."""
         super().__delitem__(side)
         self._tell()
 
     @property
     def boxes(self) -> dict[str, Obstacle]:
-        """Return the boxes of the things, each in its gripper, by side."""
+        """Return the bounding boxes of the held objects, each in its gripper frame, by side."""
         return {side: held.box for side, held in self.items()}
 
 
@@ -105,14 +106,14 @@ def held_objects(
     things: HeldThings, grippers: Mapping[str, str], header: Header
 ) -> Detection3DArray:
     """
-    Return the message that tells what hands hold.
+    Create the message that lists the held objects.
 
     Parameters
     ----------
     things
-        What they hold.
+        The held objects.
     grippers
-        The frames of the grippers, by side: each thing is in that of its hand.
+        The gripper frames, by side: each object is in that of its hand.
     header
         The time, and the frame of the pelvis.
 
@@ -136,14 +137,14 @@ def held_objects(
 
 def carrying(body: UpperBody, side: str, held: Held) -> Reach:
     """
-    Return how an arm carries a thing: close, high, and upright as it was taken.
+    Find a posture for carrying an object: close to the body, high, and as upright as at the grasp.
 
     Parameters
     ----------
     body, side
-        Whose hand.
+        The upper body, and the side of the hand.
     held
-        What it holds.
+        The held object.
 
     """
     arm, sign = body.arms[side], 1.0 if side == 'left' else -1.0

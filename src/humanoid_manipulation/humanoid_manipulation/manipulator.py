@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the arms do: the node `manipulator` with the action `reach`."""
+"""The node `manipulator`: the actions `reach`, `pick`, `place`, `hand_over` and `drop`."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class ManipulatorParameters:
 
 class Manipulator(Node):
     """
-    Moves the arms to where they are asked to be.
+    Action server that moves the arms and manipulates objects.
 
     Parameters
     ----------
@@ -101,12 +101,12 @@ class Manipulator(Node):
             )
 
     def destroy_node(self) -> None:
-        """End the node, and what others still do for it."""
+        """Destroy the node, and cancel the goals that other nodes still run for it."""
         self._guard.close()
         super().destroy_node()
 
     def _tell_held(self) -> None:
-        """Publish what hands hold."""
+        """Publish the held objects."""
         header = Header(frame_id=self.parameters.current.base_frame)
         header.stamp = self.get_clock().now().to_msg()
         grippers = {side: arm.gripper for side, arm in self.arms.body.arms.items()}
@@ -146,22 +146,22 @@ class Manipulator(Node):
             _fill_pose(goal.result.reached, told.base_frame, reached)
 
     def _away_m(self, side: str, wanted: Frame) -> float:
-        """Return how far a gripper is from where it is to be in the pelvis."""
+        """Compute the distance of a gripper from its target pose in the pelvis frame."""
         here = self.arms.body.forward(side, self.arms.reach_of(side)).position_m
         return float(np.linalg.norm(here - wanted.position_m))
 
     async def _way(self, goal: RunningGoal, wanted: Frame) -> tuple[str, list[Reach]]:
-        """Return which arm gets to a pose, and how."""
+        """Plan a path to a pose for the first arm that reaches it; return its side and path."""
         told, request, body = self.parameters.current, goal.request, self.arms.body
         obstacles = await self.surroundings.obstacles(goal)
-        # Along the hand, z points back to the wrist.
+        # The z axis of the gripper points along the hand, back to the wrist.
         back = wanted.rotation[:, 2] * float(request.approach)
         first = Frame(wanted.position_m + back, wanted.rotation)
         sides = [request.side] if request.side else _nearest_first(wanted)
         error: ManipulationError | None = None
         for side in sides:
             start = self.arms.reach_of(side)
-            # Its own one: a world keeps the posture in which an arm was tried last.
+            # One world per side: it keeps the posture in which an arm was checked last.
             world = self.arms.world(obstacles, self.held.boxes, told.clearance)
             try:
                 begin = body.reach(side, first, start)
@@ -178,18 +178,18 @@ class Manipulator(Node):
 
 
 def _nearest_first(wanted: Frame) -> tuple[str, ...]:
-    """Return the sides, that of a pose first."""
+    """Return both sides, starting with the side that a pose is on."""
     return SIDES if wanted.position_m[1] >= 0.0 else SIDES[::-1]
 
 
 def _frame(pose: PoseStamped) -> Frame:
-    """Return where something is in its frame."""
+    """Convert a pose message to a `Frame`."""
     at, turn = pose.pose.position, pose.pose.orientation
     return Frame(np.array([at.x, at.y, at.z]), from_quaternion((turn.w, turn.x, turn.y, turn.z)))
 
 
 def _unsound(request: ReachAction.Goal) -> str:
-    """Return why a goal makes no sense; nothing if it does."""
+    """Validate a goal of `reach`; return the rejection message, or an empty string."""
     at, turn = request.pose.pose.position, request.pose.pose.orientation
     numbers = (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
     if not all(map(math.isfinite, numbers)):
@@ -204,7 +204,7 @@ def _unsound(request: ReachAction.Goal) -> str:
 
 
 def _fill_pose(message: PoseStamped, name: str, frame: Frame) -> None:
-    """Fill in where something is in the frame of a name."""
+    """Fill in a pose message, with the name of its frame."""
     message.header.frame_id = name
     position, orientation = message.pose.position, message.pose.orientation
     position.x, position.y, position.z = frame.position_m.tolist()

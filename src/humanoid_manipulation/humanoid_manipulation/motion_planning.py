@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ways of an arm and the waist that touch nothing, and their time."""
+"""Motion planning for an arm and the waist: collision-free paths, and their time scaling."""
 
 from __future__ import annotations
 
@@ -17,37 +17,37 @@ import numpy as np
 __all__ = ['BlockedError', 'Motion', 'approach', 'plan', 'timed']
 
 _STEP_RAD = 0.0125
-"""So far apart are the postures that are looked at on a way: 8 mm at the fingers."""
+"""Distance between the postures that are checked along a path: 8 mm at the fingers."""
 _DEEPER_M, _NEARER_M = 0.002, 0.002
-"""How much deeper, or nearer, than at the ends of a way an arm may come to something."""
+"""By how much contacts on a path may be deeper than at its start, and nearer than at its goal."""
 _STRIDE_RAD = 0.4
-"""How far a tree grows at once."""
+"""Largest extension of a tree in one step."""
 _MOST_STRIDES = 2000
 _SHORTCUTS = 80
 _APPROACH_STEP_M = 0.005
 _MOST_JUMP_RAD = 0.3
-"""A joint that turns farther in such a step has changed over to another posture."""
+"""A joint that turns farther in such a step has switched to another IK solution."""
 _PERIOD_S = 0.05
-"""Between the points of a motion."""
+"""Time between the points of a motion."""
 _SMOOTHING_S = 0.5
-"""Over so long a time a motion is a mean, so that it starts, ends and turns corners gently."""
+"""Window of the moving average that smooths the start, the end and the corners of a motion."""
 
 
 class BlockedError(ManipulationError):
-    """Something is in the way; the text says what."""
+    """An obstacle blocks a posture or a path; the message names it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
     """
-    A way in time, of the waist and the six joints of an arm.
+    A trajectory of the waist and the six joints of an arm.
 
     Attributes
     ----------
     times_s
-        Of the n points (n,), from 0 on.
+        The times of the n points (n,), starting at 0.
     positions_rad, velocities_rad_s
-        Of the joints at each of them (n, 7), the waist first.
+        The joint positions and velocities at each point (n, 7), the waist first.
 
     """
 
@@ -57,7 +57,7 @@ class Motion:
 
     @property
     def duration_s(self) -> float:
-        """Return how long it takes."""
+        """Return the duration of the trajectory."""
         return float(self.times_s[-1])
 
 
@@ -70,36 +70,37 @@ def plan(
     seed: int = 0,
 ) -> list[Reach]:
     """
-    Return a way on which an arm touches nothing.
+    Plan a collision-free path of an arm and the waist.
 
-    The straight way between the postures is taken if it is free. Otherwise two trees grow towards
-    each other (J. Kuffner and S. LaValle, "RRT-Connect: An efficient approach to single-query path
-    planning", ICRA 2000), and what they find is shortened by chance.
+    The straight line in joint space is used if it is free. Otherwise two trees grow towards each
+    other (J. Kuffner and S. LaValle, "RRT-Connect: An efficient approach to single-query path
+    planning", ICRA 2000), and random shortcuts shorten the path that they find.
 
     Parameters
     ----------
     world
-        What is to be kept clear of.
+        The collision checker.
     side
-        Which arm moves.
+        The side of the arm.
     start, goal
-        Where it is, and where it is to be. What it touches at the start, it may touch on the way,
-        but no more deeply; what it comes too near to at the goal without touching it, it may come
-        so near to.
+        The current and the target posture. A pair in contact at the start may stay in contact on
+        the path, but no deeper; a pair that is too near at the goal without touching may come
+        equally near on the path.
     but
         Pairs of names that may touch each other.
     seed
-        Of the chance: the same one gives the same way.
+        The random seed: the same seed gives the same path.
 
     Returns
     -------
     list of Reach
-        The corners of the way, from the start to the goal; between them all joints move evenly.
+        The waypoints of the path, from the start to the goal, with linear interpolation in joint
+        space between them.
 
     Raises
     ------
     BlockedError
-        The arm touches something at the goal, or no way was found.
+        The arm is in collision at the goal, or no path was found.
 
     """
     allowed = dict.fromkeys(but, -math.inf)
@@ -122,30 +123,30 @@ def approach(
     body: UpperBody, side: str, start: Reach, step_m: Array, waist: bool = False
 ) -> list[Reach]:
     """
-    Return the way of a gripper along a straight line, without turning.
+    Plan a Cartesian path: move the gripper along a straight line at constant orientation.
 
     Parameters
     ----------
     body
         The upper body.
     side
-        Which arm moves.
+        The side of the arm.
     start
-        Where it is.
+        The current posture.
     step_m
-        How far the gripper moves (3,), in the pelvis.
+        The displacement of the gripper (3,), in the pelvis frame.
     waist
-        Whether the waist may help.
+        Whether the waist may turn as well.
 
     Returns
     -------
     list of Reach
-        Postures 5 mm from each other, from the start on.
+        Postures at most 5 mm apart, from the start on.
 
     Raises
     ------
     OutOfReachError
-        The line leaves the reach of the arm, or would have to change over to another posture.
+        The line leaves the reach of the arm, or would require a switch of the IK solution.
 
     """
     arm, begin = body.arms[side], body.forward(side, start)
@@ -171,18 +172,18 @@ def approach(
 
 def timed(way: list[Reach], velocity_rad_s: float) -> Motion:
     """
-    Return a way in time: at a speed, and gently at its ends and corners.
+    Time-parameterise a path with a velocity limit, and smooth its ends and corners.
 
-    The way is gone through evenly, and then each point becomes the mean of those around it, with
-    the weights of a Hann window; so no joint gets faster than the speed, none accelerates by more
-    than four times the speed over the window's length, and corners are rounded.
+    The path is traversed at constant speed, and then filtered with a Hann window. Therefore no
+    joint exceeds the velocity limit, none accelerates by more than four times the limit divided by
+    the window's length, and corners are rounded.
 
     Parameters
     ----------
     way
-        The corners.
+        The waypoints of the path.
     velocity_rad_s
-        The greatest velocity of a joint.
+        The velocity limit of the joints.
 
     """
     corners = np.array([_array(each) for each in way])
@@ -207,7 +208,7 @@ def timed(way: list[Reach], velocity_rad_s: float) -> Motion:
 
 
 class _Search:
-    """Looks for a way through the seven joints of an arm and the waist."""
+    """RRT-Connect search in the joint space of the waist and the six joints of an arm."""
 
     def __init__(
         self,
@@ -223,7 +224,7 @@ class _Search:
         self._upper = np.array([body.upper_rad, *arm.upper_rad])
 
     def way(self, start: Array, goal: Array) -> list[Array] | None:
-        """Return the corners of a free way; None if none was found."""
+        """Search for a collision-free path; return its waypoints, or None if none was found."""
         if self._is_free_between(start, goal):
             return [start, goal]
         trees = ([(start, -1)], [(goal, -1)])
@@ -241,7 +242,7 @@ class _Search:
         return None
 
     def _grow(self, tree: list[tuple[Array, int]], wanted: Array) -> int | None:
-        """Let a tree grow a stride towards a posture; return the place of the new leaf."""
+        """Extend a tree by one stride towards a posture; return the index of the new leaf."""
         nearest = int(np.argmin([float(np.abs(each - wanted).max()) for each, _ in tree]))
         leaf = tree[nearest][0]
         step = wanted - leaf
@@ -253,14 +254,14 @@ class _Search:
         return len(tree) - 1
 
     def _connect(self, tree: list[tuple[Array, int]], wanted: Array) -> int | None:
-        """Let a tree grow up to a posture; return the place of the leaf that is there."""
+        """Extend a tree until it reaches a posture; return the index of the leaf there."""
         while True:
             place = self._grow(tree, wanted)
             if place is None or np.array_equal(tree[place][0], wanted):
                 return place
 
     def _shortened(self, way: list[Array]) -> list[Array]:
-        """Leave out what is not needed."""
+        """Shorten a path by random shortcuts."""
         for _ in range(_SHORTCUTS):
             if len(way) < 3:
                 break
@@ -270,7 +271,7 @@ class _Search:
         return way
 
     def _is_free_between(self, one: Array, other: Array) -> bool:
-        """Return whether the straight way between two postures is free, its end included."""
+        """Check whether the straight line between two postures is free, its end included."""
         count = max(1, math.ceil(float(np.abs(other - one).max()) / _STEP_RAD))
         for number in range(count, 0, -1):
             at = (one + (other - one) * (number / count)).tolist()
@@ -289,5 +290,5 @@ def _branch(tree: list[tuple[Array, int]], place: int) -> list[Array]:
 
 
 def _array(reach: Reach) -> Array:
-    """Return the joints of a reach (7,), the waist first."""
+    """Return the joint positions of a reach (7,), the waist first."""
     return np.array([reach.waist_rad, *reach.posture])

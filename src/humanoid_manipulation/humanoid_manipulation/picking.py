@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Take a thing into a hand: the work of `pick`."""
+"""Grasp and lift an object: the implementation of `pick`."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ __all__ = ['Picking', 'held_by']
 
 _ATTEMPTS, _STANCES = 3, 3
 _TURN_S, _LOOK_S = 0.7, 3.0
-"""How long the head turns towards a thing, and how long it is looked at then."""
+"""How long the head turns towards an object, and the longest time that it is observed then."""
 _LOOKS = 5
-"""How often it is to be seen."""
+"""Number of detections that suffice to correct its position."""
 
 
 class Picking(Handling):
     """
-    The work of `pick`.
+    Implementation of the action `pick`.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Picking(Handling):
         Returns
         -------
         str
-            Why it is rejected, as a sentence; empty if it is accepted.
+            The rejection message; empty if the goal is accepted.
 
         """
         if not request.object:
@@ -73,12 +73,13 @@ class Picking(Handling):
         Parameters
         ----------
         goal
-            A goal of `pick`; its result gets the id of the object, and the side of the hand.
+            A goal of `pick`; its result is filled in with the id of the object and the side of
+            the hand.
 
         Raises
         ------
         GoalAborted
-            The object cannot be taken; the name is that of a code of `Pick`'s result.
+            The object cannot be picked; the name is that of a code of `Pick`'s result.
         GoalCanceled
             The goal is canceled.
 
@@ -86,7 +87,7 @@ class Picking(Handling):
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await self.begin(goal)
-            self._thing(goal.request.object)  # what is not remembered needs no place
+            self._thing(goal.request.object)  # an unknown object fails before waiting for the feet
             place = await self.place_of_feet(goal)
             thing = self._thing(goal.request.object, place[:2])
             goal.result.object = thing.object_id
@@ -99,7 +100,7 @@ class Picking(Handling):
             await self.from_one_of(goal, self._stances(thing, sides, place[:2]), take)
 
     def _thing(self, asked: str, near_m: tuple[float, float] = (0.0, 0.0)) -> Remembered:
-        """Return the remembered thing that is meant, of several the one that is nearest."""
+        """Find the nearest remembered object that matches an id or a class."""
         found = self.node.surroundings.things(asked)
         if not found:
             raise GoalAborted('NOT_SEEN', f"I remember nothing that is '{asked}'.")
@@ -108,7 +109,7 @@ class Picking(Handling):
         )
 
     def _free_sides(self, asked: str) -> tuple[str, ...]:
-        """Return the hands that hold nothing."""
+        """List the sides of the empty hands that a goal may use."""
         held = self.node.held
         sides = tuple(
             side for side in self.node.arms.body.arms if asked in ('', side) and side not in held
@@ -121,7 +122,7 @@ class Picking(Handling):
     def _stances(
         self, thing: Remembered, sides: Sequence[str], near_m: tuple[float, float]
     ) -> list[Stance]:
-        """Return where to stand."""
+        """Compute the best stances from which the object can be grasped."""
         grasps = list(grasps_of(thing.graspable))
         if not grasps:
             raise GoalAborted(
@@ -145,7 +146,7 @@ class Picking(Handling):
         return found[:_STANCES]
 
     async def _take(self, goal: RunningGoal, object_id: str, side: str) -> None:
-        """Take a thing from where the robot stands; another grasp is tried twice."""
+        """Pick an object from where the robot stands, with up to three different grasps."""
         tried: list[Grasp] = []
         trouble: GoalAborted | None = None
         for _ in range(_ATTEMPTS):
@@ -162,9 +163,9 @@ class Picking(Handling):
 
     async def _look_at(self, goal: RunningGoal, thing: Remembered) -> Remembered:
         """
-        Look at a thing, and return it where it is seen now.
+        Look at an object, and return it at the position where it is detected now.
 
-        What is remembered was seen when the robot thought it was somewhere a little else.
+        The remembered position includes the localisation error of the time when it was seen.
         """
         self.tell(goal, 'looking')
         surroundings = self.node.surroundings
@@ -186,7 +187,7 @@ class Picking(Handling):
     async def _grasp(
         self, goal: RunningGoal, object_id: str, side: str, tried: list[Grasp]
     ) -> None:
-        """Bend, look, reach, close, lift and carry."""
+        """Bend, look, reach, close the hand, lift and carry."""
         node, arms = self.node, self.node.arms
         thing = self._thing(object_id)
         feet = await self.place_of_feet(goal)
@@ -211,7 +212,7 @@ class Picking(Handling):
         await self._carry(goal, side, held, thing.name)
 
     async def _carry(self, goal: RunningGoal, side: str, held: Held, name: str) -> None:
-        """Lift what is held, come up, and hold it before the body."""
+        """Lift the held object, straighten up, and hold the object in front of the body."""
         self.tell(goal, 'lifting')
         await self.shift(goal, side, LIFT_M, waist=True)
         await self._still_held(goal, side, held)
@@ -220,7 +221,7 @@ class Picking(Handling):
         await self._still_held(goal, side, held)
 
     async def _still_held(self, goal: RunningGoal, side: str, held: Held) -> None:
-        """Abort if a thing is no longer in the hand."""
+        """Abort the goal if the object has slipped out of the hand."""
         if await self.check_held(goal, side, held.width_m) < 0.0:
             del self.node.held[side]
             raise GoalAborted('SLIPPED', f'{held.object_id} has slipped out of my hand.')
@@ -228,14 +229,14 @@ class Picking(Handling):
 
 def held_by(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
     """
-    Return a thing that has just been taken.
+    Create the held object from a remembered object and its grasp.
 
     Parameters
     ----------
     thing, grasp
-        Which, and where the gripper is; both in the frame of the memory.
+        The object and the grasp, both in the frame of the object memory.
     gap_m
-        How far the fingers are apart.
+        The gap between the fingers.
 
     """
     box = Frame(thing.graspable.position_m, thing.rotation).seen_from(grasp.gripper)
@@ -253,7 +254,7 @@ def held_by(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
 
 
 def _untried(thing: Remembered, tried: Sequence[Grasp]) -> list[Grasp]:
-    """Return the ways to take a thing that are unlike those that were tried."""
+    """List the grasps of an object that differ from those already tried."""
     return [
         each
         for each in grasps_of(thing.graspable)
@@ -262,5 +263,5 @@ def _untried(thing: Remembered, tried: Sequence[Grasp]) -> list[Grasp]:
 
 
 def _is_like(one: Grasp, other: Grasp) -> bool:
-    """Return whether two grasps come from about the same direction."""
+    """Check whether two grasps come from about the same direction."""
     return float(one.gripper.rotation[:, 2] @ other.gripper.rotation[:, 2]) > 0.9

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Put down what a hand holds: the work of `place`."""
+"""Place a held object on a surface: the implementation of `place`."""
 
 from __future__ import annotations
 
@@ -29,16 +29,17 @@ _STANCES, _SPOTS = 3, 8
 _HEADINGS = 16
 _GRID_M = 0.06
 _MARGIN_M = 0.04
-"""Between what is put down and other things, and the edge."""
+"""Clearance of a placed object from other objects and from the edge of the surface."""
 _RIM_M = 0.04
-"""So high above the rim of a container a thing is let go."""
+"""Height above the rim of a container at which an object is released."""
 _ABOVE_M, _LOWERS_M = 0.005, 0.08
-"""The thing is let go so high above the surface, and comes from so high above that."""
+"""Height above the surface at which an object is released, and from which it is lowered to
+there."""
 
 
 class Placing(Handling):
     """
-    The work of `place`.
+    Implementation of the action `place`.
 
     Parameters
     ----------
@@ -62,24 +63,25 @@ class Placing(Handling):
         Returns
         -------
         str
-            Why it is rejected, as a sentence; empty if it is accepted.
+            The rejection message; empty if the goal is accepted.
 
         """
         return unsound_side(request.side)
 
     async def work(self, goal: RunningGoal) -> None:
         """
-        Walk to a surface, and put down there what a hand holds.
+        Walk to a surface, and place the held object there.
 
         Parameters
         ----------
         goal
-            A goal of `place`; its result gets the id of the object, the surface, and where on it.
+            A goal of `place`; its result is filled in with the id of the object, the surface, and
+            the position on it.
 
         Raises
         ------
         GoalAborted
-            The object cannot be put down; the name is that of a code of `Place`'s result.
+            The object cannot be placed; the name is that of a code of `Place`'s result.
         GoalCanceled
             The goal is canceled.
 
@@ -103,7 +105,7 @@ class Placing(Handling):
             await self.from_one_of(goal, stances, put)
 
     def _surface(self, asked: str, near_m: tuple[float, float]) -> Surface:
-        """Return the surface that is meant."""
+        """Find the surface with a name, or the nearest one if the name is empty."""
         surfaces = self.node.surroundings.places.surfaces
         if not asked:
             if not surfaces:
@@ -119,13 +121,13 @@ class Placing(Handling):
     def _spots(
         self, surface: Surface, held: Held, near_m: tuple[float, float]
     ) -> list[tuple[float, float]]:
-        """Return where on a surface, or above a container, the thing can be let go."""
+        """List the spots on a surface, or above a container, where the object can be released."""
         if surface.is_container:
             return [surface.middle_m]
         return list(free_spots(surface, self._others(surface), _radius_m(held), near_m))
 
     def _others(self, surface: Surface) -> list[tuple[float, float, float]]:
-        """Return where things are on a surface: x, y and the radius, in the map."""
+        """List the other objects on a surface: x, y and radius of each, in the map."""
         found = []
         for each in self.node.surroundings.things():
             thing = each.graspable
@@ -143,7 +145,7 @@ class Placing(Handling):
         held: Held,
         near_m: tuple[float, float],
     ) -> list[Stance]:
-        """Return where to stand."""
+        """Compute the best stances from which the object can be placed on one of the spots."""
         found: list[Stance] = []
         for spot in spots[:_SPOTS]:
             position = _let_go(surface, spot)
@@ -172,7 +174,7 @@ class Placing(Handling):
         surface: Surface,
         spots: Sequence[tuple[float, float]],
     ) -> None:
-        """Bend, reach, lower, open, and draw back."""
+        """Bend, reach, lower, open the hand, and withdraw."""
         node = self.node
         feet = await self.place_of_feet(goal)
         near = sorted(spots, key=lambda spot: math.dist(spot, feet[:2]))[:_SPOTS]
@@ -198,7 +200,7 @@ class Placing(Handling):
 
 
 def _let_go(surface: Surface, spot: tuple[float, float]) -> Array:
-    """Return where the underside of a thing is let go (3,): on a surface, or above its rim."""
+    """Compute the release point (3,) of an object's underside: on a surface, or above a rim."""
     return np.array([*spot, surface.height_m + (_RIM_M if surface.is_container else 0.0)])
 
 
@@ -209,16 +211,16 @@ def free_spots(
     near_m: tuple[float, float],
 ) -> Iterator[tuple[float, float]]:
     """
-    Yield where on a surface something can be put down, the nearest first.
+    Yield free spots on a surface where an object can be placed, the nearest first.
 
     Parameters
     ----------
     surface, others
-        The surface, and what is on it besides its fixtures: x, y and the radius of each, in m.
+        The surface, and the objects on it besides its fixtures: x, y and radius of each, in m.
     radius_m
-        Of what is put down.
+        The radius of the object to place.
     near_m
-        Where the robot is.
+        The position of the robot: x and y in m.
 
     """
     xs, ys = zip(*surface.outline_m)
@@ -235,7 +237,7 @@ def free_spots(
 
 
 def _is_inside(surface: Surface, point: tuple[float, float], margin_m: float) -> bool:
-    """Return whether a point is on a surface, so far from its edge."""
+    """Check whether a point is on a surface, at least a margin away from its edge."""
     around = (math.tau * number / 12 for number in range(12))
     return all(
         surface.distance_m(
@@ -247,11 +249,11 @@ def _is_inside(surface: Surface, point: tuple[float, float], margin_m: float) ->
 
 
 def _ways_down(held: Held, position_m: Array) -> Iterator[Grasp]:
-    """Yield the ways to set down what is held on a point (3,), upright as it was taken."""
+    """Yield gripper poses that set the held object down on a point (3,), as upright as before."""
     above = position_m + np.array([0.0, 0.0, held.below_m + _ABOVE_M])
     for number in range(_HEADINGS):
         rotation = about_z(math.tau * number / _HEADINGS) @ held.gripper
-        # The gripper holds the thing somewhere: its middle is to be above the point.
+        # The grasp may be off-centre: the centre of the object goes above the point.
         middle = rotation @ held.box.middle.position_m
         at = above - np.array([middle[0], middle[1], 0.0])
         is_down = rotation[2, 2] > 0.9
@@ -259,7 +261,7 @@ def _ways_down(held: Held, position_m: Array) -> Iterator[Grasp]:
 
 
 def _radius_m(held: Held) -> float:
-    """Return the radius of what is held, seen from above."""
+    """Compute the radius of the held object, seen from above."""
     return 0.5 * math.hypot(*held.box.size_m[:2])
 
 

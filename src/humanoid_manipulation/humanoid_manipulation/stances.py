@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where to stand, and how to bend, to get a hand somewhere."""
+"""Stance selection: where to stand and how to bend so that a hand reaches a grasp."""
 
 from __future__ import annotations
 
@@ -29,39 +29,40 @@ __all__ = [
 ]
 
 _HEIGHT_M = 0.68
-"""Of the pelvis of a robot that stands upright."""
+"""Height of the pelvis of a robot that stands upright."""
 _BACK_M, _BACK_M_RAD = 0.007, 0.145
-"""How far the pelvis is behind the middle of the soles, and how far it goes back for each radian
-of its pitch, to keep the weight above the feet."""
+"""How far the pelvis is behind the midpoint of the soles, and how far it moves back per radian of
+its pitch, to keep the weight above the feet."""
 _RISE_M_RAD2 = 0.1
 _AHEAD_M = (0.34, 0.40, 0.46, 0.52, 0.58, 0.64)
 _ASIDE_M = (0.12, 0.20, 0.28)
 _HEADINGS = 16
 _EDGE_M = 0.20
-"""From the middle of the feet to the edge of a piece of furniture, at least."""
+"""Smallest distance from the midpoint of the feet to the edge of furniture."""
 _LEAST_ROOM_M = 0.18
-"""From the middle of the feet to what is mapped, at least."""
+"""Smallest distance from the midpoint of the feet to mapped obstacles."""
 _BACK_OFF_M = 0.40
-"""So far before where the robot is to stand, navigation ends and steps begin."""
+"""Distance behind the stance at which navigation ends and stepping starts."""
 _WIDE_M, _NARROW_COST_1_M = 0.55, 2.0
-"""Navigation does not do well nearer to what is mapped, and what each metre less costs."""
+"""Distance from mapped obstacles below which navigation does not work well, and the cost per
+metre below it."""
 _SQUEEZE_COST = 3.0
-"""What it costs if there is no way to it that is wide all along."""
+"""Cost of a stance to which no path is wide throughout."""
 _ARM_M, _ARM_EDGE_M = 0.25, 0.15
-"""How far aside an arm hangs, and how far that is from furniture, at least."""
+"""Sideways offset of a hanging arm, and its smallest distance from furniture."""
 _LEAST_COSINE = 0.5
-"""Of the angle between where the robot faces and where the hand points."""
+"""Smallest cosine of the angle between the heading of the robot and the direction of the hand."""
 _MOST_JUMP_RAD = 1.2
-"""A joint that turns farther over the approach has changed over to another posture."""
+"""A joint that turns farther during the approach has switched to another IK solution."""
 LIFT_M = np.array([0.0, 0.0, 0.06])
-"""How a thing is lifted (3,) from what it stands on."""
+"""Displacement (3,) that lifts an object from its surface."""
 _UPRIGHT_COST = 0.6
-"""What a bend of a radian costs, in radians of the joints of an arm."""
+"""Cost of bending by a radian, in radians of the joints of an arm."""
 
 
 @dataclass(frozen=True)
 class Bend:
-    """How the body is held: the pitch (rad) and height (m) of `body_pose`."""
+    """A body posture: the pitch (rad) and height (m) of `body_pose`."""
 
     pitch_rad: float = 0.0
     height_m: float = 0.0
@@ -74,26 +75,26 @@ BENDS = (
     Bend(0.25, -0.12),
     Bend(0.5, -0.12),
 )
-"""Those that are tried, from upright to deep."""
+"""The bends that are tried, from upright to deep."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stance:
     """
-    A way to get a hand to a grasp.
+    A place to stand from which a hand reaches a grasp.
 
     Attributes
     ----------
     x_m, y_m, yaw_rad
-        Where the middle of the soles is in the map, and where the robot faces.
+        The midpoint of the soles in the map, and the heading of the robot.
     bend
-        How it is bent.
+        The bend of the body.
     side
-        Which hand.
+        The side of the hand.
     grasp
-        How the thing is grasped; in the map.
+        The grasp, in the map.
     cost
-        Less is better.
+        The cost; lower is better.
 
     """
 
@@ -107,20 +108,20 @@ class Stance:
 
     @property
     def before(self) -> tuple[float, float, float]:
-        """Where navigation ends and steps begin: x and y in m, and the heading in rad."""
+        """Where navigation ends and stepping starts: x and y in m, and the heading in rad."""
         return *_before(self.x_m, self.y_m, self.yaw_rad), self.yaw_rad
 
 
 def base_of(x_m: float, y_m: float, yaw_rad: float, bend: Bend) -> Frame:
     """
-    Return where the pelvis is in the map, to within a centimetre or two.
+    Predict the pose of the pelvis in the map, to within a centimetre or two.
 
     Parameters
     ----------
     x_m, y_m, yaw_rad
-        Where the robot stands: the middle between its feet, and where it faces.
+        Where the robot stands: the midpoint of its feet, and its heading.
     bend
-        How it bends.
+        The bend of the body.
 
     """
     heading = about_z(yaw_rad)
@@ -139,18 +140,20 @@ def grasp_reaches(
     turns: Iterable[float] = (0.0,),
 ) -> tuple[Reach, Reach] | None:
     """
-    Return how a hand gets before a grasp, and to it; None if it does not, or cannot lift then.
+    Solve the inverse kinematics of a grasp: the pre-grasp and the grasp posture.
+
+    Returns None if either is out of reach, or if the object could not be lifted from there.
 
     Parameters
     ----------
     body, side
-        Whose hand.
+        The upper body, and the side of the hand.
     grasp, base
-        The grasp, and the pelvis, in the same frame.
+        The grasp, and the pose of the pelvis, in the same frame.
     near
-        Where the arm is now.
+        The current posture of the arm.
     turns
-        The turns of the waist that are tried, in rad.
+        The waist angles to try, in rad.
 
     """
     gripper = grasp.gripper.seen_from(base)
@@ -174,7 +177,7 @@ def grasp_reaches(
 
 
 def _jump_rad(one: Reach, other: Reach) -> float:
-    """Return how far the joint of an arm goes that goes farthest."""
+    """Compute the largest joint displacement of an arm between two postures."""
     return max(abs(a - b) for a, b in zip(one.posture, other.posture))
 
 
@@ -182,17 +185,17 @@ def effort(
     body: UpperBody, grasp: Grasp, reached: Sequence[Reach], side: str, bend: Bend
 ) -> float:
     """
-    Return how hard a grasp is: less is better.
+    Compute the cost of a grasp: lower is better.
 
     Parameters
     ----------
     body, side, bend
-        Whose hand, and how the body is bent.
+        The upper body, the side of the hand, and the bend of the body.
     grasp, reached
-        The grasp, and the reaches before it and at it.
+        The grasp, and its pre-grasp and grasp postures.
 
     """
-    # Joints that are near their limits leave nothing to correct with.
+    # Joints near their limits leave no room for corrections.
     arm = body.arms[side]
     slack_rad = min(-arm.excess_rad(each.posture) for each in reached)
     posture = 1.0 - 2.0 * min(slack_rad, 0.3) + 0.5 * abs(reached[-1].waist_rad)
@@ -211,26 +214,26 @@ def stances_for(
     floor: FreeFloor | None = None,
 ) -> list[Stance]:
     """
-    Return where to stand to take hold of a thing, the best first.
+    Find stances from which an object can be grasped, the best first.
 
     Parameters
     ----------
     body
         The upper body.
     grasps
-        The ways to take hold of it, in the map.
+        The candidate grasps, in the map.
     position_m
-        Where the thing is in the map (3,).
+        The position of the object in the map (3,).
     places
-        What one cannot stand in, and the rooms: one stands in that of the thing.
+        The surfaces that block the floor, and the rooms: the robot stands in the object's room.
     near_m
-        Where the robot is; of stances that are as good, the nearer one is better.
+        The position of the robot; a nearer stance has a lower cost.
     sides
-        The hands that may take it.
+        The sides of the hands that may be used.
     at_most
-        How many are wanted.
+        The maximum number of stances.
     floor
-        What one can walk on; without it, all that is clear of the places.
+        The free floor; without it, all floor outside the surfaces is free.
 
     """
     found: list[Stance] = []
@@ -257,12 +260,12 @@ def stances_for(
 
 
 def _before(x_m: float, y_m: float, yaw_rad: float) -> tuple[float, float]:
-    """Return a point behind where the robot stands, clear of what it faces."""
+    """Compute the point behind a stance at which navigation ends, clear of the furniture."""
     return x_m - _BACK_OFF_M * math.cos(yaw_rad), y_m - _BACK_OFF_M * math.sin(yaw_rad)
 
 
 def _stands(position_m: Array, places: Places) -> Iterator[tuple[float, float, float, str]]:
-    """Yield where one can stand so that a thing is before one of the shoulders."""
+    """Yield candidate stances with an object in front of one shoulder: x, y, yaw and side."""
     room = places.room_at(float(position_m[0]), float(position_m[1]))
     for number in range(_HEADINGS):
         yaw_rad = math.tau * number / _HEADINGS - math.pi
@@ -280,7 +283,7 @@ def _stands(position_m: Array, places: Places) -> Iterator[tuple[float, float, f
 
 
 def _is_free(places: Places, x_m: float, y_m: float, yaw_rad: float) -> bool:
-    """Return whether the robot can stand somewhere, with arms that hang, beside furniture."""
+    """Check whether the robot can stand at a pose with hanging arms, clear of furniture."""
     aside = (-_ARM_M * math.sin(yaw_rad), _ARM_M * math.cos(yaw_rad))
     arms = [(x_m + sign * aside[0], y_m + sign * aside[1]) for sign in (1.0, -1.0)]
     return all(
@@ -293,7 +296,7 @@ def _is_free(places: Places, x_m: float, y_m: float, yaw_rad: float) -> bool:
 def _best(
     body: UpperBody, side: str, grasps: Iterable[Grasp], base: Frame, bend: Bend
 ) -> tuple[float, Grasp] | None:
-    """Return the grasp that is easiest from where the pelvis is, and how hard it is."""
+    """Find the grasp with the lowest cost from a pose of the pelvis; return cost and grasp."""
     best: tuple[float, Grasp] | None = None
     for grasp in grasps:
         if not _is_ahead(grasp, base):
@@ -308,13 +311,13 @@ def _best(
 
 
 def _is_ahead(grasp: Grasp, base: Frame) -> bool:
-    """Return whether a hand comes about from where the robot is, or from above."""
+    """Check whether a grasp is approached roughly from the robot's side, or from above."""
     ahead = float(-grasp.gripper.rotation[:, 2] @ base.rotation[:, 0])
     return grasp.from_above or ahead > _LEAST_COSINE
 
 
 def _apart(stances: Sequence[Stance], at_most: int) -> list[Stance]:
-    """Return the best of those that are near each other, and not too many."""
+    """Drop stances that are near a better one, and limit their number."""
     kept: list[Stance] = []
     for each in stances:
         if all(math.dist((each.x_m, each.y_m), (o.x_m, o.y_m)) > 0.15 for o in kept):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is around the robot: the surfaces that a file names, and the things that it remembers."""
+"""The surroundings of the robot: surfaces from the places file, and remembered objects."""
 
 from __future__ import annotations
 
@@ -34,26 +34,26 @@ from vision_msgs.msg import Detection3D, Detection3DArray
 __all__ = ['Remembered', 'Surroundings', 'surface_boxes']
 
 _FAR_M = 1.5
-"""What is farther from the robot is in nobody's way."""
+"""Obstacles farther from the robot are ignored."""
 _MOVED_M = 0.12
-"""A detection that is farther from a thing is another one."""
+"""A detection farther from a remembered object belongs to another one."""
 _PERSON, _PERSON_M = 'person', 0.25
-"""Who stands on the floor, and how far around."""
+"""The class that blocks floor space, and its radius."""
 _BOARD_M = 0.03
-"""No surface is thinner."""
+"""The least thickness of a surface."""
 
 
 @dataclass(frozen=True, eq=False)
 class Remembered:
     """
-    A thing that the robot remembers.
+    An object that the robot remembers.
 
     Attributes
     ----------
     object_id, names
-        Its id, and what it can be called: its class, and its colour and class.
+        Its id and its names: its class, and its colour and class.
     graspable
-        Its class and its box, in the frame of the memory.
+        Its class and its bounding box, in the frame of the object memory.
 
     """
 
@@ -63,29 +63,29 @@ class Remembered:
 
     @property
     def name(self) -> str:
-        """Return what it is called in sentences."""
+        """Return the name of the object in messages."""
         return self.object_id.replace('_', ' ')
 
     @property
     def rotation(self) -> Array:
-        """Return how its box is turned."""
+        """Return the rotation of the bounding box (3, 3)."""
         return about_z(self.graspable.yaw_rad)
 
 
 class Surroundings:
     """
-    Tells what arms have to keep clear of.
+    Obstacle model for the arms: surfaces, remembered objects and the floor.
 
     Parameters
     ----------
     node
-        The node whose topics count.
+        The node that subscribes to `objects`, `detections_3d` and `map`.
     transforms
-        Where frames are.
+        The transform listener.
     base_frame
-        That of the pelvis, in which obstacles are.
+        The frame of the pelvis, in which obstacles are returned.
     places_file
-        Named places, or nothing.
+        The file of named places; empty for none.
 
     Raises
     ------
@@ -114,17 +114,16 @@ class Surroundings:
         self, goal: RunningGoal, wider_m: float = 0.0, exact: str = ''
     ) -> list[Obstacle]:
         """
-        Return what is near the robot, in the pelvis.
+        List the obstacles near the robot, in the pelvis frame.
 
         Parameters
         ----------
         goal
-            What it is done for.
+            The goal.
         wider_m
-            How much farther than they seem things go on each side: they are known less exactly
-            than surfaces.
+            The padding of objects on each side: they are known less exactly than surfaces.
         exact
-            The name of a thing that does not.
+            The name of an object that is not padded.
 
         """
         found: list[Obstacle] = []
@@ -147,7 +146,7 @@ class Surroundings:
 
     @property
     def frame(self) -> str:
-        """Return the frame in which things are remembered."""
+        """Return the frame of the remembered objects."""
         return self._objects.header.frame_id or self.places.frame
 
     def things(self, asked: str = '') -> list[Remembered]:
@@ -162,7 +161,7 @@ class Surroundings:
         Returns
         -------
         list of Remembered
-            Those that fit, in the frame `frame`.
+            The matching objects, in the frame `frame`.
 
         """
         wanted = asked.replace('_', ' ').strip().lower()
@@ -175,7 +174,7 @@ class Surroundings:
 
     @property
     def floor(self) -> FreeFloor:
-        """Return the floor as far as it is mapped, without the people who are remembered."""
+        """Return the free floor of the map, with remembered people as obstacles."""
         if self._floor is None:
             known = self._map.header.frame_id == self.frame
             people = (each for each in self.things(_PERSON) if known)
@@ -187,7 +186,7 @@ class Surroundings:
 
     @contextmanager
     def watching(self) -> Iterator[None]:
-        """Take note of what is detected meanwhile."""
+        """Collect the detections of the enclosed block."""
         self._detections = []
         subscription = self._node.create_subscription(
             Detection3DArray, 'detections_3d', self._detections.append, STATE
@@ -199,7 +198,7 @@ class Surroundings:
 
     def seen(self, thing: Remembered) -> list[Array]:
         """
-        Collect the positions at which an object was detected since `watching` began.
+        Collect the positions at which an object was detected since `watching` was entered.
 
         Parameters
         ----------
@@ -209,11 +208,11 @@ class Surroundings:
         Returns
         -------
         list of Array
-            Positions (3,) in m in the frame `frame`, at most one of each message.
+            Positions (3,) in m in the frame `frame`, at most one per message.
 
         Raises
         ------
-        TransformException
+        GoalAborted
             The pose of the camera is not known.
 
         """
@@ -242,12 +241,12 @@ class Surroundings:
         Returns
         -------
         Remembered
-            The object at the new x and y, and its old z, which is better; unchanged if it was not
-            seen.
+            The object at the new x and y and the remembered z, which is more accurate; unchanged
+            if it was not detected.
 
         Raises
         ------
-        TransformException
+        GoalAborted
             As for `seen`.
 
         """
@@ -266,7 +265,7 @@ class Surroundings:
 
 
 def _widened(thing: Remembered, wider_m: float) -> tuple[float, float, float]:
-    """Return the edges of a thing that goes on farther on each side."""
+    """Pad the edges of an object's bounding box on each side."""
     length, width, height = (thing.graspable.size_m + 2.0 * wider_m).tolist()
     return length, width, height
 
@@ -275,7 +274,7 @@ def surface_boxes(surface: Surface) -> list[Obstacle]:
     """
     Approximate a surface by boxes: a board, or a block down to the floor, and its fixtures.
 
-    The legs of a table are not known. An arm that comes from above does not get there.
+    The legs of a table are unknown. An arm that comes from above does not reach them.
 
     Parameters
     ----------
@@ -297,7 +296,7 @@ def surface_boxes(surface: Surface) -> list[Obstacle]:
 
 
 def _block(name: str, outline_m: Outline, top_m: float, depth_m: float) -> Obstacle:
-    """Return the box around what has an outline."""
+    """Compute the bounding box of an outline, aligned with its longest edge."""
     outline = np.array(outline_m)
     edges = np.roll(outline, -1, axis=0) - outline
     longest = edges[int(np.argmax((edges**2).sum(axis=1)))]
@@ -312,7 +311,7 @@ def _block(name: str, outline_m: Outline, top_m: float, depth_m: float) -> Obsta
 
 
 def _remembered(detection: Detection3D) -> Remembered:
-    """Return a remembered thing."""
+    """Convert a detection message to a remembered object."""
     at, turn, size = (
         detection.bbox.center.position,
         detection.bbox.center.orientation,
@@ -332,7 +331,7 @@ def _remembered(detection: Detection3D) -> Remembered:
 
 
 def _near(obstacles: Iterable[Obstacle], pose: Array) -> list[Obstacle]:
-    """Return those obstacles that are near, in another frame: `pose` (4, 4) is that of theirs."""
+    """Transform obstacles by `pose` (4, 4) to another frame; drop those far from its origin."""
     found = []
     for each in obstacles:
         position = pose[:3, :3] @ each.middle.position_m + pose[:3, 3]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot before a table with a can, in the simulator, for tests."""
+"""A simulated robot in front of a table with a can, for tests."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithP
 __all__ = ['CAN_M', 'PATIENCE_S', 'TableWorld', 'table_world']
 
 CAN_M = (0.62, 0.15, 0.76)
-"""Where the can stands at first."""
+"""The initial position of the can."""
 PATIENCE_S = 240.0
 _SCENE = """\
 things:
@@ -65,14 +65,14 @@ _KINDS = {'pick': Pick, 'place': Place, 'hand_over': HandOver, 'drop': Drop}
 
 class TableWorld:
     """
-    A robot before a table, clients of what moves its arms, and a memory of the can that is right.
+    A robot in front of a table, action clients of its manipulator, and a faked object memory.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are.
+        The sandbox of the test's nodes.
     program
-        The launch that has started the others.
+        The launch that has started the other nodes.
 
     """
 
@@ -88,7 +88,7 @@ class TableWorld:
 
     @property
     def arm_speed_rad_s(self) -> float:
-        """Return how fast that joint of the arms turns that turns fastest."""
+        """Return the greatest velocity of the arm joints."""
         return max(
             abs(speed)
             for joint, speed in self._velocities.items()
@@ -97,12 +97,12 @@ class TableWorld:
 
     @property
     def manipulators(self) -> list[int]:
-        """Return the ids of the processes that the launch has started to move arms."""
+        """Return the process ids of the manipulator nodes that the launch has started."""
         return [int(pid) for pid in _STARTED.findall(self.program.output)]
 
     @property
     def endpoints(self) -> frozenset[bytes]:
-        """Return what tells apart the nodes that move arms, also one that was just killed."""
+        """Return the endpoint GIDs of the manipulator nodes, also of one that was just killed."""
         found = self._node.get_publishers_info_by_topic('held_objects')
         return frozenset(bytes(each.endpoint_gid) for each in found)
 
@@ -112,11 +112,11 @@ class TableWorld:
 
     @property
     def can_m(self) -> tuple[float, float, float]:
-        """Return where the can truly is."""
+        """Return the ground-truth position of the can."""
         return self.entities.position_m('can')
 
     def remember(self) -> None:
-        """Let the robot remember the can where it is."""
+        """Publish the can at its ground-truth position as a remembered object."""
         can = Detection3D(id='red_can_1')
         for name in ('can', 'red can'):
             result = ObjectHypothesisWithPose()
@@ -132,7 +132,7 @@ class TableWorld:
 
     def act(self, name: str, **fields: Any) -> End:
         """
-        Send a goal, wait for its end, and check that the robot still stands.
+        Send a goal, wait for its result, and check that the robot still stands.
 
         Parameters
         ----------
@@ -153,7 +153,7 @@ class TableWorld:
 
     def start(self, name: str, **fields: Any) -> Any:
         """
-        Send a goal, and forget the feedback of earlier ones.
+        Send a goal, and discard the feedback of earlier ones.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class TableWorld:
         Returns
         -------
         Any
-            The handle of the goal, for `end_of`.
+            The goal handle, for `end_of`.
 
         """
         self._callers[name].feedback.clear()
@@ -171,12 +171,12 @@ class TableWorld:
 
     def end_of(self, name: str, handle: Any) -> End:
         """
-        Wait for the end of a goal that was accepted.
+        Wait for the result of an accepted goal.
 
         Parameters
         ----------
         name, handle
-            The action, and what `start` has returned.
+            The action, and the goal handle from `start`.
 
         Returns
         -------
@@ -188,7 +188,7 @@ class TableWorld:
 
     def states(self, name: str) -> list[str]:
         """
-        List the states that the newest goal of an action has reported so far.
+        List the states in the feedback of the newest goal of an action.
 
         Parameters
         ----------
@@ -200,7 +200,7 @@ class TableWorld:
 
     def joint_rad(self, name: str) -> float:
         """
-        Read the newest position of a joint (rad).
+        Return the latest position of a joint (rad).
 
         Parameters
         ----------
@@ -211,11 +211,11 @@ class TableWorld:
         return self._joints[name]
 
     def pull(self) -> None:
-        """Pull at the can."""
+        """Pull on the can."""
         self.entities.pull('can', (12.0, 0.0, 0.0))
 
     def close(self) -> None:
-        """End."""
+        """Destroy the action clients."""
         for caller in self._callers.values():
             caller.close()
 
@@ -225,16 +225,16 @@ def table_world(
     folder: Path, real_time_factor: float, is_launched: bool = False
 ) -> Iterator[tuple[TableWorld, Manipulator | None]]:
     """
-    Give a robot before a table, and the node that moves its arms.
+    Start a simulated robot in front of a table, and its manipulator node.
 
     Parameters
     ----------
     folder
-        Where files may be written.
+        A folder for the files of the scene.
     real_time_factor
-        How fast time goes.
+        The real-time factor of the simulation.
     is_launched
-        Whether the node runs in a process of its own; then it is not given.
+        Whether the manipulator runs in a process of its own; None is yielded for the node then.
 
     """
     scene, places = folder / 'kitchen.yaml', folder / 'places.yaml'

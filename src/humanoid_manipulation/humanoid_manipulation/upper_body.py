@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reach with an arm and the waist: joints for a pose of the gripper, or why there are none."""
+"""Inverse kinematics of an arm and the waist, with a diagnosis of unreachable poses."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from scipy.optimize import least_squares, minimize_scalar
 __all__ = ['OutOfReachError', 'Reach', 'UpperBody']
 
 _STEP_RAD = 0.15
-"""Between the turns of the waist that are tried at first."""
+"""Step between the waist angles that are tried first."""
 _LEVER_M = 0.2
-"""Of the nearest pose, a turn of the hand by 1 rad counts as much as this distance."""
+"""In the search for the nearest pose, a turn of the hand by 1 rad counts as this distance."""
 
 
 _MOST_MINIMA = 3
 _MOST_TRIES = 30
 _START_RAD: Posture = (0.0, 0.0, 0.0, -0.6, 0.0, 0.0)
-"""Where the search for the nearest pose begins: a bent arm, far from singularities."""
+"""Start of the search for the nearest pose: a bent arm, far from singularities."""
 
 
 @dataclass(frozen=True)
 class Reach:
-    """How far the waist is turned (rad), and the posture of an arm."""
+    """The waist angle (rad) and the posture of an arm."""
 
     waist_rad: float
     posture: Posture
@@ -41,14 +41,14 @@ class Reach:
 
 class OutOfReachError(ManipulationError):
     """
-    No posture brings the gripper to a pose; the text says why.
+    A pose of the gripper is out of reach; the message states why.
 
     Attributes
     ----------
     nearest
-        The reach that comes closest.
+        The reach that comes closest to it.
     pose
-        Where the gripper is then, in the pelvis.
+        The pose of the gripper at that reach, in the pelvis frame.
 
     """
 
@@ -65,11 +65,11 @@ class UpperBody:
     Attributes
     ----------
     arms
-        By their sides.
+        The arms by side.
     base, waist
-        The pelvis, and the joint that turns the torso about its z axis.
+        The link of the pelvis, and the joint that turns the torso about its z axis.
     waist_m
-        Where that joint is in the pelvis (3,).
+        The position of that joint in the pelvis frame (3,).
     lower_rad, upper_rad
         The limits of the waist.
 
@@ -95,7 +95,7 @@ class UpperBody:
         Raises
         ------
         ManipulationError
-            The robot lacks an arm or the waist, or is of another build.
+            The robot lacks an arm or the waist, or its kinematics differ.
 
         """
         arms = {side: Arm.of(robot, side) for side in SIDES}
@@ -138,22 +138,22 @@ class UpperBody:
 
     def reach(self, side: str, gripper: Frame, near: Reach | None = None) -> Reach:
         """
-        Return how the gripper of a side is brought to a pose.
+        Solve the inverse kinematics of an arm and the waist.
 
         Parameters
         ----------
         side
             `left` or `right`.
         gripper
-            Where the gripper is to be in the pelvis.
+            The target pose of the gripper in the pelvis frame.
         near
-            Where the arm and the waist are now. The waist turns no more than it has to, and of
-            the arm's postures the one is taken whose joints go the shortest way.
+            The current posture. The waist turns no more than necessary, and the arm posture
+            nearest in joint space is chosen.
 
         Raises
         ------
         OutOfReachError
-            There is no such posture.
+            The pose is out of reach.
 
         """
         found = self.find(side, gripper, near)
@@ -163,12 +163,12 @@ class UpperBody:
 
     def find(self, side: str, gripper: Frame, near: Reach | None = None) -> Reach | None:
         """
-        Return how the gripper of a side is brought to a pose; None if that is out of reach.
+        Solve the inverse kinematics of an arm and the waist; return None if out of reach.
 
         Parameters
         ----------
         side, gripper, near
-            As for `reach`, which costs more, as it also finds the reason.
+            As for `reach`, which costs more if it fails, as it also finds the reason.
 
         """
         arm, start = self.arms[side], near.waist_rad if near else 0.0
@@ -188,7 +188,7 @@ class UpperBody:
 
     def reach_with_arm(self, side: str, gripper: Frame, near: Reach) -> Reach:
         """
-        Return how the gripper of a side is brought to a pose while the waist stays as it is.
+        Solve the inverse kinematics of an arm with the waist fixed at its current angle.
 
         Parameters
         ----------
@@ -198,7 +198,7 @@ class UpperBody:
         Raises
         ------
         OutOfReachError
-            There is no such posture.
+            The pose is out of reach.
 
         """
         found = self.find_with_arm(side, gripper, near.waist_rad, near.posture)
@@ -210,30 +210,30 @@ class UpperBody:
         self, side: str, gripper: Frame, waist_rad: float, near: Posture | None = None
     ) -> Reach | None:
         """
-        Return how an arm brings its gripper to a pose while the waist is turned by an angle.
+        Solve the inverse kinematics of an arm with the waist fixed at a given angle.
 
         Parameters
         ----------
         side
-            Which arm: `left` or `right`.
+            `left` or `right`.
         gripper
-            The pose, in the frame of the pelvis.
+            The target pose of the gripper in the pelvis frame.
         waist_rad
-            How the waist is turned.
+            The angle of the waist.
         near
-            The posture (rad) to which the chosen one is to be near, as for `Arm.postures`.
+            The posture (rad) near which a solution is chosen, as for `Arm.postures`.
 
         Returns
         -------
         Reach or None
-            None if the arm does not get there.
+            The solution; None if the pose is out of reach.
 
         """
         postures = self.arms[side].postures(self._in_torso(gripper, waist_rad), near)
         return Reach(waist_rad, postures[0]) if postures else None
 
     def _turns(self, start_rad: float) -> Iterator[float]:
-        """Yield turns of the waist: the present one, then others farther and farther away."""
+        """Yield waist angles: the current one, then others at increasing distance from it."""
         start_rad = min(max(start_rad, self.lower_rad), self.upper_rad)
         yield start_rad
         for number in range(1, math.ceil((self.upper_rad - self.lower_rad) / _STEP_RAD) + 1):
@@ -242,7 +242,7 @@ class UpperBody:
                     yield start_rad + turn
 
     def _between(self, arm: Arm, gripper: Frame, near_rad: float) -> Reach | None:
-        """Return a reach with a turn of the waist between those that were tried, if any."""
+        """Search for a reach with a waist angle between those already tried."""
 
         def misfit(waist_rad: float) -> float:
             return _misfit(arm, self._in_torso(gripper, waist_rad))
@@ -258,12 +258,12 @@ class UpperBody:
         return Reach(float(best.x), postures[0]) if postures else None
 
     def _in_torso(self, gripper: Frame, waist_rad: float) -> Frame:
-        """Return a pose of the pelvis as seen from the torso."""
+        """Transform a pose from the pelvis frame to the torso."""
         back = about_z(-waist_rad)
         return Frame(back @ (gripper.position_m - self.waist_m), back @ gripper.rotation)
 
     def _out_of_reach(self, side: str, gripper: Frame, near: Reach | None) -> OutOfReachError:
-        """Say why a pose cannot be reached, and what is nearest to it."""
+        """Create the error for an unreachable pose: the reason, and the nearest reach."""
         nearest = self._nearest(side, gripper, near)
         pose = self.forward(side, nearest)
         gap_m = float(np.linalg.norm(gripper.position_m - pose.position_m))
@@ -280,7 +280,7 @@ class UpperBody:
         )
 
     def _nearest(self, side: str, gripper: Frame, near: Reach | None) -> Reach:
-        """Return the reach that comes closest to a pose."""
+        """Find the reach that comes closest to a pose, by least squares."""
         arm = self.arms[side]
         lower = np.array([self.lower_rad, *arm.lower_rad])
         upper = np.array([self.upper_rad, *arm.upper_rad])
@@ -299,17 +299,17 @@ class UpperBody:
 
 def _misfit(arm: Arm, pose: Frame) -> float:
     """
-    Return how far a pose is from being reached: zero or less if it is.
+    Compute by how far a pose is out of reach: zero or less if it is within reach.
 
-    Up to pi that is by how much (rad) a joint would have to exceed its limits; beyond, there is no
-    posture at all, and it grows with what is lacking (m).
+    Up to pi it is by how much (rad) a joint would have to exceed its limits; beyond, there is no
+    solution at all, and it grows with the distance to the workspace (m).
     """
     excess_rad = min(map(arm.excess_rad, arm.solutions(pose)), default=math.inf)
     return excess_rad if excess_rad < math.inf else math.pi + arm.lack_m(pose)
 
 
 def _lowest(values: Mapping[float, float]) -> list[float]:
-    """Return the places of the lowest local minima, the lowest first."""
+    """Return the keys of the lowest local minima, the lowest first."""
     places = sorted(values)
     padded = [math.inf, *(values[place] for place in places), math.inf]
     minima = [

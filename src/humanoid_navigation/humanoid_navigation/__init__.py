@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Navigation of the humanoid: what it is told, its maps, and what stops it."""
+"""Navigation of the humanoid with Nav2: goals, maps, and a guard that ends goals."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The poses of goals of navigation, and how a goal ended."""
+"""Navigation goal poses, and the result of a navigation goal."""
 
 from __future__ import annotations
 
@@ -16,31 +16,31 @@ Place = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Arrival:
-    """How a goal ended: its status, what the navigator says, and where the robot truly is."""
+    """The result of a navigation goal: the status, the navigator's result, and the true errors."""
 
     status: int
     """A constant of `action_msgs/GoalStatus`."""
     error_code: int
     error_msg: str
     distance_m: float
-    """From where the robot truly is to the goal."""
+    """The true distance of the robot from the goal."""
     turn_rad: float
-    """From where it truly faces to how it was to face, without a sign."""
+    """The true heading error, as an absolute value."""
     took_s: float
-    """In simulated time."""
+    """The duration in simulated time."""
     recoveries: int
     touched: frozenset[str] = frozenset()
-    """What other than the ground the robot has touched on the way, where there is physics."""
+    """Bodies other than the ground that the robot touched on the way, if there is physics."""
 
     @property
     def is_reached(self) -> bool:
-        """Whether the navigator says that the goal was reached."""
+        """Whether the navigator reports that the goal was reached."""
         return bool(self.status == GoalStatus.STATUS_SUCCEEDED)
 
 
 def is_zero(velocity: Twist) -> bool:
     """
-    Whether a planar velocity command is zero.
+    Check whether a planar velocity command is zero.
 
     Parameters
     ----------
@@ -72,14 +72,14 @@ def initial_pose(
     place: Place, position_m2: float, heading_rad2: float
 ) -> PoseWithCovarianceStamped:
     """
-    Return what tells the localisation where the robot is.
+    Build the message that sets the pose of the localisation.
 
     Parameters
     ----------
     place
-        Where, in the map.
+        The pose in the map.
     position_m2, heading_rad2
-        How sure that is: the variances of x and y, and of the yaw.
+        The variances of x and y, and of the yaw.
 
     """
     message = PoseWithCovarianceStamped()

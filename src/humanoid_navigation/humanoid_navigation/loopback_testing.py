@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nav2 beside the loopback simulator, a robot without physics; for tests and trials."""
+"""Run Nav2 with the loopback simulator, which has no physics; for tests and experiments."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ from rosgraph_msgs.msg import Clock
 from tf2_ros import Buffer, TransformException, TransformListener
 
 PATIENCE_S = 90.0
-"""How long, on the computer's clock, something may take that should come at once."""
+"""Timeout in real time for responses that should arrive at once."""
 TICK_S = 0.05
-"""By how much simulated time goes on at once."""
+"""The time step of simulated time."""
 TELLINGS, TELLING_S, SETTLE_S = 5, 3.0, 1.0
-"""A scan from where it was before can mislead the localisation at first."""
+"""Attempts, timeout and settling time: a scan from the old pose can mislead AMCL at first."""
 SETTLED_M, SETTLED_RAD = 0.15, 0.15
 CONTAINER = re.compile(r'\[(component_container)-\d+\]: process started with pid \[(\d+)\]')
 
 
 class LoopbackRobot:
     """
-    A robot in the loopback simulator, which Nav2 sends somewhere.
+    A robot in the loopback simulator that is navigated by Nav2.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are.
+        The nodes of the test.
 
     """
 
@@ -55,7 +55,7 @@ class LoopbackRobot:
         self.now_s = 0.0
         """Simulated time."""
         self.commands: list[tuple[float, Twist]] = []
-        """What the robot was told, and when in simulated time."""
+        """The received velocity commands, with their simulated times."""
         self._odometry: complex | None = None
         self._odometry_rad = 0.0
         self._placed: tuple[complex, float, complex, float] = (0j, 0.0, 0j, 0.0)
@@ -73,7 +73,7 @@ class LoopbackRobot:
 
     @property
     def place(self) -> Place:
-        """Where the robot truly is in the map."""
+        """Return the true pose of the robot in the map."""
         begin, begin_rad, odometry, odometry_rad = self._placed
         moved = ((self._odometry or 0j) - odometry) * _turned(begin_rad - odometry_rad)
         yaw_rad = begin_rad + self._odometry_rad - odometry_rad
@@ -82,7 +82,7 @@ class LoopbackRobot:
 
     @property
     def is_driven(self) -> bool:
-        """Whether the newest command is not zero."""
+        """Whether the newest velocity command is not zero."""
         return bool(self.commands) and not is_zero(self.commands[-1][1])
 
     def wait_until(self, predicate: Any, timeout_s: float = PATIENCE_S, what: str = '') -> None:
@@ -96,7 +96,7 @@ class LoopbackRobot:
         timeout_s
             How long to wait (s), on the computer's clock.
         what
-            What the error says was waited for.
+            Description of the predicate, for the error message.
 
         Raises
         ------
@@ -108,12 +108,12 @@ class LoopbackRobot:
 
     def wait(self, duration_s: float) -> None:
         """
-        Let simulated time pass.
+        Wait for a duration in simulated time.
 
         Parameters
         ----------
         duration_s
-            How much of it, in s.
+            The duration, in s.
 
         """
         end_s = self.now_s + duration_s
@@ -121,12 +121,12 @@ class LoopbackRobot:
 
     def answer(self, future: Future) -> Any:
         """
-        Wait for the answer of a server.
+        Wait for the response of a server.
 
         Parameters
         ----------
         future
-            That of the request.
+            The future of the request.
 
         Returns
         -------
@@ -136,7 +136,7 @@ class LoopbackRobot:
         Raises
         ------
         AssertionError
-            No answer comes in time.
+            No response arrives in time.
 
         """
         self.wait_until(future.done, PATIENCE_S, 'an answer')
@@ -144,24 +144,24 @@ class LoopbackRobot:
 
     def call(self, kind: Any, name: str, request: Any) -> Any:
         """
-        Call a service that may be called twice, and return its response.
+        Call an idempotent service, and return its response.
 
         Parameters
         ----------
         kind, name, request
-            The type and name of the service, and what is asked; again if no answer comes.
+            The type and name of the service, and the request; repeated if it gets no response.
 
         """
         if name not in self._clients:
             client = self._clients[name] = self.node.create_client(kind, name)
             self.wait_until(client.service_is_ready, what=f"the service '{name}'")
-            # A server drops its answer to a client that it has not discovered yet.
+            # A server drops its response to a client that it has not discovered yet.
             self.wait(SETTLE_S)
         first = self._clients[name].call_async(request)
         try:
             self.wait_until(first.done, PATIENCE_S / 3.0)
         except AssertionError:
-            # An answer is lost if the server's middleware has lost sight of the client.
+            # A response is lost if the server's middleware has lost its match with the client.
             return self.answer(self._clients[name].call_async(request))
         return first.result()
 
@@ -190,7 +190,7 @@ class LoopbackRobot:
         Returns
         -------
         str
-            The label of the state, such as `active`; `unknown` if there is no answer within 2 s.
+            The label of the state, such as `active`; `unknown` if there is no response within 2 s.
 
         """
         client = self.node.create_client(GetState, f'{name}/get_state')
@@ -199,16 +199,16 @@ class LoopbackRobot:
         try:
             self.wait_until(future.done, 2.0)
         except AssertionError:
-            return 'unknown'  # it has gone meanwhile
+            return 'unknown'  # the node has gone in the meantime
         finally:
             self.node.destroy_client(client)
         return str(future.result().current_state.label)
 
     def put(self, place: Place) -> None:
         """
-        Set the pose of the robot on `initialpose`, as RViz does, until AMCL has it.
+        Set the pose of the robot by `initialpose`, as RViz does, until AMCL agrees with it.
 
-        Both the simulator and AMCL take it. It is sent again while AMCL disagrees.
+        Both the simulator and AMCL use it. It is published again while AMCL disagrees.
 
         Parameters
         ----------
@@ -281,7 +281,7 @@ class LoopbackRobot:
         Raises
         ------
         AssertionError
-            The server does not come, does not answer, or rejects the goal.
+            The server is not available, does not respond, or rejects the goal.
 
         """
         self.wait_until(client.server_is_ready, what='an action')
@@ -293,7 +293,7 @@ class LoopbackRobot:
 
     def finish(self, handle: Any, goal: Place, timeout_s: float = 300.0) -> Arrival:
         """
-        Wait for the end of a goal, and measure how far the robot is from it.
+        Wait for the result of a goal, and measure the distance of the robot from it.
 
         Parameters
         ----------
@@ -324,7 +324,7 @@ class LoopbackRobot:
 
     def go(self, goal: Place, timeout_s: float = 300.0) -> Arrival:
         """
-        Navigate to a pose, and return how that ended.
+        Navigate to a pose, and return the result.
 
         Parameters
         ----------
@@ -343,7 +343,7 @@ class LoopbackRobot:
 
     @property
     def _is_localised(self) -> bool:
-        """Whether the transforms say that the robot is where it truly is."""
+        """Whether the pose of the robot by TF agrees with the true one."""
         try:
             found = self._buffer.lookup_transform('map', 'base_footprint', Time()).transform
         except TransformException:
@@ -371,12 +371,12 @@ class LoopbackRobot:
 @contextmanager
 def loopback_simulator(speed: float = 1.0) -> Iterator[RunningProgram]:
     """
-    Run Nav2's loopback simulator for the length of a block.
+    Run Nav2's loopback simulator for the duration of a `with` block.
 
     Parameters
     ----------
     speed
-        How many times as fast as the computer's clock simulated time passes.
+        Real-time factor of simulated time.
 
     Yields
     ------
@@ -401,7 +401,7 @@ def loopback_simulator(speed: float = 1.0) -> Iterator[RunningProgram]:
 @contextmanager
 def running_navigation(*arguments: str) -> Iterator[RunningProgram]:
     """
-    Launch Nav2 in the apartment for the length of a block, on simulated time.
+    Launch Nav2 in the apartment for the duration of a `with` block, on simulated time.
 
     Parameters
     ----------
@@ -435,7 +435,7 @@ def container_pid(program: RunningProgram) -> int:
     Returns
     -------
     int
-        That of the newest one, if it was respawned.
+        The process id; that of the newest container, if it was respawned.
 
     """
     return int(CONTAINER.findall(program.output)[-1][1])

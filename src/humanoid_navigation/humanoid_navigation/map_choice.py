@@ -14,14 +14,14 @@ from launch.utilities import perform_substitutions
 
 class MapChoice(Substitution):
     """
-    Stands for the path of a map: the one that was asked for, or else that of the scene.
+    Substitution for the path of a map: the requested one, or else that of the scene.
 
     Parameters
     ----------
     given
-        What was asked for: a path, the name of a map of this package, or nothing.
+        The requested map: a path, the name of a map of this package, or empty.
     scene
-        The name of the simulated scene, or nothing.
+        The name of the simulated scene, or empty.
 
     """
 
@@ -30,7 +30,7 @@ class MapChoice(Substitution):
         self._given, self._scene = given, scene
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a human-readable description."""
         return f'MapChoice({self._given.describe()}, {self._scene.describe()})'
 
     def perform(self, context: LaunchContext) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End goals of navigation when the robot falls or is stopped: the node `navigation_guard`."""
+"""End navigation goals when the robot falls or is stopped: the node `navigation_guard`."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ ACTIONS = ('navigate_to_pose', 'navigate_through_poses', 'follow_waypoints')
 
 class NavigationGuard(Node):
     """
-    Says on `navigation_inhibit` why the robot cannot go anywhere, or nothing, and ends goals.
+    Node that publishes why the robot cannot move on `navigation_inhibit`, and ends goals.
 
-    A navigator that listens to that topic aborts its goals with the reason. Those of one that
-    does not, as the genuine Nav2, are canceled. A localisation that is started anew after a
-    crash is told where the robot was.
+    The reason is empty while the robot can move. A navigator that subscribes to that topic aborts
+    its goals with the reason. Goals of one that does not, such as the original Nav2, are canceled.
+    A localisation that is restarted after a crash gets the last known pose of the robot.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class NavigationGuard(Node):
         self._say()
 
     def _say(self) -> None:
-        """Publish the reason if it is new, and end the goals that run."""
+        """Publish the reason if it has changed; cancel all goals if no navigator subscribes."""
         reason = self._inhibition.reason
         if reason == self._said:
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell a localisation that was started anew where the robot was last."""
+"""Give a restarted localisation the last known pose of the robot."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ __all__ = ['PoseKeeper']
 _TOPIC = 'amcl_pose'
 _LOOK_S = 0.5
 _VARIANCES = {0: 0.1, 7: 0.1, 35: 0.05}
-"""The least ones of x, y (m2) and yaw (rad2): the last pose is some steps old."""
+"""Minimum variances of x, y (m2) and yaw (rad2): the last pose is some steps old."""
 
 
 class PoseKeeper:
     """
-    Remembers `amcl_pose`, and gives it as `initialpose` to an AMCL that comes after a crash.
+    Stores `amcl_pose`, and publishes it as `initialpose` for an AMCL that restarts after a crash.
 
-    Such a one begins at its initial pose, wherever the robot is by then.
+    A restarted AMCL starts at its configured initial pose, wherever the robot is by then.
 
     Parameters
     ----------
@@ -38,14 +38,14 @@ class PoseKeeper:
         node.create_timer(_LOOK_S, self._look)
 
     def _look(self) -> None:
-        """Notice who publishes poses; one that was killed stays in the graph for some time."""
+        """Detect new publishers of poses; a killed one stays in the graph for some time."""
         found = self._node.get_publishers_info_by_topic(_TOPIC)
         gids = frozenset(bytes(each.endpoint_gid) for each in found)
         self._is_replaced |= self._last is not None and bool(gids - self._known)
         self._known |= gids
 
     def _take(self, message: PoseWithCovarianceStamped) -> None:
-        """Keep a pose, or answer the first one of a new AMCL, which is active by then."""
+        """Store a pose, or reply to the first one of a new AMCL, which is active by then."""
         self._look()
         if not self._is_replaced or self._last is None:
             self._last = message

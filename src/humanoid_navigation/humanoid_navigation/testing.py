@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Send a simulated robot to places, and watch how it gets there; for tests and trials."""
+"""Navigate a simulated robot to goal poses, and observe it; for tests and experiments."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 PATIENCE_S = 90.0
-"""How long, on the computer's clock, something may take that should come at once."""
+"""Timeout in real time for responses that should arrive at once."""
 GROUND = ('floor', 'world', 'ground', 'rug')
-"""What a robot may stand on."""
+"""Prefixes of the names of bodies that a robot may stand on."""
 LIMBS = ('left_', 'right_', 'base_', 'torso', 'head', 'waist', 'pelvis')
-"""What the names of its own links begin with."""
+"""Prefixes of the names of its own links."""
 
 
 class NavigatingRobot:
     """
-    A robot in a simulator, beside which Nav2 runs.
+    A robot in a simulator that is navigated by Nav2.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are.
+        The nodes of the test.
 
     """
 
@@ -49,7 +49,7 @@ class NavigatingRobot:
             PoseWithCovarianceStamped, 'initialpose', STATE
         )
         self.command: Twist | None = None
-        """The newest velocity that the robot was given."""
+        """The newest velocity command of the robot."""
         self._touched: set[str] = set()
         self._recoveries = 0
         self._node.create_subscription(Twist, 'cmd_vel', self._take_command, COMMAND)
@@ -63,7 +63,7 @@ class NavigatingRobot:
         Parameters
         ----------
         x_m, y_m, yaw_rad
-            The pose in the map that it is told, right or wrong.
+            The pose in the map that is published, right or wrong.
 
         """
         self._initial_pose.publish(initial_pose((x_m, y_m, yaw_rad), 0.25, 0.07))
@@ -71,7 +71,7 @@ class NavigatingRobot:
 
     def start(self, x_m: float, y_m: float, yaw_rad: float) -> Any:
         """
-        Send a `NavigateToPose` goal, again for 20 s while it is rejected.
+        Send a `NavigateToPose` goal, and retry for 20 s while it is rejected.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class NavigatingRobot:
         goal = NavigateToPose.Goal(pose=stamped((x_m, y_m, yaw_rad)))
         self._touched.clear()
         self._recoveries = 0
-        self.robot.topics.drive(None)  # a reset of the robot sends it zeros from then on
+        self.robot.topics.drive(None)  # a reset of the robot leaves a repeated zero command
         for _ in range(20):
             handle = self._answer(
                 self._client.send_goal_async(goal, feedback_callback=self._take_feedback)
@@ -112,7 +112,7 @@ class NavigatingRobot:
         watch: Callable[[], None] = lambda: None,
     ) -> Arrival:
         """
-        Wait for the end of a goal, and cancel it when its time is over.
+        Wait for the result of a goal, and cancel it after a timeout.
 
         Parameters
         ----------
@@ -121,9 +121,9 @@ class NavigatingRobot:
         x_m, y_m, yaw_rad
             The goal pose in the map, which the arrival is compared with.
         at_most_s
-            How long the goal may take, in simulated s.
+            Timeout, in s of simulated time.
         watch
-            Called again and again until the goal ends.
+            Called repeatedly until the goal ends.
 
         Raises
         ------
@@ -181,14 +181,14 @@ class NavigatingRobot:
 
     def go(self, x_m: float, y_m: float, yaw_rad: float, at_most_s: float = 120.0) -> Arrival:
         """
-        Navigate to a pose, and return how that ended.
+        Navigate to a pose, and return the result.
 
         Parameters
         ----------
         x_m, y_m, yaw_rad
             The goal pose in the map.
         at_most_s
-            How long it may take, in simulated s, before the goal is canceled.
+            Timeout, in s of simulated time, after which the goal is canceled.
 
         Raises
         ------
@@ -225,7 +225,7 @@ class NavigatingRobot:
 
     @property
     def is_moved(self) -> bool:
-        """Whether the newest velocity is not zero."""
+        """Whether the newest velocity command is not zero."""
         return self.command is not None and not is_zero(self.command)
 
     def _answer(self, future: Future) -> Any:
@@ -253,16 +253,16 @@ def random_goals(
     map_file: Path, clearance_m: float, seed: int
 ) -> Iterator[tuple[float, float, float]]:
     """
-    Yield poses (m, m, rad) in a map that have free space around them, without end.
+    Yield random poses (m, m, rad) in a map with free space around them, endlessly.
 
     Parameters
     ----------
     map_file
-        The YAML file of a map whose picture is a PGM.
+        The YAML file of a map whose image is a PGM.
     clearance_m
-        How far from all that is not free.
+        Minimum distance from all cells that are not free.
     seed
-        Of the random numbers.
+        Seed of the random numbers.
 
     """
     free, resolution_m, origin_m = _free_cells(map_file)
@@ -285,7 +285,7 @@ def random_goals(
 
 
 def _free_cells(map_file: Path) -> tuple[npt.NDArray[np.bool_], float, tuple[float, float]]:
-    """Return which cells are free, the first row at the bottom, and where they are."""
+    """Return the free cells of a map, bottom row first, its resolution and its origin."""
     import yaml
 
     table = yaml.safe_load(map_file.read_text(encoding='utf-8'))

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the humanoid sees: objects in pictures, where they are, and what it remembers of them."""
+"""Perception of the humanoid: object detection, 3-D localisation, object memory and gaze."""

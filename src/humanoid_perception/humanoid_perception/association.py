@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which detection is which remembered thing: an optimal assignment."""
+"""Data association of detections and remembered objects: an optimal assignment."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ Array = npt.NDArray[np.float64]
 
 def assign(costs: Array, unassigned_cost: float) -> list[tuple[int, int]]:
     """
-    Pair rows and columns so that the sum of costs is least.
+    Assign columns to rows with the least sum of costs.
 
     Parameters
     ----------
     costs
-        Of shape (R, C); infinite where a row and a column cannot be a pair.
+        The costs (R, C); infinite where a row and a column cannot be paired.
     unassigned_cost
-        What a row costs that is left without a column; dearer pairs are not made.
+        The cost of a row without a column; pairs that cost more are not made.
 
     Returns
     -------
     list of tuple
-        Pairs of row and column, by row; each row and each column at most once.
+        Pairs of row and column, ordered by row; each row and each column at most once.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def assign(costs: Array, unassigned_cost: float) -> list[tuple[int, int]]:
     Notes
     -----
     The Hungarian method with shortest augmenting paths (Jonker and Volgenant, 1987), in which
-    every row has a column of its own that stands for none.
+    every row has a dummy column of its own for no assignment.
 
     """
     costs = np.asarray(costs, dtype=float)
@@ -44,7 +44,7 @@ def assign(costs: Array, unassigned_cost: float) -> list[tuple[int, int]]:
         raise ValueError('A cost of the assignment is NaN.')
     if not rows or not columns:
         return []
-    # Infinite costs would make paths that cannot be compared.
+    # Infinite costs would make paths incomparable.
     never = 1e3 * (abs(unassigned_cost) + 1.0) * (rows + columns)
     table = np.full((rows, columns + rows), never)
     table[:, :columns] = np.where(costs > unassigned_cost, never, costs)
@@ -54,7 +54,7 @@ def assign(costs: Array, unassigned_cost: float) -> list[tuple[int, int]]:
 
 
 def _columns_of_rows(table: Array) -> npt.NDArray[np.intp]:
-    """Return the column of each row of a table that has at least as many columns as rows."""
+    """Solve the assignment of a table with at least as many columns as rows: a column per row."""
     rows, columns = table.shape
     row_price, column_price = np.zeros(rows), np.zeros(columns)
     row_of = np.full(columns, -1)

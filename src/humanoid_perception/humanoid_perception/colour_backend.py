@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Find plainly coloured objects without a network: by colour, shape and depth.
+Detect objects of a uniform colour without a neural network: by colour, shape and depth.
 
-Pixels of one colour name that touch each other, at about the same depth, are one object. Its
-class follows from its outline alone: what fills its circle is a ball, what fills its rectangle a
-cube, a can, a bottle or a box by its proportions. It is meant for scenes of plain toys on plain
-ground: a red cupboard door is too large to count, but a red cushion is a box.
+Connected pixels with the same colour name, at about the same depth, form one object. Its class
+follows from its contour alone: one that fills its enclosing circle is a ball; one that fills its
+bounding rectangle is a cube, a can, a bottle or a box, by its aspect ratio. The detector is meant
+for scenes of plain toys on plain ground: a red cupboard door is too large to count, but a red
+cushion is a box.
 """
 
 from __future__ import annotations
@@ -23,21 +24,22 @@ __all__ = ['ColourDetector']
 
 _LEAST_PIXELS = 40
 _LARGEST_SHARE = 0.2
-"""Of the picture; what is larger is a wall or the floor."""
+"""Largest region as a fraction of the image; larger ones are walls or the floor."""
 _SMALLEST_M, _LARGEST_M = 0.02, 0.6
 _STEP_M, _STEP_SHARE = 0.03, 0.02
-"""Neighbouring pixels whose depths differ by more, and by more than this share, are separate."""
+"""Neighbouring pixels are separate if their depths differ by more than both, the second being a
+fraction of the depth."""
 _BALL_FILL, _BOX_FILL = 0.86, 0.8
 _CLASSES = ((0.75, 'box'), (1.3, 'cube'), (2.2, 'can'), (math.inf, 'bottle'))
-"""Of what fills its rectangle: up to this height by width, the class."""
+"""Classes of contours that fill their rectangle, each up to an aspect ratio (height by width)."""
 
 
 class ColourDetector:
-    """Finds plainly coloured objects."""
+    """Detector of objects of a uniform colour."""
 
     @property
     def title(self) -> str:
-        """Name the detector for people."""
+        """Return the display name of the detector."""
         return 'colour, shape and depth (no model)'
 
     def detect(
@@ -49,22 +51,22 @@ class ColourDetector:
         iou: float = 0.5,
     ) -> list[Detection]:
         """
-        Detect objects by connected regions of one colour; these never share a pixel.
+        Detect objects as connected regions of one colour, which never share a pixel.
 
         Parameters
         ----------
         color, depth_m, focal_px
-            As for `Detector.detect`. Depth separates what only seems to touch; with the focal
-            length, it rules out regions that are too small or too large for an object.
+            As for `Detector.detect`. Depth separates regions that only appear connected; with the
+            focal length, it rules out regions that are too small or too large for an object.
         confidence
-            The least score, which is how well an outline fits its class.
+            The score threshold; the score is how well a contour fits its class.
         iou
             Ignored.
 
         Returns
         -------
         list of Detection
-            Those of the best score first.
+            The detections, by decreasing score.
 
         """
         del iou
@@ -84,7 +86,7 @@ class ColourDetector:
 
 
 class _Region:
-    """Pixels that belong together."""
+    """A connected region of pixels."""
 
     def __init__(self, mask: npt.NDArray[np.bool_], left: int, top: int) -> None:
         self.mask, self.left, self.top = mask, left, top
@@ -93,7 +95,7 @@ class _Region:
 
 
 def _depth_steps(depth_m: Depth) -> npt.NDArray[np.bool_]:
-    """Return the pixels that are farther than one beside, above or below them by a step."""
+    """Find the pixels that are farther than one of their four neighbours by a depth step."""
     steps = np.zeros(depth_m.shape, dtype=np.bool_)
     with np.errstate(invalid='ignore'):
         for depths, marked in ((depth_m, steps), (depth_m.T, steps.T)):
@@ -130,7 +132,7 @@ def _detection(
     depth_m: Depth | None,
     focal_px: float,
 ) -> Detection | None:
-    """Return what a region shows; None if that has no plain shape, or no size of an object."""
+    """Classify a region as a detection; None if it does not have the size of an object."""
     height, width = region.mask.shape
     if not _is_object_sized(region, depth_m, focal_px):
         return None
@@ -145,7 +147,7 @@ def _detection(
 
 
 def _is_object_sized(region: _Region, depth_m: Depth | None, focal_px: float) -> bool:
-    """Whether a region has the size of something to hold, as far as depth tells."""
+    """Whether a region has the size of a graspable object; True without depth."""
     if depth_m is None or focal_px <= 0.0:
         return True
     height, width = region.mask.shape
@@ -160,7 +162,7 @@ def _is_object_sized(region: _Region, depth_m: Depth | None, focal_px: float) ->
 
 
 def _shape_of(region: _Region) -> tuple[str, float]:
-    """Return the class of an outline, and how well that fits, 0 to 1."""
+    """Classify the shape of a region; return the class, and how well it fits, 0 to 1."""
     area = float(cv2.contourArea(cv2.convexHull(region.outline))) + 0.5 * len(region.outline)
     height, width = region.mask.shape
     _, radius = cv2.minEnclosingCircle(region.outline)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Name the colour of an object in a picture.
+Name the colour of an object in an image.
 
-Each pixel gets one of eleven names by its hue, saturation and value (HSV); the most frequent one
-wins. Names depend on the hue first, so that light and shadow change them little. A part of an
-object that is white, grey or black (a label, a lid, pages, a shadow) loses against a part with a
-hue.
+Each pixel is classified as one of eleven colour names by its hue, saturation and value (HSV); the
+most frequent name wins. Names depend mainly on the hue, so light and shadow have little effect.
+White, grey or black parts of an object (a label, a lid, pages, a shadow) lose against a part with
+a hue.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ __all__ = ['CHROMATIC', 'colour_name', 'name_pixels']
 
 _NAMES = tuple(COLOURS)
 CHROMATIC = _NAMES[:-3]
-"""The names of colours that have a hue; white, grey and black come after them."""
+"""The names of the colours with a hue; white, grey and black follow them in `COLOURS`."""
 _NUMBER = {name: number for number, name in enumerate(_NAMES)}
 _HUES = (
-    # up to this hue in degrees (red begins before 0), the name of a bright and vivid colour
+    # upper hue in degrees (red starts below 0), and the name of a bright and vivid colour
     (13.0, 'red'),
     (41.0, 'orange'),
     (68.0, 'yellow'),
@@ -37,9 +37,9 @@ _WHITE_VALUE, _BLACK_VALUE = 0.72, 0.22
 _BROWN_VALUE = 0.58
 _PINK_SATURATION, _PINK_VALUE = 0.62, 0.6
 _LEAST_SHARE = 0.25
-"""A part with a hue that is smaller than this leaves the name to white, grey or black."""
+"""Smallest fraction of a colour with a hue; below it, the name is white, grey or black."""
 _INNER = 0.9
-"""The ellipse within the box whose pixels count, as a part of its axes."""
+"""Size of the ellipse whose pixels count, as a fraction of the box."""
 _LEAST_PIXELS = 6
 _MOST_EDGE_PX = 48
 
@@ -51,7 +51,7 @@ def name_pixels(pixels: Color) -> npt.NDArray[np.uint8]:
     Parameters
     ----------
     pixels
-        The picture (height, width, 3): red, green, blue.
+        The image (height, width, 3): red, green, blue.
 
     Returns
     -------
@@ -82,21 +82,21 @@ def colour_name(
     color: Color, box_px: Box, mask: npt.NDArray[np.bool_] | None = None
 ) -> tuple[str, float]:
     """
-    Return the name of the colour of what is in a box, and the part of it that has it.
+    Determine the name of an object's colour, and the fraction of its pixels with that colour.
 
     Parameters
     ----------
     color
-        The picture, (height, width, 3) red, green, blue.
+        The image (height, width, 3): red, green, blue.
     box_px
-        Where the object is.
+        The box of the object.
     mask
-        Which pixels of the picture belong to the object, (height, width), if that is known; else
+        The pixels of the image that belong to the object (height, width), if known; otherwise
         those of the ellipse in the box count.
 
     Returns
     -------
-    One of `COLOURS`, or '' if too little is seen; and 0 to 1.
+    One of `COLOURS`, or '' if too few pixels are visible; and the fraction, 0 to 1.
 
     """
     height, width = color.shape[:2]
@@ -122,7 +122,7 @@ def colour_name(
 
 
 def _ellipse(shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
-    """Return which pixels of a box (height, width) are in its inner ellipse."""
+    """Compute the mask (height, width) of the inner ellipse of a box."""
     rows = (np.arange(shape[0]) + 0.5) / shape[0] * 2.0 - 1.0
     columns = (np.arange(shape[1]) + 0.5) / shape[1] * 2.0 - 1.0
     return np.asarray(rows[:, None] ** 2 + columns[None, :] ** 2 <= _INNER**2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a detector finds in a picture, and what every detector has in common."""
+"""Detections in an image, and the common interface of detectors."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ Color = npt.NDArray[np.uint8]
 """(height, width, 3) red, green, blue"""
 Depth = npt.NDArray[np.float32]
 """
-(height, width) metres along the optical axis; NaN where nothing was measured, infinite beyond
-reach.
+(height, width) metres along the optical axis; NaN where nothing was measured, infinite beyond the
+range of the camera.
 """
 Box = tuple[float, float, float, float]
-"""left, top, right, bottom in pixels; the picture goes from 0 to its width and height"""
+"""left, top, right, bottom in pixels; the image extends from 0 to its width and height"""
 CUT = 'cut'
-"""The id of a detection that the border of the picture cuts."""
+"""The id of a detection that the image border cuts."""
 COLOURS = {
     'red': (0.85, 0.12, 0.1),
     'blue': (0.15, 0.3, 0.85),
@@ -47,86 +47,86 @@ COLOURS = {
     'grey': (0.5, 0.5, 0.5),
     'black': (0.08, 0.08, 0.08),
 }
-"""The names of colours, and how they look: red, green and blue from 0 to 1."""
+"""The names of colours, and their red, green and blue values from 0 to 1."""
 _BORDER_PX = 1.5
 
 
 class DetectorError(NodeStartError):
-    """A detector cannot be used; the text says why, and what to do."""
+    """A detector cannot be used; the message states why, and what to do."""
 
 
 @dataclass(frozen=True)
 class Detection:
-    """An object in a picture."""
+    """An object detected in an image."""
 
     class_id: str
     score: float
     """0 to 1"""
     box_px: Box
     is_cut: bool = False
-    """Whether the border of the picture cuts it: the object may go on beyond it."""
+    """Whether the image border cuts it: the object may extend beyond it."""
     colour: str = ''
-    """The name of its colour, or '' if it has none that can be named."""
+    """The name of its colour, or '' if none could be determined."""
     colour_share: float = 0.0
-    """How much of its surface has that colour, 0 to 1."""
+    """The fraction of its surface with that colour, 0 to 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class Box3:
-    """The place and size of an object, in a frame whose z axis points up."""
+    """An upright 3-D bounding box, in a frame whose z axis points up."""
 
     centre_m: npt.NDArray[np.float64]
     """(3,)"""
     size_m: npt.NDArray[np.float64]
     """(3,) along the axes of the box"""
     yaw_rad: float = 0.0
-    """The turn of the box about the z axis."""
+    """The rotation of the box about the z axis."""
 
 
 class Detector(Protocol):
-    """Finds objects in pictures."""
+    """Interface of object detectors."""
 
     @property
     def title(self) -> str:
-        """Name the detector for people: what it is, and from where."""
+        """Return the display name of the detector: its kind and its source."""
 
     def detect(
         self, color: Color, depth_m: Depth | None, focal_px: float, confidence: float, iou: float
     ) -> list[Detection]:
         """
-        Detect objects in a picture.
+        Detect objects in an image.
 
         Parameters
         ----------
         color
-            The picture (height, width, 3): red, green, blue.
+            The image (height, width, 3): red, green, blue.
         depth_m
             The depth (height, width) in m of the same pixels, along the optical axis; or None.
         focal_px
-            The focal length in pixels; 0.0 if it is not known.
+            The focal length in pixels; 0.0 if unknown.
         confidence
-            The least score of a detection, 0 to 1.
+            The score threshold, 0 to 1.
         iou
-            The most by which two boxes of a class overlap, as intersection over union.
+            The largest intersection over union (IoU) of two boxes of a class.
 
         Returns
         -------
         list of Detection
-            Those of the best score first.
+            The detections, by decreasing score.
 
         """
 
 
 def is_cut(box_px: Box, width_px: int, height_px: int) -> bool:
     """
-    Whether a box touches the border of its picture, so that the object may go on beyond it.
+    Check whether a box touches the image border, so that the object may extend beyond it.
 
     Parameters
     ----------
     box_px
         The box: left, top, right, bottom, in pixels.
     width_px, height_px
-        The size of the picture.
+        The size of the image.
 
     """
     left, top, right, bottom = box_px

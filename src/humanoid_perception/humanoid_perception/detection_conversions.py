@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages of what a detector has found: vision_msgs, markers, and a picture with boxes."""
+"""Convert detections to vision_msgs and annotated images."""
 
 from __future__ import annotations
 
@@ -47,20 +47,20 @@ def named(detection: Detection) -> str:
 
 def detections_2d(header: Header, found: Iterable[Detection]) -> Detection2DArray:
     """
-    Convert detections to boxes in the picture, in pixels.
+    Convert detections to a message with boxes in the image, in pixels.
 
     Parameters
     ----------
     header
-        That of the picture.
+        The header of the image.
     found
         The detections.
 
     Returns
     -------
     Detection2DArray
-        The first result of each is its class, the second the class with its colour if that is
-        known. The id is `CUT` where the border of the picture cuts the object, else empty.
+        The first result of each detection is its class, the second the class with its colour if
+        known. The id is `CUT` where the image border cuts the object, otherwise empty.
 
     """
     message = Detection2DArray(header=header)
@@ -79,17 +79,17 @@ def detections_3d(
     header: Header, found: Sequence[tuple[Detection, Box3]], rotation: Array | None = None
 ) -> Detection3DArray:
     """
-    Return detections as boxes in space.
+    Convert detections to a message with 3-D boxes.
 
     Parameters
     ----------
     header
-        The frame of the message, and the stamp of the picture.
+        The frame of the message, and the stamp of the image.
     found
-        Detections with their boxes.
+        The detections with their boxes.
     rotation
-        That of the frame of the boxes, whose z axis points up, in the frame of the message, (3,
-        3); None if both are the same.
+        The rotation (3, 3) of the frame of the boxes, whose z axis points up, in the frame of the
+        message; None if both are the same.
 
     """
     message = Detection3DArray(header=header)
@@ -104,7 +104,7 @@ def detections_3d(
 
 
 def _results(detection: Detection, pose: Pose) -> list[ObjectHypothesisWithPose]:
-    """Return the class, and with its colour if that is known."""
+    """Create the hypotheses: the class, and the class with its colour if known."""
     scores = {detection.class_id: detection.score}
     if detection.colour:
         scores[named(detection)] = detection.score * detection.colour_share
@@ -134,14 +134,14 @@ def _pose(box: Box3, rotation: Array | None) -> Pose:
 
 def annotated(header: Header, color: Color, found: Iterable[Detection]) -> Image:
     """
-    Draw detections into a copy of a picture: boxes, names and scores.
+    Draw detections into a copy of an image: boxes, names and scores.
 
     Parameters
     ----------
     header
-        That of the picture, which the message gets.
+        The header of the image, for the message.
     color
-        The picture (height, width, 3): red, green, blue.
+        The image (height, width, 3): red, green, blue.
     found
         The detections.
 
@@ -171,14 +171,14 @@ def annotated(header: Header, color: Color, found: Iterable[Detection]) -> Image
 
 def image_of(header: Header, picture: Color) -> Image:
     """
-    Convert a picture to an image message in the encoding `rgb8`.
+    Convert an RGB array to an image message in the encoding `rgb8`.
 
     Parameters
     ----------
     header
-        That of the message.
+        The header of the message.
     picture
-        The picture (height, width, 3): red, green, blue.
+        The image (height, width, 3): red, green, blue.
 
     """
     height, width = picture.shape[:2]
@@ -189,7 +189,7 @@ def image_of(header: Header, picture: Color) -> Image:
 
 def header_of(source: Any, frame_id: str) -> Header:
     """
-    Return a header with the stamp of another one, in a frame.
+    Create a header with the stamp of another one, in a given frame.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find remembered things by class, colour, place or id."""
+"""Query remembered objects by class, colour, place or id."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ __all__ = ['Question', 'QuestionError', 'find', 'place_of']
 
 
 class QuestionError(Exception):
-    """A question asks for something that nobody knows; the text says what was meant."""
+    """A query names an unknown class, colour, place or id; the message suggests a known one."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked for; what is empty fits all."""
+    """A query for objects; empty fields match all objects."""
 
     class_id: str = ''
     colour: str = ''
@@ -30,7 +30,7 @@ class Question:
 
 def place_of(thing: RememberedThing, places: Places) -> tuple[str, str]:
     """
-    Find the named places at which an object is.
+    Find the surface and the room of an object.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def place_of(thing: RememberedThing, places: Places) -> tuple[str, str]:
     Returns
     -------
     tuple of str
-        The surface on which the object stands, and the room in which it is; empty if none.
+        The names of the surface that the object stands on and of its room; empty if none.
 
     """
     x, y, z = (float(each) for each in thing.position_m)
@@ -58,21 +58,21 @@ def find(
     classes: Iterable[str] = (),
 ) -> list[RememberedThing]:
     """
-    Return the things that fit a question, the ones seen most recently first.
+    Find the objects that match a query, the most recently seen first.
 
     Parameters
     ----------
     question
-        What is asked for.
+        The query.
     things, places
-        What is remembered, and the named places.
+        The remembered objects, and the named places.
     classes
-        The classes that there can be, beside those of the things; without any, all can be.
+        The valid classes, in addition to those of the objects; if empty, any class is valid.
 
     Raises
     ------
     QuestionError
-        It names a class, a colour, a place or an id that there cannot be.
+        The query names an unknown class, colour, place or id.
 
     """
     known = {*classes, *(thing.class_id for thing in things)}
@@ -101,7 +101,7 @@ def _fits(question: Question, thing: RememberedThing, places: Places) -> bool:
 
 
 def _check(name: str, known: Iterable[str], what: str) -> None:
-    """Refuse a name that is not known."""
+    """Raise `QuestionError` if a name is neither empty nor known."""
     names = sorted(known)
     if not name or name in names:
         return

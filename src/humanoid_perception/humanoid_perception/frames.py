@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which pictures of a camera a detector looks at, and which depth image belongs to each."""
+"""Select the camera images to process, and pair them with depth images."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _BACK_S = 0.5
 """Stamps that go back further mean that the simulation was reset."""
 _DUE_EARLY_S = 0.005
 _DEPTH_WAIT_S = 0.3
-"""How long a picture waits for its depth, by the clock on the wall."""
+"""How long an image waits for its depth, in wall-clock time."""
 _DEPTH_GONE_S = 1.0
-"""After how long without depth it is not waited for any more."""
+"""Time without any depth after which images no longer wait for it."""
 
 
 @dataclass(frozen=True)
 class Frame:
-    """A picture to look at, as serialized messages."""
+    """An image to process and its depth, as serialized messages."""
 
     stamp_s: float
     color: bytes
@@ -38,14 +38,14 @@ class _Waiting:
 
 class FramePairs:
     """
-    Pairs pictures with depth, and drops those that come faster than they are wanted.
+    Synchronizer that pairs images with depth, and drops images above a maximum rate.
 
     Parameters
     ----------
     period_s
-        How far apart the stamps of pictures are at least.
+        The least difference between the stamps of images.
     max_offset_s
-        How far the stamp of depth may be from that of its picture.
+        The largest difference between the stamps of an image and its depth.
 
     """
 
@@ -59,19 +59,19 @@ class FramePairs:
         self._depth_received_s = -math.inf
 
     def clear(self) -> None:
-        """Forget everything that was received."""
+        """Drop all received images."""
         self._colors.clear()
         self._depths.clear()
         self._newest_s = self._taken_s = self._depth_received_s = -math.inf
 
     def add_color(self, stamp_s: float, data: bytes, now_s: float) -> None:
         """
-        Take a picture as it was received; one that comes too soon after the last is dropped.
+        Add a received image; one that comes too soon after the last is dropped.
 
         Parameters
         ----------
         stamp_s
-            Its stamp in s. If it goes back by more than 0.5 s, all that came before is dropped.
+            Its stamp in s. If it goes back by more than 0.5 s, all earlier images are dropped.
         data
             The serialized image.
         now_s
@@ -81,14 +81,14 @@ class FramePairs:
         if stamp_s < self._newest_s - _BACK_S:
             self.clear()
         if self._depth_received_s == -math.inf:
-            self._depth_received_s = now_s  # the first depth may be on its way
+            self._depth_received_s = now_s  # the first depth may still be on its way
         self._newest_s = max(self._newest_s, stamp_s)
         if self._is_due(stamp_s):
             self._colors.append(_Waiting(stamp_s, now_s, data))
 
     def add_depth(self, stamp_s: float, data: bytes, now_s: float) -> None:
         """
-        Take a depth image as it was received.
+        Add a received depth image.
 
         Parameters
         ----------
@@ -105,29 +105,29 @@ class FramePairs:
 
     def has_depth(self, now_s: float) -> bool:
         """
-        Whether depth came within the last second, or may still come for the first time.
+        Check whether depth was received within the last second, or may still start to arrive.
 
         Parameters
         ----------
         now_s
-            The time now, by the same clock as for `add_depth`.
+            The current time of the same clock as for `add_depth`.
 
         """
         return now_s - self._depth_received_s < _DEPTH_GONE_S
 
     def take(self, now_s: float) -> Frame | None:
         """
-        Take the newest picture whose depth has come, or has been waited for long enough.
+        Remove and return the newest image that has its depth, or has waited for it long enough.
 
         Parameters
         ----------
         now_s
-            The time now, by the same clock as for `add_color`.
+            The current time of the same clock as for `add_color`.
 
         Returns
         -------
         Frame
-            The picture, with its depth if that came; None if no picture is due yet.
+            The image, with its depth if that was received; None if no image is due yet.
 
         """
         for color in reversed(self._colors):
@@ -138,7 +138,7 @@ class FramePairs:
         return None
 
     def _depth_of(self, color: _Waiting) -> bytes | None:
-        """Return the depth that is closest in time, if that is close enough."""
+        """Return the depth image nearest in time, if it is within the maximum offset."""
         best = min(self._depths, key=lambda each: abs(each.stamp_s - color.stamp_s), default=None)
         if best is None or abs(best.stamp_s - color.stamp_s) > self.max_offset_s:
             return None
@@ -151,7 +151,7 @@ class FramePairs:
         return Frame(color.stamp_s, color.data, depth)
 
     def _is_due(self, stamp_s: float) -> bool:
-        """Whether a picture is far enough from the one that was taken last."""
+        """Whether an image is at least one period after the one that was taken last."""
         after_s = stamp_s - self._taken_s
         return after_s > 0.0 and after_s >= self.period_s - _DUE_EARLY_S
 
@@ -163,7 +163,7 @@ def stamp_in(data: bytes) -> float:
     Parameters
     ----------
     data
-        A message that begins with a `std_msgs/Header`, such as an image.
+        A message that starts with a `std_msgs/Header`, such as an image.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the robot looks: the node `gaze` with the actions `look_at` and `scan_room`."""
+"""Gaze control: the node `gaze` with the actions `look_at` and `scan_room`."""
 
 from __future__ import annotations
 
@@ -24,14 +24,13 @@ import numpy as np
 from rclpy.node import Node
 from sensor_msgs.msg import CameraInfo
 from std_msgs.msg import String
-from tf2_ros import TransformException
 
 __all__ = ['Gaze', 'GazeParameters', 'main']
 
 _LATE_S = 5.0
 """How much longer than planned a motion of the head may take."""
 _NEWS_RAD = 0.015
-"""A target that moved by less is still looked at."""
+"""Smallest change of the joint angles for which a new motion is sent."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ class GazeParameters:
 
 class Gaze(Node):
     """
-    Turns the head towards points, and lets it look around.
+    Action server that points the head at targets and scans the surroundings.
 
     Parameters
     ----------
@@ -104,7 +103,7 @@ class Gaze(Node):
             )
 
     def now_s(self) -> float:
-        """Return the time of the node in s."""
+        """Return the current time of the node in s."""
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     async def field_of_view(self, goal: RunningGoal) -> FieldOfView:
@@ -114,12 +113,13 @@ class Gaze(Node):
         Parameters
         ----------
         goal
-            The goal that needs it, and whose end ends the wait.
+            The goal that needs it; the wait ends with it.
 
         Raises
         ------
         GoalAborted
-            None comes within 5 s, or it has no size or no focal length; or the goal is to end.
+            No message arrives within 5 s, or its size or focal length is invalid; or the goal must
+            end.
         GoalCanceled
             The client has canceled the goal.
 
@@ -154,7 +154,7 @@ class Gaze(Node):
                 raise
 
     async def _track(self, goal: RunningGoal) -> None:
-        """Turn the head to where the target is now, until it is looked at."""
+        """Track the target with the head until the pointing error is within the tolerance."""
         request, told, head = goal.request, self.parameters.current, self.head
         await head.wait(goal)
         frame, source = request.pointing_frame or told.camera_frame, request.target.header.frame_id
@@ -168,12 +168,9 @@ class Gaze(Node):
         begin_s, sent, end_s, ticks = self.now_s(), None, math.inf, 0
         while True:
             now_s = self.now_s()
-            begin_s = min(begin_s, now_s)  # a simulation that begins anew
-            try:
-                target = (head.pose(head.chain.base_frame, source) @ point)[:3]
-                angles = head.angles_rad()
-            except TransformException as error:
-                raise GoalAborted('NO_TRANSFORM', f'The target is lost: {error}') from None
+            begin_s = min(begin_s, now_s)  # the simulation may have been reset
+            target = (head.pose(head.chain.base_frame, source) @ point)[:3]
+            angles = head.angles_rad()
             error_rad = head.chain.error_rad(angles, target, tip, axis)
             goal.publish_feedback(PointHead.Feedback(pointing_angle_error=error_rad))
             is_over = now_s - begin_s >= at_least_s
@@ -210,7 +207,7 @@ def _vector(message: Any) -> Any:
 
 
 def _unsound(request: PointHead.Goal) -> str:
-    """Return why a goal makes no sense; nothing if it does."""
+    """Validate a goal of `look_at`; return the rejection message, or an empty string."""
     numbers = (*_vector(request.target.point), *_vector(request.pointing_axis))
     if not all(map(math.isfinite, (*numbers, request.max_velocity))):
         return 'It has a number that is not finite.'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a head has to turn so that something in it looks at a point."""
+"""Kinematics of the neck: joint angles that point a frame of the head, such as a camera."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _GOOD_RAD = 1e-3
 
 
 class HeadError(Exception):
-    """The model has no such head; the text says why."""
+    """The robot description has no usable neck; the message states why."""
 
 
 @dataclass(frozen=True)
 class HeadJoint:
-    """A turning joint: where it is in its parent link, its axis, and what it can do."""
+    """A revolute joint: its origin in the parent link, its axis, and its limits."""
 
     name: str
     parent: str
@@ -41,7 +41,7 @@ class HeadJoint:
 
 @dataclass(frozen=True)
 class Aim:
-    """Angles of the joints, and by how much they miss the target."""
+    """Joint angles, and their pointing error."""
 
     angles_rad: Array
     error_rad: float
@@ -49,12 +49,12 @@ class Aim:
 
 class HeadChain:
     """
-    The joints of a neck, one upon the other.
+    Kinematic chain of the neck.
 
     Parameters
     ----------
     joints
-        From the body on.
+        The joints, from the body to the head.
 
     """
 
@@ -74,12 +74,13 @@ class HeadChain:
         description
             The URDF, as on the topic `robot_description`.
         names
-            The names of the joints, from the body on: each hangs on what the one before moves.
+            The names of the joints, from the body to the head, which must form one chain.
 
         Raises
         ------
         HeadError
-            It is no URDF, lacks a joint, or these are not revolute, with limits, in one chain.
+            The URDF is invalid or lacks a joint, or the joints are not revolute, with limits, in
+            one chain.
 
         """
         try:
@@ -119,7 +120,7 @@ class HeadChain:
         Parameters
         ----------
         angles_rad
-            Of each joint (n,), from the body on.
+            The joint angles (n,), from the body to the head.
 
         Returns
         -------
@@ -141,7 +142,7 @@ class HeadChain:
         Parameters
         ----------
         angles_rad
-            Of each joint (n,), from the body on.
+            The joint angles (n,), from the body to the head.
 
         """
         return np.asarray(np.clip(angles_rad, self.lower_rad, self.upper_rad))
@@ -153,9 +154,9 @@ class HeadChain:
         Parameters
         ----------
         number
-            Which joint: 0 is the first one, on the body.
+            The index of the joint: 0 is the first one, on the body.
         rotation
-            The rotation matrix (3, 3), as the transforms have it.
+            The rotation matrix (3, 3), as in the transforms.
 
         """
         joint = self.joints[number]
@@ -172,13 +173,13 @@ class HeadChain:
         Parameters
         ----------
         angles_rad
-            Of each joint (n,).
+            The joint angles (n,).
         target_m
             The target (3,), in the base frame.
         tip
-            Pose (4, 4) of the frame that points, in the last link.
+            The pose (4, 4) of the pointing frame in the last link.
         axis
-            The direction (3,) in that frame that shall point; of any length.
+            The pointing axis (3,) in that frame, of any length.
 
         Returns
         -------
@@ -197,27 +198,28 @@ class HeadChain:
         start_rad: Sequence[float] | Array,
     ) -> Aim:
         """
-        Find the angles within the limits that point best.
+        Solve the inverse kinematics: the joint angles within the limits with the least error.
 
         Parameters
         ----------
         target_m
-            The point, in the base frame; (3,).
+            The target (3,), in the base frame.
         tip
-            Pose (4, 4) of the frame that points, in the last link.
+            The pose (4, 4) of the pointing frame in the last link.
         axis
-            The direction in it that shall point; (3,).
+            The pointing axis (3,) in that frame.
         start_rad
-            Where the joints are.
+            The current joint angles (n,).
 
         Returns
         -------
         Aim
-            The best angles; the error is what is left where the target is out of reach.
+            The best angles, and the pointing error that remains if the target is out of reach.
 
         Notes
         -----
-        Damped Gauss-Newton on the direction to the target, from several starts until one is good.
+        Damped Gauss-Newton on the direction to the target, from several starting points until one
+        converges.
 
         """
         middle = 0.5 * (self.lower_rad + self.upper_rad)
@@ -239,7 +241,7 @@ class HeadChain:
         return best
 
     def _refined(self, start: Array, target_m: Array, tip: Array, axis: Array) -> Aim:
-        """Improve angles step by step."""
+        """Refine joint angles by damped Gauss-Newton steps."""
         angles, damping = start.copy(), 1e-3
         error = self.error_rad(angles, target_m, tip, axis)
         for _ in range(_ROUNDS):
@@ -250,7 +252,7 @@ class HeadChain:
                 moved[number] += _STEP
                 columns.append((self._residual(moved, target_m, tip, axis) - value) / _STEP)
             jacobian = np.stack(columns, axis=1)
-            # A joint at its limit that is pushed beyond it takes no part.
+            # Joints that are pushed against their limits are excluded.
             gradient = jacobian.T @ value
             is_stuck = ((angles >= self.upper_rad) & (gradient < 0.0)) | (
                 (angles <= self.lower_rad) & (gradient > 0.0)
@@ -272,27 +274,27 @@ class HeadChain:
         return Aim(angles, error)
 
     def _residual(self, angles_rad: Array, target_m: Array, tip: Array, axis: Array) -> Array:
-        """Return the way to the target less the axis, both as unit vectors, on the head."""
+        """Compute the direction to the target minus the axis, as unit vectors in that frame."""
         way = self._way(angles_rad, target_m, tip)
         return np.asarray(way / max(float(np.linalg.norm(way)), 1e-9) - axis)
 
     def _aside(
         self, angles_rad: Array, target_m: Array, tip: Array, axis: Array
     ) -> tuple[float, Array]:
-        """Return the way to the target along the axis, and the rest of it."""
+        """Split the vector to the target into its component along the axis and the remainder."""
         unit = axis / np.linalg.norm(axis)
         way = self._way(angles_rad, target_m, tip)
         along = float(unit @ way)
         return along, way - along * unit
 
     def _way(self, angles_rad: Array, target_m: Array, tip: Array) -> Array:
-        """Return the target in the frame that points."""
+        """Compute the position of the target in the pointing frame."""
         pose = self.pose(angles_rad) @ tip
         return np.asarray(pose[:3, :3].T @ (target_m - pose[:3, 3]))
 
 
 def _joint(element: ElementTree.Element) -> HeadJoint:
-    """Read a joint of a URDF."""
+    """Parse a joint of a URDF."""
     name = element.get('name', '')
     limit, parent, child = (element.find(each) for each in ('limit', 'parent', 'child'))
     if element.get('type') != 'revolute' or limit is None or parent is None or child is None:
@@ -326,7 +328,7 @@ def _three(text: str) -> Array:
 
 
 def _rotation(axis: Array, angle_rad: float) -> Array:
-    """Return the rotation (3, 3) about a unit vector (Rodrigues)."""
+    """Compute the rotation matrix (3, 3) about a unit vector (Rodrigues)."""
     x, y, z = axis
     c, s = math.cos(angle_rad), math.sin(angle_rad)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

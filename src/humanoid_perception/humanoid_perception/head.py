@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The head of the robot, moved by its trajectory controller and seen by its transforms."""
+"""Client of the head's trajectory controller, with the joint angles from the transforms."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from std_msgs.msg import String
 __all__ = ['Head']
 
 _SHORTEST_S = 0.15
-"""A motion takes at least this time."""
+"""Least duration of a motion."""
 
 
 class Head(Transforms):
     """
-    Moves the joints of the neck, and knows where frames on it and elsewhere are.
+    Interface to the head: its joints, its trajectory controller, and the transforms.
 
     Parameters
     ----------
     node
-        The node whose topics count.
+        The node that owns the subscriptions and the action client.
     joints
-        The names of the joints, from the body on.
+        The names of the joints, from the body to the head.
     controller
         The name of their trajectory controller.
 
@@ -45,7 +45,7 @@ class Head(Transforms):
 
     @property
     def chain(self) -> HeadChain:
-        """Return the joints; GoalAborted if they are not known."""
+        """Return the kinematic chain of the neck; raise GoalAborted if it is not known."""
         if self._known is None:
             raise GoalAborted('HEAD_FAILED', self._reason)
         return self._known
@@ -58,18 +58,18 @@ class Head(Transforms):
 
     async def wait(self, goal: RunningGoal) -> None:
         """
-        Wait until the head can be moved; call it while the transforms are listened to.
+        Wait until the head can be moved. Call in `listening`.
 
         Parameters
         ----------
         goal
-            The goal that needs the head, and whose end ends the wait.
+            The goal that needs the head; the wait ends with it.
 
         Raises
         ------
         GoalAborted
-            The robot description, the controller or the transforms of the neck do not come; the
-            message says which. Or the goal is to end.
+            The robot description, the controller or the transforms of the neck do not become
+            available; the message states which. Or the goal must end.
         GoalCanceled
             The client has canceled the goal.
 
@@ -83,7 +83,7 @@ class Head(Transforms):
         await self.known(goal, self.chain.base_frame, self.chain.tip_frame)
 
     def angles_rad(self) -> Array:
-        """Return where the joints are, by the transforms."""
+        """Compute the joint angles (n,) from the transforms."""
         chain = self.chain
         poses = [self.pose(joint.parent, joint.child)[:3, :3] for joint in chain.joints]
         return np.array([chain.angle_of(number, each) for number, each in enumerate(poses)])
@@ -92,14 +92,14 @@ class Head(Transforms):
         self, angles_rad: Array, fastest_rad_s: float, at_least_s: float = 0.0
     ) -> float:
         """
-        Compute how long a motion from the present joint angles takes, from rest to rest.
+        Compute the duration of a motion from the current joint angles, from rest to rest.
 
         Parameters
         ----------
         angles_rad
-            The joint angles to move to (n,).
+            The target joint angles (n,).
         fastest_rad_s
-            The greatest velocity of a joint, beside its own limit.
+            The velocity limit, in addition to that of each joint.
         at_least_s
             The least duration.
 
@@ -111,34 +111,33 @@ class Head(Transforms):
         Raises
         ------
         GoalAborted
-            No robot description with these joints has come.
-        TransformException
-            It is not known where the joints are.
+            No robot description with these joints was received, or their transforms are not
+            available.
 
         """
         speed = np.minimum(self.chain.velocity_rad_s, fastest_rad_s)
-        # A trajectory from rest to rest is at most 1.875 times as fast as on average.
+        # The peak velocity of a spline from rest to rest is at most 1.875 times its mean.
         needed = float(np.max(np.abs(angles_rad - self.angles_rad()) * 1.9 / speed))
         return max(needed, at_least_s, _SHORTEST_S)
 
     def send(self, angles_rad: Array, duration_s: float) -> None:
         """
-        Send a motion to the trajectory controller; one that still goes on is replaced.
+        Send a motion to the trajectory controller; it replaces one that is still running.
 
         Parameters
         ----------
         angles_rad
-            The joint angles to move to (n,), from the body on.
+            The target joint angles (n,), from the body to the head.
         duration_s
-            How long the motion takes.
+            The duration of the motion.
 
         """
         self._mover.send([trajectory_point(duration_s, angles_rad.tolist())])
 
     def has_arrived(self) -> bool:
-        """Whether the motion that was begun last is over; GoalAborted if it failed."""
+        """Check whether the last motion is complete; raise GoalAborted if it failed."""
         return self._mover.has_arrived()
 
     def stop(self) -> None:
-        """End a motion that goes on; the head stays where it is."""
+        """Cancel a running motion; the head stays where it is."""
         self._mover.stop()

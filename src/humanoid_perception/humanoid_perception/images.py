@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures and depth of `sensor_msgs/Image` as arrays, and back, without a copy where possible."""
+"""Convert `sensor_msgs/Image` messages to arrays and back, without a copy where possible."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _DEPTHS = {'32FC1': ('f4', 1.0), '16UC1': ('u2', 0.001), 'mono16': ('u2', 0.001)
 
 
 class ImageError(Exception):
-    """An image message cannot be used; the text says why, and what to do."""
+    """An image message cannot be used; the message states why, and what to do."""
 
 
 class ImageMessage(Protocol):
@@ -34,24 +34,25 @@ class ImageMessage(Protocol):
 
 def color_of(image: ImageMessage) -> Color:
     """
-    Convert an image message to a picture.
+    Convert an image message to an RGB array.
 
-    Grey pictures get three equal channels. The array may be that of the message: do not write.
+    Greyscale images get three equal channels. The array may share memory with the message: do not
+    modify it.
 
     Parameters
     ----------
     image
-        The message, in an encoding with 8 bits a channel.
+        The message, in an encoding with 8 bits per channel.
 
     Returns
     -------
     Color
-        The picture (height, width, 3): red, green, blue.
+        The image (height, width, 3): red, green, blue.
 
     Raises
     ------
     ImageError
-        If its encoding is no picture with 8 bits, or its sizes do not fit its data.
+        Its encoding is not supported, or its size does not match its data.
 
     """
     channels = _CHANNELS.get(image.encoding)
@@ -69,10 +70,10 @@ def color_of(image: ImageMessage) -> Color:
 
 def depth_of(image: ImageMessage) -> Depth:
     """
-    Convert an image message to depth.
+    Convert a depth image message to an array, according to REP 118.
 
-    As REP 118 has it: `32FC1` in m, `16UC1` in mm, where 0 means nothing. NaN is where nothing was
-    measured, infinity where nothing is within the range of the camera.
+    `32FC1` is in m; `16UC1` is in mm, where 0 means no measurement. NaN means no measurement,
+    infinity means nothing within the range of the camera.
 
     Parameters
     ----------
@@ -87,7 +88,7 @@ def depth_of(image: ImageMessage) -> Depth:
     Raises
     ------
     ImageError
-        If its encoding is no depth, or its sizes do not fit its data.
+        Its encoding is not one of depth, or its size does not match its data.
 
     """
     if image.encoding not in _DEPTHS:
@@ -106,12 +107,12 @@ def depth_of(image: ImageMessage) -> Depth:
 
 def data_of(pixels: npt.NDArray[Any]) -> array[int]:
     """
-    Convert pixels to an `array('B')`, which the `data` of an image message takes as it is.
+    Convert pixels to an `array('B')`, which the `data` of an image message stores without a copy.
 
     Parameters
     ----------
     pixels
-        The picture, of any shape and type.
+        The image, of any shape and type.
 
     Returns
     -------
@@ -125,7 +126,7 @@ def data_of(pixels: npt.NDArray[Any]) -> array[int]:
 
 
 def _rows(image: ImageMessage, dtype: np.dtype[Any], channels: int) -> npt.NDArray[Any]:
-    """Return the pixels (height, width, channels), without the padding of the rows."""
+    """View the pixels (height, width, channels) of a message, without row padding."""
     row_bytes = image.width * channels * dtype.itemsize
     needed = image.step * (image.height - 1) + row_bytes
     if image.width < 1 or image.height < 1 or image.step < row_bytes:

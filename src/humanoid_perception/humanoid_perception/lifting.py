@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Where a detected object is and how large, from the depth of its pixels.
+Estimate the 3-D box of a detected object from the depth of its pixels.
 
-Depth shows the front of an object only. The points of its surface are taken in a frame whose z
-axis points up: its height is seen, its width is seen, and its extent along the line of sight is
-estimated. What is round seen from above (a mug, a ball) is as deep as it is wide. For other
-objects it is what is seen of their top, or at least a usual part of their width. The centre is
-half of it behind the front.
+Depth shows only the front of an object. The points of its surface are transformed to a frame whose
+z axis points up: height and width are measured, and the extent along the line of sight is
+estimated. An object that is round seen from above (a mug, a ball) is as deep as it is wide. For
+other objects, the extent is the visible part of their top, or at least a typical fraction of their
+width. The centre is half of the extent behind the front.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ ROUND = frozenset(
         *('wine glass', 'vase'),
     }
 )
-"""Classes that are as deep as wide."""
+"""Classes of objects that are as deep as wide."""
 _DEPTH_OF_WIDTH = {'person': 0.55, 'book': 0.7, 'box': 0.7, 'cube': 0.95}
-"""How deep others are at least, as a part of the width that is seen; else `_USUAL_DEPTH`."""
+"""Least depth of other classes, as a fraction of the visible width; else `_USUAL_DEPTH`."""
 _USUAL_DEPTH = 0.6
 _LEAST_POINTS = 6
 _MOST_POINTS = 1500
@@ -48,16 +48,16 @@ _LOW, _HIGH = 2.0, 98.0
 UPRIGHT = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 """The rotation of an optical frame in the frame of the same camera by REP 103: x forward, z up."""
 _STEEP = 0.97
-"""A line of sight whose vertical part is larger than this looks straight down (or up)."""
+"""A line of sight with a larger vertical component points straight down (or up)."""
 
 
 class CameraInfoError(Exception):
-    """A `camera_info` cannot be used; the text says why, and what to do."""
+    """A `camera_info` cannot be used; the message states why, and what to do."""
 
 
 @dataclass(frozen=True)
 class PinholeCamera:
-    """The intrinsics of a rectified camera; whole pixel coordinates are the centres of pixels."""
+    """Intrinsics of a rectified camera; integer pixel coordinates are the centres of pixels."""
 
     width_px: int
     height_px: int
@@ -71,21 +71,21 @@ def camera_of(
     k: npt.ArrayLike, width_px: int, height_px: int, picture: tuple[int, int]
 ) -> PinholeCamera:
     """
-    Check the intrinsics of a `sensor_msgs/CameraInfo`.
+    Validate the intrinsics of a `sensor_msgs/CameraInfo`.
 
     Parameters
     ----------
     k
-        The nine numbers of K, row by row.
+        The nine elements of the camera matrix K, row by row.
     width_px, height_px
-        The size that they are for.
+        The image size of the intrinsics.
     picture
-        The size (height, width) of the pictures.
+        The size (height, width) of the images.
 
     Raises
     ------
     CameraInfoError
-        If they cannot be right.
+        The intrinsics are implausible, or for another image size.
 
     """
     values = np.asarray(k, dtype=np.float64).reshape(-1)
@@ -116,30 +116,30 @@ def camera_of(
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """What depth shows of an object."""
+    """The visible surface of an object."""
 
     points_m: Array
     """(n, 3) in the optical frame of the camera"""
     mask: npt.NDArray[np.bool_]
-    """Which pixels of the picture show it, (height, width)."""
+    """The pixels of the image that show it, (height, width)."""
 
 
 def surface_of(box_px: Box, depth_m: Depth, camera: PinholeCamera) -> Surface | None:
     """
-    Return the surface of an object in a box, without what is behind or in front of it.
+    Segment the surface of an object in a box from the background and the foreground.
 
     Parameters
     ----------
     box_px
-        Where the object is in the picture.
+        The box of the object in the image.
     depth_m
-        (height, width), NaN or infinite where nothing was measured.
+        The depth (height, width), NaN or infinite where nothing was measured.
     camera
-        What the picture was taken with.
+        The intrinsics of the camera.
 
     Returns
     -------
-    None if too little of it was measured.
+    The surface; None if too little of it was measured.
 
     """
     rows = _within(box_px[1], box_px[3], camera.height_px)
@@ -163,16 +163,16 @@ def lift(
     translation_m: Array | None = None,
 ) -> Box3:
     """
-    Return the 3-D box of a detected object.
+    Estimate the 3-D box of a detected object.
 
     Parameters
     ----------
     class_id
-        Its class, which says whether it is round.
+        Its class, which determines whether it is round.
     surface
-        What depth shows of it.
+        Its visible surface.
     camera
-        What the picture was taken with.
+        The intrinsics of the camera.
     rotation, translation_m
         The pose (3, 3), (3,) of the optical frame in a frame whose z axis points up.
 
@@ -182,13 +182,13 @@ def lift(
 
 
 def _within(low: float, high: float, size: int) -> slice:
-    """Return the whole pixels between two edges, as far as they are in a picture of a size."""
+    """Round two edges of a box to a pixel range, clipped to an image size."""
     first, last = (min(max(round(edge), 0), size) for edge in (low, high))
     return slice(first, last)
 
 
 def _foreground(part: Depth, box_px: Box, camera: PinholeCamera) -> npt.NDArray[np.bool_]:
-    """Return which pixels of a box show the object, not what is behind or before it."""
+    """Compute the mask of the pixels in a box whose depth is near that of the object."""
     is_known = np.isfinite(part) & (part > _LEAST_RANGE_M)
     height, width = part.shape
     inner = (
@@ -210,7 +210,7 @@ def _foreground(part: Depth, box_px: Box, camera: PinholeCamera) -> npt.NDArray[
 def _points(
     part: Depth, mask: npt.NDArray[np.bool_], top: int, left: int, camera: PinholeCamera
 ) -> Array:
-    """Return the points (n, 3) of the pixels of a mask in the optical frame."""
+    """Back-project the pixels of a mask to points (n, 3) in the optical frame."""
     v, u = np.nonzero(mask)
     if len(v) > _MOST_POINTS:
         chosen = np.linspace(0, len(v) - 1, _MOST_POINTS).astype(np.intp)
@@ -222,7 +222,7 @@ def _points(
 
 
 def _box_of(class_id: str, offsets: Array, origin: Array, camera: PinholeCamera) -> Box3:
-    """Return the box of points (n, 3) of a surface, given from the camera, z up."""
+    """Fit a box to surface points (n, 3), relative to the camera, in axes with z up."""
     sight = np.median(offsets, axis=0)
     distance = float(np.linalg.norm(sight))
     if abs(sight[2]) > _STEEP * distance:
@@ -251,7 +251,7 @@ def _box_of(class_id: str, offsets: Array, origin: Array, camera: PinholeCamera)
 
 
 def _box_from_above(offsets: Array, origin: Array) -> Box3:
-    """Return the box of an object of which only the top is seen: it is as high as narrow."""
+    """Fit a box to the visible top of an object: its height is at least its smaller edge."""
     edges = [_extent(offsets[:, axis]) for axis in range(3)]
     length, width = (high - low for low, high in edges[:2])
     top = edges[2][1]
@@ -263,6 +263,6 @@ def _box_from_above(offsets: Array, origin: Array) -> Box3:
 
 
 def _extent(values: Array) -> tuple[float, float]:
-    """Return the ends of values, without the few that stick out."""
+    """Return the range of values, without outliers."""
     low, high = np.percentile(values, (_LOW, _HIGH))
     return float(low), float(high)

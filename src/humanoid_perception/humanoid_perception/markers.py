@@ -16,14 +16,14 @@ _ABOVE_M, _LETTERS_M = 0.06, 0.07
 
 def markers_of(message: Detection3DArray) -> MarkerArray:
     """
-    Convert detections to markers: boxes with labels, which replace all that were shown before.
+    Convert detections to markers: boxes with labels, which replace all earlier ones.
 
-    The label of a box is its id if it has one, else its class and score.
+    The label of a box is its id if it has one, otherwise its class and score.
 
     Parameters
     ----------
     message
-        The detections, whose header the markers get.
+        The detections; the markers use their header.
 
     """
     header = message.header
@@ -55,6 +55,6 @@ def _label_of(detection: Detection3D) -> str:
 
 
 def _rgb_of(detection: Detection3D) -> tuple[float, float, float]:
-    """Return the colour that the last result names."""
+    """Return the RGB colour that the last result names; grey without one."""
     name = detection.results[-1].hypothesis.class_id if detection.results else ''
     return COLOURS.get(name.partition(' ')[0], _GREY)

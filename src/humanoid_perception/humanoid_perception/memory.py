@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is where: detections become things that are remembered, and forgotten when they go."""
+"""Object memory: multi-object tracking of detections, including objects out of view."""
 
 from __future__ import annotations
 
@@ -19,48 +19,48 @@ __all__ = ['MemorySettings', 'ObjectMemory', 'shift_between']
 Array = npt.NDArray[np.float64]
 
 _GATE = 16.0
-"""The greatest cost of a pair: the chi-square of three coordinates at 99.9 %."""
+"""Largest cost of a pair: chi-square with three degrees of freedom at 99.9 %."""
 _LOSS = {Evidence.EMPTY: 0.8, Evidence.UNKNOWN: 0.35, Evidence.SOMETHING: 0.05}
-"""How much the log odds of a thing lose by a look that should have detected it."""
+"""Decrease of the log odds of an object by a view that should have detected it."""
 _TENTATIVE_LOSS = 4.0
-"""How many times as much, as long as it is not believed."""
+"""Factor of that decrease while the object is not confirmed."""
 _START, _BORN, _FORGOTTEN = -1.0, 0.8, -1.0
-"""Log odds before the first sighting, to be believed, and below which it is so no longer."""
+"""Log odds before the first detection, for confirmation, and below which an object is dropped."""
 _TENTATIVE_S = 30.0
-"""How long what is not believed yet is kept without being seen."""
+"""How long an unconfirmed object is kept without being seen."""
 _LOST_S = 600.0
-"""How long the id of a thing that is gone is kept for it."""
+"""How long the id of an object that is gone is reserved for it."""
 _CALM_RAD_S = 0.5
-"""A camera that turns faster says nothing of what it does not see."""
+"""Turn rate of the camera above which missing detections are ignored."""
 _JUMP_M, _JUMP_RAD = 0.15, 0.10
-"""What the frame of the odometry moves at once that is more than a correction of drift."""
+"""Motion of the odom frame above which a correction counts as a jump, and not as drift."""
 _IN_HAND_M = 0.15
-"""What is detected so near to a hand, or a thing in one, is that thing, or the hand."""
+"""A detection this near to a hand, or to a held object, is that hand or object."""
 _FAR_M = 2.0
-"""No detection is so far from its thing."""
+"""Distance from an object beyond which no detection can belong to it."""
 
 
 @dataclass(frozen=True)
 class MemorySettings:
     """
-    How much is believed and kept.
+    Settings of the object memory.
 
     Attributes
     ----------
     birth_sightings
-        In how many looks a thing has to be detected before it is believed.
+        The number of detections after which an object is confirmed.
     max_range_m
-        How far away a thing may be that has to be detected if it is there.
+        The largest distance at which an object must be detected if it is there.
     min_size_px
-        How small in the picture such a thing may be.
+        The smallest size in the image at which it must be detected.
     drift_m_s
-        The standard deviation by which positions become less sure in a second, as the square root
-        of time.
+        The growth of the standard deviation of positions in the first second; it grows with the
+        square root of time.
     max_things
-        How many things are kept; beyond that, those that are believed least are dropped.
+        The maximum number of objects; beyond it, those with the lowest belief are dropped.
     follows_jumps
-        Whether things move along when the localisation finds out that it was wrong. Where it
-        jumps because the robot was carried, they must not.
+        Whether objects move along when the localisation corrects an error. They must not where it
+        jumps because the robot was carried.
 
     """
 
@@ -74,7 +74,7 @@ class MemorySettings:
 
 @dataclass(frozen=True)
 class _Lost:
-    """A thing that was forgotten."""
+    """An object that was dropped, whose id may be reused for it."""
 
     object_id: str
     class_id: str
@@ -84,18 +84,19 @@ class _Lost:
 
 class ObjectMemory:
     """
-    Remembers things: give it each look of the camera with its detections.
+    Memory of objects, updated with each view of the camera and its detections.
 
     Parameters
     ----------
     settings
-        How much is believed and kept.
+        The settings.
 
     Notes
     -----
-    Detections and things are paired so that the sum of squared Mahalanobis distances, with a
-    penalty for another class, colour or size, is least. A thing is believed by its log odds, which
-    sightings raise by their score, and looks lower that should have detected it and did not.
+    Detections are associated with objects by minimising the sum of squared Mahalanobis distances,
+    with penalties for another class, colour or size. The existence of an object is estimated by
+    log odds: detections raise them by their score, and views that should have detected the object
+    and did not lower them.
 
     """
 
@@ -109,16 +110,16 @@ class ObjectMemory:
 
     @property
     def things(self) -> list[RememberedThing]:
-        """Return the things that are believed, the one known longest first."""
+        """Return the confirmed objects, the one known longest first."""
         return [thing for thing in self._all if thing.object_id]
 
     @property
     def tentative_count(self) -> int:
-        """Return how many things are not believed yet."""
+        """Return the number of objects that are not confirmed yet."""
         return sum(not thing.object_id for thing in self._all)
 
     def clear(self) -> None:
-        """Forget everything, also the numbers of ids."""
+        """Clear the memory, including the counters of ids."""
         self._all, self._lost, self._counts = [], [], {}
         self._time_s, self._anchor = -math.inf, None
 
@@ -129,7 +130,7 @@ class ObjectMemory:
         Parameters
         ----------
         shift
-            The pose of the present frame in the new one: x (m), y (m), yaw (rad).
+            The pose of the current frame in the new one: x (m), y (m), yaw (rad).
 
         """
         for thing in self._all:
@@ -147,22 +148,22 @@ class ObjectMemory:
         hands_m: Sequence[Array] = (),
     ) -> None:
         """
-        Take a look of the camera into account.
+        Update the memory with a view of the camera and its detections.
 
         Parameters
         ----------
         view
-            From where it looked, and what depths it measured.
+            The view, with its depth.
         sightings
-            What was detected in it, in the same frame; what is not sound is left out.
+            The detections in it, in the same frame; invalid ones are ignored.
         anchor
-            Where the odometry's frame is in that of the memory. Where it jumps, what was seen
-            before under the same anchor moves along.
+            The pose of the odom frame in the memory frame. When it jumps, objects seen under the
+            same anchor move along.
         held_m
-            Where things are that hands hold, by id; (3,), in the same frame.
+            The positions of held objects (3,), by id, in the same frame.
         hands_m
-            Where the robot's own hands are; (3,). Detections near there are left out, as the hands
-            themselves look like things; what is remembered there stays.
+            The positions of the robot's own hands (3,). Detections near them are ignored, as the
+            hands themselves look like objects; objects remembered there are kept.
 
         """
         self._correct(anchor, view)
@@ -188,7 +189,7 @@ class ObjectMemory:
         self._forget()
 
     def _correct(self, anchor: Pose2, view: View) -> None:
-        """Move what was seen under an anchor that has turned out to be wrong."""
+        """Move the objects that were seen under an anchor that a jump has invalidated."""
         old, self._anchor = self._anchor, anchor
         if old is None or old == anchor or not self.settings.follows_jumps:
             return
@@ -201,7 +202,7 @@ class ObjectMemory:
                 thing.anchor = anchor
 
     def _recognise(self, view: View, sightings: Sequence[Sighting]) -> list[RememberedThing]:
-        """Pair detections and things; return the things that were seen, new ones too."""
+        """Associate detections with objects; return the objects seen, including new ones."""
         noises = [
             sighting_noise(each.position_m, view.position_m, view.turn_rad_s) for each in sightings
         ]
@@ -224,7 +225,7 @@ class ObjectMemory:
         return seen
 
     def _costs(self, sightings: Sequence[Sighting], noises_m2: Sequence[Array]) -> Array:
-        """Return what pairs of detections and things cost; (detections, things)."""
+        """Compute the association costs (detections, objects)."""
         costs = np.full((len(sightings), len(self._all)), np.inf)
         if not costs.size:
             return costs
@@ -236,7 +237,7 @@ class ObjectMemory:
         return costs
 
     def _miss(self, view: View, seen: Sequence[RememberedThing]) -> None:
-        """Believe less in what should have been detected."""
+        """Lower the log odds of objects that should have been detected."""
         if view.turn_rad_s > _CALM_RAD_S:
             return
         seen_ids = {id(thing) for thing in seen}
@@ -261,7 +262,7 @@ class ObjectMemory:
                 thing.believe(-loss)
 
     def _is_behind_another(self, view: View, thing: RememberedThing) -> bool:
-        """Whether another thing is before the middle of one."""
+        """Whether another object occludes the centre of an object."""
         pixel, depth = view.project(thing.position_m[None])
         for other in self.things:
             if other is thing:
@@ -275,7 +276,7 @@ class ObjectMemory:
         return False
 
     def _merge(self, seen: Sequence[RememberedThing]) -> None:
-        """Make one of two things that are where only one can be."""
+        """Merge pairs of objects at a place where there can be only one."""
         seen_ids = {id(thing) for thing in seen}
         for thing in seen:
             for other in list(self._all):
@@ -290,14 +291,14 @@ class ObjectMemory:
                     self._all = [each for each in self._all if each is not dropped]
 
     def _give_ids(self) -> None:
-        """Believe in what was seen often enough."""
+        """Confirm objects that were seen often enough, and assign their ids."""
         for thing in list(self._all):
             enough = thing.sightings >= self.settings.birth_sightings
             if not thing.object_id and enough and thing.log_odds >= _BORN:
                 thing.object_id = self._old_id(thing) or self._new_id(thing)
 
     def _old_id(self, thing: RememberedThing) -> str:
-        """Return the id of such a thing that is gone from where it was; empty without one."""
+        """Reuse the id of a matching object that is gone from its place; empty without one."""
         kind = thing.class_id, thing.colour
         for other in self.things:
             if (other.class_id, other.colour) == kind and _has_moved(other, thing):
@@ -315,7 +316,7 @@ class ObjectMemory:
         return f'{stem}_{self._counts[stem]}'
 
     def _forget(self) -> None:
-        """Drop what is not believed any more, and what is too much."""
+        """Drop objects that are no longer believed, and those above the maximum number."""
         kept = []
         for thing in self._all:
             is_stale = not thing.object_id and self._time_s - thing.last_seen_s > _TENTATIVE_S
@@ -338,7 +339,7 @@ class ObjectMemory:
 
 def shift_between(old: Pose2, new: Pose2) -> Pose2:
     """
-    Compute the planar motion that takes a frame, and all that hangs on it, to its new pose.
+    Compute the planar motion that takes a frame, and everything attached to it, to its new pose.
 
     Parameters
     ----------
@@ -348,7 +349,7 @@ def shift_between(old: Pose2, new: Pose2) -> Pose2:
     Returns
     -------
     Pose2
-        The motion in the same outer frame: turn about its origin by yaw, then move by x and y.
+        The motion in the parent frame: rotate about its origin by yaw, then translate by x and y.
 
     """
     yaw = math.remainder(new[2] - old[2], math.tau)
@@ -357,7 +358,7 @@ def shift_between(old: Pose2, new: Pose2) -> Pose2:
 
 
 def _composed(outer: Pose2, inner: Pose2) -> Pose2:
-    """Return a pose that is given in a frame which has a pose itself."""
+    """Compose two planar poses: `inner` is relative to `outer`."""
     c, s = math.cos(outer[2]), math.sin(outer[2])
     return (
         outer[0] + c * inner[0] - s * inner[1],
@@ -368,16 +369,16 @@ def _composed(outer: Pose2, inner: Pose2) -> Pose2:
 
 def _gain(score: float) -> float:
     """
-    Return by how much a sighting raises the log odds of its thing.
+    Compute by how much a detection raises the log odds of its object.
 
-    Detectors are right about things of a high score, and often wrong about those of a low one,
-    again and again at the same place.
+    Detections with a high score are mostly right, those with a low score often wrong, and
+    repeatedly so at the same place.
     """
     return min(max(2.5 * (score - 0.45), 0.05), 1.4)
 
 
 def _is_jump(shift: Pose2, at_m: Array) -> bool:
-    """Whether a motion is more than a correction of drift, at a point (3,)."""
+    """Whether a motion of a frame, at a point (3,), is more than a correction of drift."""
     x, y, yaw = shift
     c, s = math.cos(yaw), math.sin(yaw)
     dx = c * at_m[0] - s * at_m[1] + x - at_m[0]
@@ -386,7 +387,7 @@ def _is_jump(shift: Pose2, at_m: Array) -> bool:
 
 
 def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
-    """Return what it costs to take a detection for a thing; infinite if it cannot be that."""
+    """Compute the cost of associating a detection with an object; infinite if impossible."""
     distance_m = float(np.linalg.norm(sighting.position_m - thing.position_m))
     reach_m = 0.5 * float(max(thing.size_m.max(), sighting.size_m.max()))
     share = thing.classes.share(sighting.class_id)
@@ -394,7 +395,7 @@ def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
     if distance_m > near_m:
         return math.inf
     if sighting.is_cut:
-        # Its middle is that of the part in the picture.
+        # Its centre is that of the part within the image.
         noise_m2 = noise_m2 + reach_m**2 * np.eye(3)
         size_term = 0.0
     else:
@@ -407,12 +408,12 @@ def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
 
 
 def _is_near(position_m: Array, own_m: Iterable[Array]) -> bool:
-    """Whether something is where the robot's own hands are, or what they hold."""
+    """Whether a position is near one of the robot's hands or the objects that they hold."""
     return any(math.dist(position_m, at) < _IN_HAND_M for at in own_m)
 
 
 def _is_same(thing: RememberedThing, other: RememberedThing) -> bool:
-    """Whether two things are closer than two things can be."""
+    """Whether two objects are so close that they must be the same."""
     distance_m = float(np.linalg.norm(thing.position_m - other.position_m))
     limit_m = 0.5 * float(min(thing.size_m.max(), other.size_m.max()))
     if thing.class_id == other.class_id and (
@@ -423,7 +424,7 @@ def _is_same(thing: RememberedThing, other: RememberedThing) -> bool:
 
 
 def _has_moved(old: RememberedThing, new: RememberedThing) -> bool:
-    """Whether a thing that is not where it was may well be a new one of its kind."""
+    """Whether a new object may be an old one of its kind that has moved."""
     if old.empty >= 2:
         return True
     distance_m = float(np.linalg.norm(old.position_m - new.position_m))
@@ -434,6 +435,6 @@ def _has_moved(old: RememberedThing, new: RememberedThing) -> bool:
 def _older_first(
     thing: RememberedThing, other: RememberedThing
 ) -> tuple[RememberedThing, RememberedThing]:
-    """Return two things so that the one to keep is first: the believed one that is seen more."""
+    """Order two objects for merging: the confirmed one, or the one seen more often, first."""
     ranked = sorted((thing, other), key=lambda each: (not each.object_id, -each.sightings))
     return ranked[0], ranked[1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages of detections, transforms and remembered things."""
+"""Convert messages of detections, transforms and remembered objects."""
 
 from __future__ import annotations
 
@@ -74,12 +74,12 @@ def planar_of(transform: Any) -> Pose2:
 
 def time_of(time_s: float) -> Time:
     """
-    Convert a time to its message.
+    Convert a time to a message.
 
     Parameters
     ----------
     time_s
-        The time in s; one before zero becomes zero.
+        The time in s; negative times become zero.
 
     """
     nanoseconds = max(round(time_s * 1e9), 0)
@@ -88,14 +88,15 @@ def time_of(time_s: float) -> Time:
 
 def sighting_of(detection: Detection3D, position: Array, rotation: Array) -> Sighting | None:
     """
-    Return a detection in another frame; None if it names no class.
+    Transform a detection into another frame; return None if it names no class.
 
     Parameters
     ----------
     detection
-        The first result is its class; a further one `red mug` names its colour.
+        The detection: its first result is its class; a further one such as `red mug` names its
+        colour.
     position, rotation
-        The pose of the detection's frame in that frame; (3,), (3, 3).
+        The pose of the detection's frame in the other frame: (3,), (3, 3).
 
     """
     if not detection.results:
@@ -124,7 +125,7 @@ def sighting_of(detection: Detection3D, position: Array, rotation: Array) -> Sig
 
 def remembered_object(thing: RememberedThing, places: Places) -> RememberedObject:
     """
-    Convert an object of the memory to its message, with the names of its place and room.
+    Convert an object of the memory to a message, with the names of its surface and room.
 
     Parameters
     ----------
@@ -152,7 +153,7 @@ def detections_of(header: Header, things: Sequence[RememberedThing]) -> Detectio
     Parameters
     ----------
     header
-        The frame of the memory, and the time for which it holds.
+        The frame of the memory, and the stamp of its last update.
     things
         The objects.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A world of boxes on tables, and a camera that looks at it; for tests of the memory."""
+"""A simulated world of boxes, with a camera and a detector, for tests of the object memory."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ import numpy as np
 Point = Sequence[float]
 WIDTH, HEIGHT, FOCAL = 320, 240, 250.0
 COARSE = 4
-"""One depth for so many pixels, each way."""
+"""Pixels per depth value, in each direction."""
 
 
 @dataclass
 class Box:
-    """A thing in the world."""
+    """A box in the world."""
 
     name: str
     position: tuple[float, float, float]
@@ -31,7 +31,7 @@ class Box:
 
 @dataclass
 class World:
-    """Boxes, and what a camera measures of them."""
+    """A set of boxes, and the simulated measurements of a camera."""
 
     boxes: list[Box]
     random: np.random.Generator = field(default_factory=lambda: np.random.default_rng(1))
@@ -80,13 +80,13 @@ class World:
         Parameters
         ----------
         view
-            From where it is seen.
+            The view to render.
 
         Returns
         -------
         Array
             The depth (60, 80) in m along the optical axis, infinite where there is no box. It is
-            coarser than the picture.
+            coarser than the image.
 
         """
         u, v = np.meshgrid(np.arange(0.0, WIDTH, COARSE), np.arange(0.0, HEIGHT, COARSE))
@@ -104,16 +104,16 @@ class World:
 
     def sightings(self, view: View, score: float = 0.8, chance: float = 1.0) -> list[Sighting]:
         """
-        Simulate a detector: find the boxes that are in the picture and not hidden, with noise.
+        Simulate a detector: return the visible boxes, with noise.
 
         Parameters
         ----------
         view
-            From where they are seen; without depth, nothing is hidden.
+            The view; without depth, nothing is occluded.
         score
-            The score that each detection gets.
+            The score of each detection.
         chance
-            How likely it is that a box is detected, 0 to 1.
+            The probability that a box is detected, 0 to 1.
 
         """
         found = []
@@ -150,9 +150,9 @@ def around(middle: Point, radius: float, angle: float, height: float = 1.2) -> P
     Parameters
     ----------
     middle
-        The centre of the circle, of which x and y count; in m.
+        The centre of the circle in m; its z is ignored.
     radius, angle
-        Of the circle in m, and where on it in rad, from the x axis.
+        The radius in m, and the angle in rad from the x axis.
     height
         The z of the viewpoint in m.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Detect objects in the pictures of a camera: the node `object_detector`."""
+"""Detect objects in camera images: the node `object_detector`."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ _LOOK_S = 0.05
 _TRANSFORM_WAIT_S = 0.5
 _QUIET_S = 10.0
 _SILENCE_S = 5.0
-"""After how long without any picture that is said."""
+"""Time without any image after which a warning is logged."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ class DetectorParameters:
 
 def make_detector(told: DetectorParameters) -> Detector:
     """
-    Make the detector that the parameters ask for.
+    Create the detector that the parameters select.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def make_detector(told: DetectorParameters) -> Detector:
     Raises
     ------
     DetectorError
-        It cannot be used, as its model cannot be loaded.
+        Its model cannot be loaded or used.
 
     """
     if told.backend == COLOUR:
@@ -160,7 +160,7 @@ def make_detector(told: DetectorParameters) -> Detector:
 
 @dataclass(frozen=True, eq=False)
 class _Seen:
-    """Detections whose place in the target frame is not known yet."""
+    """Detections that wait for their transform to the target frame."""
 
     received_s: float
     header: Header
@@ -170,7 +170,7 @@ class _Seen:
 
 class ObjectDetector(Node):
     """
-    Turns pictures and depth into `detections`, `detections_3d` and pictures with boxes.
+    Node that turns colour and depth images into `detections`, `detections_3d` and marked images.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ class ObjectDetector(Node):
     Raises
     ------
     DetectorError
-        If the detector that the parameters ask for cannot be used.
+        The detector that the parameters select cannot be used.
 
     """
 
@@ -214,10 +214,10 @@ class ObjectDetector(Node):
         self._pairs.period_s = 1.0 / told.max_rate_hz
         self._pairs.max_offset_s = told.max_depth_offset_s
 
-    # What comes in
+    # Input
 
     def _subscribe(self) -> None:
-        """Subscribe to the camera."""
+        """Subscribe to the camera topics."""
         quality = QoSProfile(
             depth=1,
             reliability=ReliabilityPolicy.RELIABLE
@@ -244,7 +244,7 @@ class ObjectDetector(Node):
         self._seen.clear()
 
     def _enable(self, request: Any, response: Any) -> Any:
-        """Start or stop to detect; while stopped, the camera is not even subscribed to."""
+        """Enable or disable detection; while disabled, there is no camera subscription."""
         if request.data and not self._subscriptions_in:
             self._subscribe()
         elif not request.data:
@@ -254,7 +254,7 @@ class ObjectDetector(Node):
         return response
 
     def _take_camera(self, data: bytes) -> None:
-        """Take what the camera is like; it seldom changes, apart from the stamp."""
+        """Store the camera_info; deserialize it only if more than its stamp has changed."""
         if data[12:] != self._camera_bytes:
             self._camera_bytes = data[12:]
             self._camera = deserialize_message(data, CameraInfo)
@@ -268,10 +268,10 @@ class ObjectDetector(Node):
         self._pairs.add_depth(stamp_in(data), data, time.monotonic())
         self._look()
 
-    # What is done with it
+    # Processing
 
     def _look(self) -> None:
-        """Look at a picture, if there is one, and place what was seen before."""
+        """Process the next image, if any, and publish pending 3-D detections."""
         if not self._subscriptions_in:
             return
         if not self._has_pictures:
@@ -282,7 +282,7 @@ class ObjectDetector(Node):
         self._place()
 
     def _watch(self) -> None:
-        """Find out why no pictures come."""
+        """Find the reason why no images arrive: incompatible QoS, or no publisher."""
         now_s = time.monotonic()
         if now_s - self._watched_s < 1.0:
             return
@@ -309,7 +309,7 @@ class ObjectDetector(Node):
             )
 
     def _detect(self, frame: Frame) -> None:
-        """Detect what is in a picture, and publish it."""
+        """Detect the objects in an image, and publish them."""
         image = deserialize_message(frame.color, Image)
         try:
             color = color_of(image)
@@ -333,13 +333,13 @@ class ObjectDetector(Node):
             self._seen.append(_Seen(time.monotonic(), image.header, camera, placed))
 
     def _depth_of(self, frame: Frame, color: Color) -> tuple[Depth | None, PinholeCamera | None]:
-        """Return the depth of a picture and its camera, if both are there and right."""
+        """Return the depth and the camera of an image, if both are available and valid."""
         if frame.depth is None:
             self._say_flat()
             return None, None
         self._has_said_flat = False
         info = self._camera
-        if info is None:  # the first one may be on its way
+        if info is None:  # the first message may still be on its way
             if time.monotonic() > self._since_s + _SILENCE_S:
                 self._warn("Detections are in 2-D only, as nothing comes on 'camera/camera_info'.")
             return None, None
@@ -359,7 +359,7 @@ class ObjectDetector(Node):
         return depth_m, camera
 
     def _say_flat(self) -> None:
-        """Say once that there is no depth."""
+        """Log once that there is no depth."""
         if not self._has_said_flat:
             self._has_said_flat = True
             topic = self.resolve_topic_name('camera/depth/image_raw')
@@ -369,7 +369,7 @@ class ObjectDetector(Node):
             )
 
     def _place(self) -> None:
-        """Publish in space what was seen, as soon as it is known where the camera was."""
+        """Publish pending 3-D detections as soon as their transforms are available."""
         while self._seen:
             seen = self._seen[0]
             try:
@@ -384,7 +384,7 @@ class ObjectDetector(Node):
             self._seen.popleft()
 
     def _publish_3d(self, seen: _Seen) -> None:
-        """Publish boxes in the target frame; raise TransformException if that is not known."""
+        """Publish 3-D boxes in the target frame; raise TransformException without a transform."""
         target = self._told.current.target_frame
         rotation, translation_m, back = UPRIGHT, None, UPRIGHT.T
         if target:
@@ -404,7 +404,7 @@ class ObjectDetector(Node):
             self._markers.publish(markers_of(message))
 
     def _warn(self, text: str) -> None:
-        """Log a warning, the same one not again for a while."""
+        """Log a warning, at most every 10 s for the same text."""
         kind, now_s = text[:60], time.monotonic()
         if now_s - self._said.get(kind, -math.inf) > _QUIET_S:
             self._said[kind] = now_s
@@ -412,7 +412,7 @@ class ObjectDetector(Node):
 
 
 def _coloured(detection: Detection, color: Color, surface: Surface | None) -> Detection:
-    """Return a detection with the name of its colour."""
+    """Add the name of its colour to a detection."""
     if detection.colour:
         return detection
     name, share = colour_name(color, detection.box_px, surface.mask if surface else None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Remember what is where: the node `object_memory`."""
+"""Track and remember detected objects: the node `object_memory`."""
 
 from __future__ import annotations
 
@@ -54,11 +54,11 @@ _CLASSES = (
     'person',
 )
 _WAIT_S = 1.0
-"""How long a transform is waited for that belongs to detections."""
+"""Longest wait for the transform of detections, in wall-clock time."""
 _BACK_S = 0.5
 """Stamps that go back further mean that the simulation was reset."""
 _BEFORE = Duration(seconds=0.1)
-"""Over which time the turn of the camera is measured."""
+"""Time span over which the turn rate of the camera is measured."""
 _KEPT_DEPTHS = 8
 _QUIET_S = 10.0
 
@@ -102,7 +102,7 @@ class MemoryParameters:
 
 class ObjectMemoryNode(Node):
     """
-    Turns `detections_3d` into things with ids: `objects`, `objects/markers`, `find_objects`.
+    Node that turns `detections_3d` into objects with ids: `objects`, `find_objects` and markers.
 
     Parameters
     ----------
@@ -155,13 +155,13 @@ class ObjectMemoryNode(Node):
         self._memory.settings = _settings(told)
 
     def _take_camera(self, data: bytes) -> None:
-        """Take what the camera is like; it seldom changes, apart from the stamp."""
+        """Store the camera_info; deserialize it only if more than its stamp has changed."""
         if data[12:] != self._camera_bytes:
             self._camera_bytes = data[12:]
             self._camera = deserialize_message(data, CameraInfo)
 
     def _take_depth(self, data: bytes) -> None:
-        """Keep a depth image as it came, until detections of its time have come."""
+        """Buffer a serialized depth image until the detections with its stamp arrive."""
         self._depths[data[4:12]] = data
         while len(self._depths) > _KEPT_DEPTHS:
             del self._depths[next(iter(self._depths))]
@@ -186,7 +186,7 @@ class ObjectMemoryNode(Node):
         self._stamp_s = -math.inf
 
     def _work(self) -> None:
-        """Take the detections into account whose transforms have come."""
+        """Process the pending detections whose transforms are available."""
         while self._pending:
             received_s, message = self._pending[0]
             try:
@@ -201,7 +201,7 @@ class ObjectMemoryNode(Node):
             self._pending.popleft()
 
     def _look(self, message: Detection3DArray) -> None:
-        """Take the detections of one picture into account."""
+        """Update the memory with the detections of one image."""
         told, stamp = self._parameters.current, Time.from_msg(message.header.stamp)
         position, rotation = self._pose(told.odom_frame, message.header.frame_id, stamp)
         view = self._view(told.odom_frame, message.header.stamp, stamp)
@@ -224,7 +224,7 @@ class ObjectMemoryNode(Node):
         )
 
     def _own_m(self, told: MemoryParameters) -> tuple[dict[str, Array], list[Array]]:
-        """Return where things are that hands hold, by id, and where the hands are."""
+        """Compute the positions of held objects, by id, and of the hands, in the memory frame."""
         held = {each.id: (each.header.frame_id, each.bbox.center.position) for each in self._held}
         found = {
             name: self._placed_point(told.odom_frame, frame, (at.x, at.y, at.z))
@@ -240,7 +240,7 @@ class ObjectMemoryNode(Node):
     def _placed_point(
         self, odom: str, frame: str, point_m: tuple[float, float, float]
     ) -> Array | None:
-        """Return where a point of a frame is in that of the memory now; None if unknown."""
+        """Transform a point into the memory frame at the latest time; None if not available."""
         try:
             position, rotation = self._pose(odom, frame, Time())
         except TransformException:
@@ -248,7 +248,7 @@ class ObjectMemoryNode(Node):
         return _placed(self._anchor, position + rotation @ np.array(point_m), rotation)[0]
 
     def _choose_frame(self, told: MemoryParameters) -> None:
-        """Remember in the map if there is one; express what is known in it when it appears."""
+        """Use the map frame if it exists; transform the memory into it when it appears."""
         try:
             found = self._buffer.lookup_transform(told.map_frame, told.odom_frame, Time())
         except TransformException:
@@ -265,7 +265,7 @@ class ObjectMemoryNode(Node):
         return pose_of(self._buffer.lookup_transform(frame, child, stamp).transform)
 
     def _view(self, frame: str, key: Any, stamp: Time) -> View | None:
-        """Return from where a picture was taken, with its depths; None without camera_info."""
+        """Create the view of an image, with its depth; None without a valid camera_info."""
         camera = self._camera
         if camera is None or not camera.width or not camera.k[0] > 0.0 or not camera.k[4] > 0.0:
             return None
@@ -292,7 +292,7 @@ class ObjectMemoryNode(Node):
         )
 
     def _depth_at(self, stamp: Any) -> npt.NDArray[np.float32] | None:
-        """Return the depth image with a stamp, if it came."""
+        """Return the depth image with a stamp, if it was received."""
         for order in '<>':
             data = self._depths.get(struct.pack(f'{order}iI', stamp.sec, stamp.nanosec))
             if data is not None:
@@ -303,7 +303,7 @@ class ObjectMemoryNode(Node):
         return None
 
     def _publish(self) -> None:
-        """Publish what is remembered, if it has changed."""
+        """Publish the remembered objects, if they have changed."""
         self._work()
         if not self._frame:
             return
@@ -343,7 +343,7 @@ class ObjectMemoryNode(Node):
         return response
 
     def _warn(self, text: str) -> None:
-        """Log a warning, the same one not again for a while."""
+        """Log a warning, at most every 10 s for the same text."""
         kind, now_s = text[:40], time.monotonic()
         if now_s - self._said.get(kind, -math.inf) > _QUIET_S:
             self._said[kind] = now_s
@@ -365,7 +365,7 @@ def _seconds(stamp: Any) -> float:
 
 
 def _placed(anchor: Pose2, position: Array, rotation: Array) -> tuple[Array, Array]:
-    """Return a pose in the odometry's frame as one in that of the memory."""
+    """Transform a pose from the odom frame into the memory frame."""
     c, s = math.cos(anchor[2]), math.sin(anchor[2])
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return turn @ position + np.array([anchor[0], anchor[1], 0.0]), turn @ rotation
@@ -377,12 +377,12 @@ def _seen_from(anchor: Pose2, view: View) -> View:
 
 
 def _looks(thing: RememberedThing) -> tuple[Any, ...]:
-    """Return what is published of a thing."""
+    """Return the published state of an object, for change detection."""
     return thing.class_id, thing.colour, thing.position_m.copy(), thing.size_m.copy()
 
 
 def _has_changed(old: dict[str, tuple[Any, ...]], new: dict[str, tuple[Any, ...]]) -> bool:
-    """Whether a thing is new, gone, has another name, or is elsewhere by more than noise."""
+    """Whether an object is new, gone or renamed, or has changed by more than noise."""
     if old.keys() != new.keys():
         return True
     return any(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a YOLO model that was exported as ONNX."""
+"""Object detection by a YOLO model in ONNX format."""
 
 from __future__ import annotations
 
@@ -37,26 +37,26 @@ _TASKS = {'segment': 'segmentation', 'pose': 'poses', 'classify': 'classificatio
 
 class OnnxDetector:
     """
-    Finds objects by a YOLO network.
+    Object detector with a YOLO network.
 
     Parameters
     ----------
     path
         The model file.
     labels_file
-        A file with the names of the classes; '' for those that the model file names.
+        A file with the names of the classes; '' for those in the model's metadata.
     layout
         One of `yolo.LAYOUTS`.
     input_size_px
-        The longer edge of the input, for models that take any; 0 for the one that the model file
-        names.
+        The longer edge of the input, for models with dynamic input size; 0 for the one in the
+        model's metadata.
     threads
-        How many threads compute.
+        The number of threads of the inference.
 
     Raises
     ------
     DetectorError
-        If the model cannot be used.
+        The model cannot be used.
 
     """
 
@@ -76,7 +76,7 @@ class OnnxDetector:
             raise DetectorError(f"The model '{path}' cannot be used. {error}") from None
 
     def _read(self, labels_file: str, layout: str, input_size_px: int) -> None:
-        """Find out what the model takes and gives; run it once."""
+        """Determine the input and the output layout of the model, by running it once."""
         metadata = dict(self._session.get_modelmeta().custom_metadata_map)
         _check_task(metadata)
         self._input, self._kind, self._scale = _input_of(self._session)
@@ -97,19 +97,19 @@ class OnnxDetector:
 
     @property
     def title(self) -> str:
-        """Name the model, and what it takes and gives."""
+        """Return the display name of the detector: model, input size, layout and classes."""
         size = 'any size' if self._fixed is None else f'{self._fixed[1]}x{self._fixed[0]}'
         count = f'{len(self._names)} classes' if self._names else 'classes without names'
         return f"the model '{self._path}' ({size}, {self._layout}, {count})"
 
     @property
     def class_names(self) -> Sequence[str]:
-        """List the names of all classes, in the order of the network's outputs."""
+        """Return the names of all classes, in the order of the network's outputs."""
         return tuple(self._names)
 
     @property
     def layout(self) -> str:
-        """Name the layout of the output, one of `yolo.LAYOUTS`."""
+        """Return the layout of the output, one of `yolo.LAYOUTS`."""
         return self._layout
 
     def detect(
@@ -121,25 +121,25 @@ class OnnxDetector:
         iou: float = 0.5,
     ) -> list[Detection]:
         """
-        Detect objects by the network.
+        Detect objects with the network.
 
         Parameters
         ----------
         color, confidence, iou
-            The picture and the thresholds, as for `Detector.detect`. Networks that are end to end
-            suppress duplicates themselves, without `iou`.
+            The image and the thresholds, as for `Detector.detect`. End-to-end networks suppress
+            duplicates themselves, without `iou`.
         depth_m, focal_px
             Ignored.
 
         Returns
         -------
         list of Detection
-            Those of the best score first.
+            The detections, by decreasing score.
 
         Raises
         ------
         DetectorError
-            The network cannot be run with a picture of this size.
+            The network cannot be run with an image of this size.
 
         """
         del depth_m, focal_px
@@ -167,7 +167,7 @@ class OnnxDetector:
         return self._names[number] if number < len(self._names) else f'class_{number}'
 
     def _run(self, picture: Color) -> npt.NDArray[Any]:
-        """Return the output for an input (height, width, 3)."""
+        """Run the network on an input (height, width, 3); return its first output."""
         channels = np.ascontiguousarray(picture.transpose(2, 0, 1)[None])
         given = channels if self._kind is np.uint8 else channels.astype(self._kind)
         if self._scale != 1.0:
@@ -189,8 +189,8 @@ def names_in_file(path: str) -> list[str]:
     Parameters
     ----------
     path
-        One name a line; or, with the ending .yaml or .yml, a list, or a list or table by number
-        under `names`, as training of YOLO has it.
+        A text file with one name per line; or, with the extension .yaml or .yml, a list, or a list
+        or a table by number under `names`, as in YOLO data set files.
 
     Returns
     -------
@@ -200,7 +200,7 @@ def names_in_file(path: str) -> list[str]:
     Raises
     ------
     DetectorError
-        If it cannot be read, or has no names.
+        The file cannot be read, or has no names.
 
     """
     try:
@@ -224,7 +224,7 @@ def names_in_file(path: str) -> list[str]:
 
 
 def _session(path: str, threads: int) -> Any:
-    """Load a model file."""
+    """Create an inference session from a model file."""
     try:
         import onnxruntime
     except ImportError as error:
@@ -241,7 +241,7 @@ def _session(path: str, threads: int) -> Any:
     options.intra_op_num_threads = threads
     options.inter_op_num_threads = 1
     options.execution_mode = onnxruntime.ExecutionMode.ORT_SEQUENTIAL
-    # Threads that wait busily would take the processor from all other nodes.
+    # Spinning threads would take CPU time from all other nodes.
     options.add_session_config_entry('session.intra_op.allow_spinning', '0')
     options.log_severity_level = 4
     try:
@@ -264,7 +264,7 @@ def _check_task(metadata: dict[str, str]) -> None:
 
 
 def _input_of(session: Any) -> tuple[Any, Any, float]:
-    """Return the input of a model, its type, and what its values are divided by."""
+    """Return the input of a model, its data type, and the divisor of pixel values."""
     inputs = session.get_inputs()
     kinds = ', '.join(f'{each.name} {each.type} {each.shape}' for each in inputs)
     shape = inputs[0].shape if inputs else []
@@ -283,7 +283,7 @@ def _input_of(session: Any) -> tuple[Any, Any, float]:
 
 
 def _fixed_size(shape: Sequence[Any]) -> tuple[int, int] | None:
-    """Return the height and width that a model takes; None if it takes any."""
+    """Return the input height and width of a model; None if they are dynamic."""
     height, width = shape[2:]
     if isinstance(height, int) and isinstance(width, int) and min(height, width) > 0:
         return height, width
@@ -291,7 +291,7 @@ def _fixed_size(shape: Sequence[Any]) -> tuple[int, int] | None:
 
 
 def _sizes(text: str) -> list[int]:
-    """Return the whole numbers that metadata names, such as '[640, 640]' or '32'."""
+    """Parse integers from metadata, such as '[640, 640]' or '32'."""
     try:
         value = ast.literal_eval(text) if text else []
     except (ValueError, SyntaxError, MemoryError, RecursionError):
@@ -301,7 +301,7 @@ def _sizes(text: str) -> list[int]:
 
 
 def _names(text: str) -> list[str]:
-    """Return the names of classes that metadata has as a literal of Python; [] without."""
+    """Parse class names from metadata, a Python literal; [] if there are none."""
     try:
         return _listed(ast.literal_eval(text)) if text else []
     except (ValueError, SyntaxError, MemoryError, RecursionError):
@@ -309,7 +309,7 @@ def _names(text: str) -> list[str]:
 
 
 def _listed(names: Any) -> list[str]:
-    """Return names that come as a list, or by their numbers."""
+    """Convert class names, as a list or a table by number, to a list."""
     if isinstance(names, (list, tuple)):
         return [str(name) for name in names]
     if isinstance(names, dict):
@@ -332,7 +332,7 @@ def _other_count(known: int, in_output: int, labels_file: str) -> str:
 
 
 def _first_line(error: Exception) -> str:
-    """Return what an error says, as one sentence."""
+    """Return the first line of an error message, ending with a full stop."""
     lines = str(error).strip().splitlines()
     text = ' '.join(lines[0].split())[:200] if lines else type(error).__name__
     return text.rstrip('.') + '.'

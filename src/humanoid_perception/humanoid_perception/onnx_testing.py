@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ONNX files for tests: networks whose output is a constant, written without the package onnx."""
+"""Write ONNX files of networks with a constant output, for tests, without the package onnx."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ def write_constant_network(
     kind: str = 'float32',
 ) -> Path:
     """
-    Write a network that gives the same output for each picture, and return its path.
+    Write a network with the same output for every image, and return its path.
 
     Parameters
     ----------
     path
-        Where to write.
+        The file to write.
     output
-        What it gives.
+        The constant output.
     shape
-        That of its input `images`; an edge that is a name may have any length.
+        The shape of its input `images`; a dimension that is a name is dynamic.
     metadata
-        What the file says of itself, such as `names`.
+        The metadata of the model, such as `names`.
     kind
         The type of the input: `float32`, `float16` or `uint8`.
 
@@ -55,7 +55,7 @@ def write_constant_network(
 
 
 def _value(name: str, kind: int, shape: Sequence[Any]) -> bytes:
-    """Return a ValueInfoProto."""
+    """Encode a ValueInfoProto."""
     dimensions = b''.join(
         _bytes(1, _number(1, size) if isinstance(size, int) else _bytes(2, size.encode()))
         for size in shape
@@ -66,12 +66,12 @@ def _value(name: str, kind: int, shape: Sequence[Any]) -> bytes:
 
 
 def _number(field: int, value: int) -> bytes:
-    """Return a field of a protocol buffer that holds a whole number."""
+    """Encode a protocol buffer field with an integer."""
     return _varint(field << 3) + _varint(value)
 
 
 def _bytes(field: int, content: bytes) -> bytes:
-    """Return a field of a protocol buffer that holds text, bytes or a message."""
+    """Encode a protocol buffer field with a string, bytes or a message."""
     return _varint(field << 3 | 2) + _varint(len(content)) + content
 
 

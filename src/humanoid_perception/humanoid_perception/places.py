@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Named places: surfaces that things stand on, and rooms; from a file that a user made."""
+"""Named places from a YAML file: surfaces that objects stand on, and rooms."""
 
 from __future__ import annotations
 
@@ -23,26 +23,26 @@ Outline = tuple[Point, ...]
 _PREFIX = 'places_'
 _TOLERANCE_M = 0.08
 _MOST_SIGMA_M = 0.1
-"""What is less sure than this is looked for no farther from a surface."""
+"""Largest position uncertainty that widens the tolerance of a surface."""
 
 
 class PlacesError(Exception):
-    """A file of named places cannot be used; the text says why."""
+    """A file of named places cannot be used; the message states why."""
 
 
 class _Area:
-    """What has an outline in the map."""
+    """Base class of areas with an outline in the map."""
 
     outline_m: Outline
 
     @property
     def middle_m(self) -> Point:
-        """Return the mean of its corners in the map."""
+        """Return the mean of the corners, in the map."""
         return _mean(self.outline_m)
 
     def distance_m(self, point_m: Point) -> float:
         """
-        Return how far a point is from the outline, seen from above.
+        Compute the horizontal distance of a point from the area.
 
         Parameters
         ----------
@@ -52,7 +52,7 @@ class _Area:
         Returns
         -------
         float
-            In m; 0 within the outline.
+            The distance in m; 0 within the outline.
 
         """
         if _contains(self.outline_m, point_m):
@@ -63,14 +63,14 @@ class _Area:
 @dataclass(frozen=True)
 class Fixture(_Area):
     """
-    What stands on a surface for good, such as a television.
+    A permanent object on a surface, such as a television.
 
     Attributes
     ----------
     outline_m
         Its outline in the map.
     height_m
-        How high it is, from the surface up.
+        Its height above the surface.
 
     """
 
@@ -81,22 +81,22 @@ class Fixture(_Area):
 @dataclass(frozen=True)
 class Surface(_Area):
     """
-    A level surface with a name.
+    A named horizontal surface.
 
     Attributes
     ----------
     name
-        What people call it.
+        Its name.
     outline_m, height_m
         Its outline and height in the map.
     tolerance_m
-        How exact these are.
+        The tolerance of outline and height.
     depth_m
-        How thick it is: a table top, or a cabinet down to the floor, which is meant by zero.
+        Its thickness, as of a table top; zero for a body down to the floor, such as a cabinet.
     is_container
-        Whether it is the opening of a container, such as a bin: what is put there falls in.
+        Whether it is the opening of a container, such as a bin: an object put there falls in.
     fixtures
-        What stands on it for good.
+        The permanent objects on it.
 
     """
 
@@ -110,19 +110,19 @@ class Surface(_Area):
 
     def misfit_m(self, x_m: float, y_m: float, bottom_m: float, sigma_m: float = 0.0) -> float:
         """
-        Return how far the underside of a thing is from the surface.
+        Compute the height difference between the underside of an object and the surface.
 
         Parameters
         ----------
         x_m, y_m, bottom_m
-            Where the middle of its underside is in the map.
+            The centre of its underside, in the map.
         sigma_m
-            The standard deviation of that.
+            The standard deviation of its position.
 
         Returns
         -------
         float
-            The difference in height in m; infinite if the thing is farther above, below or beside
+            The height difference in m; infinite if the object is farther above, below or beside
             the surface than the tolerance and two standard deviations.
 
         """
@@ -134,7 +134,7 @@ class Surface(_Area):
 
 @dataclass(frozen=True)
 class Room(_Area):
-    """A part of the ground that has a name: its outline in the map."""
+    """A named part of the floor, with its outline in the map."""
 
     name: str
     outline_m: Outline
@@ -150,19 +150,19 @@ class Places:
 
     @property
     def names(self) -> list[str]:
-        """Return the names of surfaces and rooms."""
+        """Return the names of the surfaces and rooms."""
         return [*(each.name for each in self.surfaces), *(each.name for each in self.rooms)]
 
     def surface_at(self, x_m: float, y_m: float, bottom_m: float, sigma_m: float = 0.0) -> str:
         """
-        Return the name of the surface below a thing; empty if it stands on none.
+        Find the surface below an object; return its name, or empty if it stands on none.
 
         Parameters
         ----------
         x_m, y_m, bottom_m
-            Where the middle of its underside is in the map.
+            The centre of its underside, in the map.
         sigma_m
-            The standard deviation of that.
+            The standard deviation of its position.
 
         """
         fits = [(each.misfit_m(x_m, y_m, bottom_m, sigma_m), each.name) for each in self.surfaces]
@@ -181,7 +181,7 @@ class Places:
         Returns
         -------
         str
-            The name of the room; empty outside of all.
+            The name of the room; empty outside all rooms.
 
         """
         return next(
@@ -191,13 +191,13 @@ class Places:
 
 def places_path(given: str) -> Path | None:
     """
-    Return the file of named places that was asked for.
+    Resolve the file of named places; None if none is given.
 
     Parameters
     ----------
     given
-        A path, the name of one of this package (`apartment` is config/places_apartment.yaml), or
-        nothing.
+        A path, the name of a file of this package (`apartment` is config/places_apartment.yaml),
+        or empty.
 
     Raises
     ------
@@ -235,7 +235,7 @@ def load_places(path: Path) -> Places:
     Raises
     ------
     PlacesError
-        It cannot be read, or something in it is missing or cannot be.
+        The file cannot be read, or has missing or invalid entries.
 
     """
     try:
@@ -298,7 +298,7 @@ def _room(entry: Any) -> Room:
 def _checked(
     entry: Any, what: str, keys: Iterable[str], needed: Iterable[str]
 ) -> Mapping[str, Any]:
-    """Return a table whose keys are all known, and none missing."""
+    """Validate the keys of a table: no unknown ones, and none missing."""
     if not isinstance(entry, dict):
         raise PlacesError(f'{what} is {entry!r}, but has to be a table of {", ".join(keys)}.')
     for key in entry:
@@ -343,7 +343,7 @@ def _outline(value: Any, name: str) -> Outline:
 
 def sides(outline: Outline) -> Iterable[tuple[Point, Point]]:
     """
-    Iterate over the sides of a polygon, each by its two ends; the last one closes it.
+    Iterate over the sides of a polygon as pairs of end points; the last one closes it.
 
     Parameters
     ----------
@@ -355,7 +355,7 @@ def sides(outline: Outline) -> Iterable[tuple[Point, Point]]:
 
 
 def _contains(outline: Outline, point: Point) -> bool:
-    """Whether a point is inside of a polygon: a ray from it crosses an odd number of sides."""
+    """Whether a point is inside a polygon: a ray from it crosses an odd number of sides."""
     x, y = point
     return (
         sum(
@@ -368,7 +368,7 @@ def _contains(outline: Outline, point: Point) -> bool:
 
 
 def _to_side_m(a: Point, b: Point, point: Point) -> float:
-    """Return how far a point is from the line between two others."""
+    """Compute the distance of a point from a line segment."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     length2 = dx * dx + dy * dy
     along = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / length2 if length2 else 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The file of named places that belongs to a scene, for launch files."""
+"""Launch substitution for the file of named places of a scene."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from launch.utilities import perform_substitutions
 
 class PlacesChoice(Substitution):
     """
-    Stands for the path of a file of named places: the one asked for, or else that of the scene.
+    Substitution for the path of a file of named places: the given one, or else that of the scene.
 
     Parameters
     ----------
     given
-        What was asked for: a path, the name of one of this package, or nothing.
+        A path, the name of a file of this package, or empty.
     scene
-        The name of the simulated scene, or nothing. One without named places is fine.
+        The name of the simulated scene, or empty. A scene without named places is allowed.
 
     """
 
@@ -29,7 +29,7 @@ class PlacesChoice(Substitution):
         self._given, self._scene = given, scene
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a description of this substitution as a string."""
         return f'PlacesChoice({self._given.describe()}, {self._scene.describe()})'
 
     def perform(self, context: LaunchContext) -> str:
@@ -44,12 +44,12 @@ class PlacesChoice(Substitution):
         Returns
         -------
         str
-            The path; empty if none was asked for and the scene has none.
+            The path; empty if none is given and the scene has none.
 
         Raises
         ------
         SubstitutionFailure
-            There is no file as was asked for; the message lists those of this package.
+            The given file does not exist; the message lists those of this package.
 
         """
         given = perform_substitutions(context, [self._given])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of one thing: where it is, what it is, and whether it still is there."""
+"""State estimate of one remembered object: its position, class, colour and existence."""
 
 from __future__ import annotations
 
@@ -16,35 +16,35 @@ Pose2 = tuple[float, float, float]
 """A pose in a plane: x (m), y (m), yaw (rad)."""
 
 _FLOOR_M = 0.012
-"""Looks from about the same place err alike: none makes a position surer than this."""
+"""Least standard deviation of a position: errors of views from about the same place correlate."""
 _LOCALISATION_M = 0.04
-"""The standard deviation of where the robot believes to be in the map, along an axis."""
+"""Standard deviation of the robot's localisation in the map, along an axis."""
 _CARRIED_M = 0.02
-"""How exactly it is known where a hand has brought a thing."""
+"""Standard deviation of the position of a held object, along an axis."""
 _SURPRISE = 11.3
-"""A squared Mahalanobis distance that one look of a hundred exceeds, if the thing is at rest."""
+"""Squared Mahalanobis distance that one detection in a hundred of an object at rest exceeds."""
 _MOST_LOOKS = 20.0
-"""Of how many looks from near a size is the mean, at most."""
+"""Largest total weight of a size, in multiples of the greatest weight of one detection."""
 _MOST_VOTES = 25.0
-"""Older looks count less, so that a wrong class does not stay for ever."""
+"""Largest total weight of votes: older ones fade, so a wrong class does not persist."""
 _MOST_LOG_ODDS = 4.0
 
 
 @dataclass(frozen=True)
 class Sighting:
     """
-    One detection in space, in the frame of the memory.
+    One 3-D detection, in the frame of the memory.
 
     Attributes
     ----------
     class_id, score
-        What it may be, and how sure that is, from 0 to 1.
+        Its class, and the confidence in it, from 0 to 1.
     position_m, size_m, yaw_rad
-        Its upright box: middle (3,), sides (3,), heading.
+        Its upright bounding box: centre (3,), edge lengths (3,), and yaw.
     colour
-        The name of its colour; empty if it is not known.
+        The name of its colour; empty if unknown.
     is_cut
-        Whether the border of the picture cuts it, so that position and size are not to be trusted.
+        Whether the image border cuts it, which makes position and size unreliable.
 
     """
 
@@ -58,7 +58,7 @@ class Sighting:
 
     @property
     def is_sound(self) -> bool:
-        """Whether all of it are numbers that can be."""
+        """Whether all values are finite and within their ranges."""
         numbers = (self.score, *self.position_m, *self.size_m, self.yaw_rad)
         if not all(map(math.isfinite, numbers)) or not self.class_id:
             return False
@@ -71,18 +71,17 @@ def sighting_noise(
     """
     Estimate the covariance (3, 3) in m^2 of the position of a detection.
 
-    Along the ray the error of depth grows with the square of the range, as that of stereo and
-    structured light does; across it, that of the direction with the range, and faster while the
-    camera turns.
+    Along the ray, the depth error grows with the square of the range, as for stereo and structured
+    light; across it, the bearing error grows with the range, and faster while the camera turns.
 
     Parameters
     ----------
     position_m, camera_m
-        Where the detection and the camera are (3,), in the frame of the covariance.
+        The positions of the detection and the camera (3,), in the frame of the covariance.
     turn_rad_s
-        How fast the camera turns.
+        The turn rate of the camera.
     base_m
-        The standard deviation along each axis that the pose of the camera adds.
+        The standard deviation along each axis due to the pose of the camera.
 
     """
     ray = position_m - camera_m
@@ -108,21 +107,21 @@ def greatest_sigma_m(covariance_m2: Array) -> float:
 
 
 class Votes:
-    """What several looks say, by weight: the class or the colour of a thing."""
+    """Weighted votes of several detections for the class or the colour of an object."""
 
     def __init__(self) -> None:
         self.weights: dict[str, float] = {}
 
     def add(self, name: str, weight: float) -> None:
         """
-        Count a vote; the older ones fade once there are many.
+        Add a vote; older votes fade once there are many.
 
         Parameters
         ----------
         name
-            The class or colour that it is for.
+            The class or colour to vote for.
         weight
-            How much it counts, such as the score of a detection.
+            The weight of the vote, such as the score of a detection.
 
         """
         total = sum(self.weights.values()) + weight
@@ -133,12 +132,12 @@ class Votes:
 
     def absorb(self, other: Votes) -> None:
         """
-        Add the votes of another.
+        Add the votes for another object.
 
         Parameters
         ----------
         other
-            The votes for an object that turned out to be the same one.
+            The votes for an object that turned out to be the same.
 
         """
         for name, weight in other.weights.items():
@@ -146,7 +145,7 @@ class Votes:
 
     @property
     def best(self) -> str:
-        """Return the name with most votes; empty without any."""
+        """Return the name with the most votes; empty without votes."""
         return max(self.weights, key=lambda name: self.weights[name], default='')
 
     def share(self, name: str) -> float:
@@ -166,10 +165,11 @@ class Votes:
 @dataclass
 class RememberedThing:
     """
-    A thing that was seen.
+    A remembered object.
 
-    The position is that of a Kalman filter for a thing at rest; the size is a mean, weighted by
-    how near it was seen. `log_odds` is how sure it is that the thing exists and still is there.
+    The position is estimated by a Kalman filter for an object at rest; the size is a mean of the
+    detections, in which near ones weigh more. `log_odds` are the log odds that the object exists
+    and is still there.
     """
 
     position_m: Array
@@ -179,7 +179,7 @@ class RememberedThing:
     first_seen_s: float
     last_seen_s: float
     object_id: str = ''
-    """Given once it is believed, and kept then."""
+    """Assigned when the object is confirmed, and kept from then on; empty before."""
     sightings: int = 0
     log_odds: float = 0.0
     score: float = 0.0
@@ -187,14 +187,14 @@ class RememberedThing:
     classes: Votes = field(default_factory=Votes)
     colours: Votes = field(default_factory=Votes)
     missed: int = 0
-    """In how many looks in a row it should have been detected, and was not."""
+    """Number of consecutive images in which it should have been detected, and was not."""
     empty: int = 0
-    """In how many of these one saw that there was nothing."""
+    """Number of these in which the depth image showed an empty place."""
     size_weight: float = 0.0
     nearest_weight: float = 0.0
-    """The sum of the weights of the looks of which the size is the mean, and the greatest one."""
+    """The sum of the weights of the detections that the size averages, and the greatest weight."""
     anchor: Pose2 = (0.0, 0.0, 0.0)
-    """Where `odom` was in the map when it was seen last."""
+    """The pose of `odom` in the map when the object was last seen."""
 
     @classmethod
     def of(
@@ -206,13 +206,13 @@ class RememberedThing:
         Parameters
         ----------
         sighting
-            The detection, not cut by the border of the picture.
+            The detection, not cut by the image border.
         noise_m2
-            The covariance (3, 3) of its position, as of `sighting_noise`.
+            The covariance (3, 3) of its position, as from `sighting_noise`.
         time_s
-            The stamp of the picture.
+            The stamp of the image.
         log_odds
-            How sure it is that the object exists.
+            The initial log odds that the object exists.
 
         """
         thing = cls(
@@ -230,28 +230,28 @@ class RememberedThing:
 
     @property
     def class_id(self) -> str:
-        """Return what it is."""
+        """Return the class of the object: the one with the most votes."""
         return self.classes.best
 
     @property
     def colour(self) -> str:
-        """Its colour; empty unless most looks at its colour say the same."""
+        """Return the colour of the object; empty unless it has at least half of the votes."""
         best = self.colours.best
         return best if self.colours.share(best) >= 0.5 else ''
 
     @property
     def belief(self) -> float:
-        """How sure it is that it still is there, from 0 to 1."""
+        """Return the probability that the object is still there, from 0 to 1."""
         return 1.0 / (1.0 + math.exp(-self.log_odds))
 
     @property
     def class_score(self) -> float:
-        """How sure its class is: the mean score, times the share of votes; from 0 to 1."""
+        """Return the confidence in its class, 0 to 1: the mean score times the share of votes."""
         return min(self.score * self.classes.share(self.class_id), 1.0)
 
     @property
     def sigma_m(self) -> float:
-        """How unsure its position is, as seen by the robot: `greatest_sigma_m`."""
+        """Return the greatest standard deviation of its position relative to the robot."""
         return greatest_sigma_m(self.covariance_m2)
 
     @property
@@ -259,23 +259,23 @@ class RememberedThing:
         """
         Return the covariance (3, 3) of its position in the map.
 
-        It also holds how exactly the robot knows where it is. All sightings have that error in
-        common, so that more of them do not lessen it.
+        It includes the localisation error of the robot, which all detections share, so that more
+        of them do not reduce it.
         """
         return self.covariance_m2 + _LOCALISATION_M**2 * np.diag((1.0, 1.0, 0.0))
 
     def drift(self, passed_s: float, rate_m2_s: float, most_m: float) -> None:
         """
-        Predict the Kalman filter: let the position become less sure while time passes.
+        Run the prediction step of the Kalman filter: the covariance grows with time.
 
         Parameters
         ----------
         passed_s
-            How much time has passed; a negative one counts as none.
+            The elapsed time; negative values count as zero.
         rate_m2_s
-            By how much the variance along each axis grows, in m^2/s.
+            The growth rate of the variance along each axis, in m^2/s.
         most_m
-            The standard deviation along an axis beyond which it does not grow.
+            The standard deviation along an axis at which the growth stops.
 
         """
         grown = self.covariance_m2 + max(passed_s, 0.0) * rate_m2_s * np.eye(3)
@@ -289,11 +289,11 @@ class RememberedThing:
         Parameters
         ----------
         sighting
-            The detection; if the border of the picture cuts it, position and size stay.
+            The detection; if the image border cuts it, position and size are kept.
         noise_m2
-            The covariance (3, 3) of its position, as of `sighting_noise`.
+            The covariance (3, 3) of its position, as from `sighting_noise`.
         time_s
-            The stamp of the picture.
+            The stamp of the image.
 
         """
         if not sighting.is_cut:
@@ -313,12 +313,12 @@ class RememberedThing:
 
     def believe(self, change: float) -> None:
         """
-        Change how sure it is that the object is there, within bounds.
+        Change the log odds that the object is there, within bounds.
 
         Parameters
         ----------
         change
-            What is added to the log odds.
+            The amount to add to the log odds.
 
         """
         self.log_odds = max(-_MOST_LOG_ODDS, min(_MOST_LOG_ODDS, self.log_odds + change))
@@ -330,9 +330,9 @@ class RememberedThing:
         Parameters
         ----------
         position_m
-            Where the hand has brought it (3,), in the frame of the memory.
+            The position in the hand (3,), in the frame of the memory.
         time_s
-            The stamp of the picture that belongs to it.
+            The stamp of the current image.
 
         """
         self.position_m = position_m.copy()
@@ -349,7 +349,7 @@ class RememberedThing:
         sighting
             The detection.
         noise_m2
-            The covariance (3, 3) of its position, which adds to that of the object.
+            The covariance (3, 3) of its position, which is added to that of the object.
 
         """
         error = sighting.position_m - self.position_m
@@ -362,7 +362,7 @@ class RememberedThing:
         Parameters
         ----------
         other
-            The object that is to be dropped.
+            The object that will be dropped.
 
         """
         self._move(other.position_m, other.covariance_m2)
@@ -382,13 +382,13 @@ class RememberedThing:
 
     def move_by(self, shift: Pose2) -> None:
         """
-        Move the object with a frame that turned out to be elsewhere.
+        Move the object along with a corrected frame.
 
         Parameters
         ----------
         shift
-            The motion in the frame of the memory, as of `memory.shift_between`: turn about its
-            origin by yaw (rad), then move by x and y (m).
+            The motion in the frame of the memory, as from `memory.shift_between`: rotate about its
+            origin by yaw (rad), then translate by x and y (m).
 
         """
         x, y, yaw = shift
@@ -399,7 +399,7 @@ class RememberedThing:
         self.yaw_rad = math.remainder(self.yaw_rad + yaw, math.tau)
 
     def _move(self, position_m: Array, noise_m2: Array) -> None:
-        """Update the position: Kalman's filter, which a thing that has moved makes less sure."""
+        """Run the update step of the Kalman filter; inflate the covariance of a moved object."""
         error = position_m - self.position_m
         total = self.covariance_m2 + noise_m2
         if float(error @ np.linalg.solve(total, error)) > _SURPRISE:
@@ -412,7 +412,7 @@ class RememberedThing:
         self.covariance_m2 = (vectors * np.maximum(values, _FLOOR_M**2)) @ vectors.T
 
     def _grow(self, sighting: Sighting, noise_m2: Array) -> None:
-        """Update the size; the heading is that of the best look."""
+        """Update the size as a weighted mean, and the yaw from the best detections."""
         weight = sighting.score / float(np.trace(noise_m2))
         if weight >= 0.5 * self.nearest_weight:
             self.yaw_rad = sighting.yaw_rad

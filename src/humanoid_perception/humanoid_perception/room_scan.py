@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look around: sweeps of the head, and turns of the body between them."""
+"""Scan a room: sweep the head, and turn the body between sweeps."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from humanoid_perception.scanning import Coverage, FieldOfView, head_sweep, stan
 from nav2_msgs.action import Spin
 import numpy as np
 from rclpy.action import ActionClient
-from tf2_ros import TransformException
 from vision_msgs.msg import Detection3DArray
 
 if TYPE_CHECKING:
@@ -28,11 +27,11 @@ __all__ = ['RoomScan']
 
 _LATE_S = 5.0
 _SETTLED_S = 0.3
-"""After a motion, the camera still shakes for so long."""
+"""Time for the camera to stop shaking after a motion."""
 _BLIND_S = 0.3
-"""How long each stop lasts where nobody detects anything."""
+"""Duration of each stop if no node publishes detections."""
 _LOOK_S = 3.0
-"""How long detections are waited for at each stop."""
+"""Longest wait for detections at each stop."""
 _STUCK_S = 5.0
 _SLOWEST_RAD_S = 0.2
 _THERE_RAD = 0.08
@@ -41,7 +40,7 @@ _ANSWER_S = 2.0
 
 class RoomScan:
     """
-    The work of `scan_room`.
+    Implementation of the action `scan_room`.
 
     Parameters
     ----------
@@ -59,18 +58,18 @@ class RoomScan:
 
     async def work(self, goal: RunningGoal) -> None:
         """
-        Look around: sweep the head, and turn the body between sweeps if the goal asks for that.
+        Scan the room: sweep the head, and turn the body between sweeps if the goal requests it.
 
         Parameters
         ----------
         goal
-            A goal of `scan_room`. Its result gets the coverage and the ids of what was seen, also
-            if the scan ends before all was seen.
+            A goal of `scan_room`. Its result is filled in with the coverage and the ids of the
+            objects that were seen, even if the scan ends early.
 
         Raises
         ------
         GoalAborted
-            The scan cannot go on, takes longer than it may, or is to end.
+            The scan fails, exceeds its time allowance, or must end.
         GoalCanceled
             The client has canceled the goal.
 
@@ -91,7 +90,7 @@ class RoomScan:
             goal.result.seen = await self._ids_since(begin_s)
 
     def _take(self, data: bytes) -> None:
-        """Take note of the time of a picture in which things were looked for."""
+        """Record the stamp of an image that the detector has processed."""
         self._looks_s.append(stamp_in(data))
 
     async def _sweeps(self, goal: RunningGoal) -> None:
@@ -119,7 +118,7 @@ class RoomScan:
         await self._move(goal, np.zeros(2))
 
     async def _move(self, goal: RunningGoal, angles_rad: Any) -> None:
-        """Turn the head somewhere, and wait until it is there."""
+        """Move the head to joint angles, and wait until it has arrived."""
         head, gaze = self._gaze.head, self._gaze
         duration_s = head.duration_s(angles_rad, gaze.parameters.current.max_velocity)
         head.send(angles_rad, duration_s)
@@ -143,7 +142,7 @@ class RoomScan:
             await self._tick(goal)
 
     async def _look(self, goal: RunningGoal, coverage: Coverage, field: FieldOfView) -> None:
-        """Hold still until pictures were looked at; take note of what was to be seen."""
+        """Hold still until enough images were processed; update and publish the coverage."""
         gaze, told = self._gaze, self._gaze.parameters.current
         await self._sleep(goal, _SETTLED_S)
         since_s = gaze.now_s()
@@ -154,16 +153,13 @@ class RoomScan:
             if sum(each >= since_s for each in self._looks_s) >= told.looks_per_view:
                 break
             await self._tick(goal)
-        try:
-            camera = gaze.head.pose(told.odom_frame, told.camera_frame)
-        except TransformException as error:
-            raise GoalAborted('NO_TRANSFORM', f'The camera is lost: {error}') from None
+        camera = gaze.head.pose(told.odom_frame, told.camera_frame)
         coverage.see(camera[:3, :3], field)
         goal.result.coverage = coverage.share
         goal.publish_feedback(ScanRoom.Feedback(coverage=coverage.share))
 
     async def _turn(self, goal: RunningGoal, turn_rad: float) -> None:
-        """Turn the body on the spot."""
+        """Turn the body in place."""
         choice = self._gaze.parameters.current.turn_with
         if choice == 'spin' or (choice == 'auto' and self._spin.server_is_ready()):
             await self._turn_with_spin(goal, turn_rad)
@@ -172,7 +168,7 @@ class RoomScan:
         await self._sleep(goal, 2.0 * _SETTLED_S)
 
     async def _turn_with_spin(self, goal: RunningGoal, turn_rad: float) -> None:
-        """Let Nav2 turn the body, which looks out for obstacles."""
+        """Turn the body by the `spin` behaviour of Nav2, which checks for collisions."""
         limit_s = 4.0 * turn_rad / self._gaze.parameters.current.turn_rate_rad_s + _LATE_S
         request = Spin.Goal(target_yaw=turn_rad, time_allowance=Duration(sec=math.ceil(limit_s)))
         answer = await goal.delegate(self._spin, request, 'spin', 'BODY_FAILED', self._check_time)
@@ -181,7 +177,7 @@ class RoomScan:
             raise GoalAborted('BODY_FAILED', reason or "'spin' could not turn the body.")
 
     async def _turn_with_velocities(self, goal: RunningGoal, turn_rad: float) -> None:
-        """Turn the body by cmd_vel until the odometry says that it has turned so far."""
+        """Turn the body by cmd_vel until the odometry reports the requested turn."""
         gaze, told = self._gaze, self._gaze.parameters.current
         before = self._heading()
         turned, best, best_s = 0.0, 0.0, gaze.now_s()
@@ -208,14 +204,11 @@ class RoomScan:
 
     def _heading(self) -> float:
         told = self._gaze.parameters.current
-        try:
-            pose = self._gaze.head.pose(told.odom_frame, self._gaze.head.chain.base_frame)
-        except TransformException as error:
-            raise GoalAborted('NO_TRANSFORM', f'The body is lost: {error}') from None
+        pose = self._gaze.head.pose(told.odom_frame, self._gaze.head.chain.base_frame)
         return math.atan2(pose[1, 0], pose[0, 0])
 
     async def _ids_since(self, begin_s: float) -> list[str]:
-        """Return the ids of what was seen since then, if somebody remembers."""
+        """Query the ids of the objects seen since a time; empty without an object memory."""
         if not self._find.service_is_ready():
             return []
         answer = self._find.call_async(FindObjects.Request())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which poses of the head let a camera see all around, and what has been seen."""
+"""Plan head poses that cover the surroundings with a camera, and track the coverage."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ __all__ = ['Coverage', 'FieldOfView', 'head_sweep', 'stances']
 Array = npt.NDArray[np.float64]
 _CELL_RAD = math.radians(5.0)
 _OVERLAP = 0.85
-"""Which part of the field of view of a look is new at most, so that nothing is only ever cut."""
+"""Largest spacing of views as a fraction of the field of view: an object that the border of one
+view cuts is whole in the next."""
 
 
 @dataclass(frozen=True)
 class FieldOfView:
-    """What a camera sees around its optical axis, in rad; half angles, by its matrix."""
+    """Field of view of a camera: the angles from its optical axis to the image borders, in rad."""
 
     left_rad: float
     right_rad: float
@@ -37,14 +38,14 @@ class FieldOfView:
         Parameters
         ----------
         width, height
-            The size of the picture in pixels.
+            The size of the image in pixels.
         fx, fy, cx, cy
             The focal lengths and the principal point in pixels, as in K of a `camera_info`.
 
         Raises
         ------
         ValueError
-            It has no size or no focal length.
+            The size or a focal length is not positive.
 
         """
         if not (width > 0 and height > 0 and 0.0 < fx < math.inf and 0.0 < fy < math.inf):
@@ -58,17 +59,17 @@ class FieldOfView:
 
     @property
     def width_rad(self) -> float:
-        """From left to right."""
+        """Return the horizontal field of view."""
         return self.left_rad + self.right_rad
 
     @property
     def height_rad(self) -> float:
-        """From above to below."""
+        """Return the vertical field of view."""
         return self.up_rad + self.down_rad
 
     def contains(self, directions: Array) -> npt.NDArray[np.bool_]:
         """
-        Test which directions are in the picture.
+        Check which directions are within the image.
 
         Parameters
         ----------
@@ -78,7 +79,7 @@ class FieldOfView:
         Returns
         -------
         Array
-            Whether each of them is (N,).
+            A boolean for each direction (N,).
 
         """
         x, y, z = directions.T
@@ -101,16 +102,16 @@ def head_sweep(
     down_rad: float,
 ) -> list[tuple[float, float]]:
     """
-    Plan yaws and pitches of a head that see all that it can, row by row, to and fro.
+    Plan the yaws and pitches of a head that cover all that it can see, row by row, back and forth.
 
     Parameters
     ----------
     field
-        What the camera sees.
+        The field of view of the camera.
     lower_rad, upper_rad
         The limits of yaw and pitch; looking down is positive.
     up_rad, down_rad
-        Up to which elevation above, and down to which below the horizon all is to be seen.
+        The elevation above and the depression below the horizon up to which to cover.
 
     Returns
     -------
@@ -132,7 +133,7 @@ def head_sweep(
 
 
 def _spread(low: float, high: float, field_rad: float) -> list[float]:
-    """Return evenly spaced angles, so that fields of view overlap."""
+    """Compute evenly spaced angles at which the fields of view overlap."""
     if high <= low:
         return [0.5 * (low + high)]
     count = math.ceil((high - low) / (_OVERLAP * field_rad)) + 1
@@ -141,19 +142,19 @@ def _spread(low: float, high: float, field_rad: float) -> list[float]:
 
 def stances(field: FieldOfView, lower_rad: float, upper_rad: float) -> list[float]:
     """
-    Plan by how much the body turns between sweeps of its head to see all around.
+    Plan the turns of the body between head sweeps that cover the full circle.
 
     Parameters
     ----------
     field
-        What the camera sees.
+        The field of view of the camera.
     lower_rad, upper_rad
         The limits of the head's yaw.
 
     Returns
     -------
     list of float
-        A turn in rad before each further sweep.
+        The turn in rad before each further sweep.
 
     """
     reach_rad = (upper_rad - lower_rad) + _OVERLAP * field.width_rad
@@ -163,12 +164,12 @@ def stances(field: FieldOfView, lower_rad: float, upper_rad: float) -> list[floa
 
 class Coverage:
     """
-    Which directions have been seen, of those that are wanted.
+    Coverage of a scan: which of the wanted directions have been seen.
 
     Parameters
     ----------
     up_rad, down_rad
-        From which elevation below the horizon to which above.
+        The elevation above and the depression below the horizon that bound the directions.
 
     """
 
@@ -192,14 +193,14 @@ class Coverage:
 
     def want_only(self, rotations: Sequence[Array], field: FieldOfView) -> None:
         """
-        Restrict the wanted directions to those that some views see.
+        Restrict the wanted directions to those that some views cover.
 
         Parameters
         ----------
         rotations
             The rotation (3, 3) of the optical frame of each view, in a frame whose z axis is up.
         field
-            What the camera sees.
+            The field of view of the camera.
 
         """
         wanted = np.zeros_like(self._wanted)
@@ -209,21 +210,21 @@ class Coverage:
 
     def see(self, rotation: Array, field: FieldOfView) -> None:
         """
-        Mark the directions that a view sees as seen.
+        Mark the directions that a view covers as seen.
 
         Parameters
         ----------
         rotation
             The rotation (3, 3) of its optical frame, in the same frame as for `want_only`.
         field
-            What the camera sees.
+            The field of view of the camera.
 
         """
         self._seen |= field.contains(self._directions @ rotation)
 
     @property
     def share(self) -> float:
-        """Return the part of the wanted directions that was seen, by solid angle, from 0 to 1."""
+        """Return the fraction of the wanted solid angle that was seen, from 0 to 1."""
         total = float(self._weights[self._wanted].sum())
         seen = float(self._weights[self._wanted & self._seen].sum())
         return seen / total if total else 0.0

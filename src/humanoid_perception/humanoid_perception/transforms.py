@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where frames are, for goals that want to know it only while they run."""
+"""Transform lookup for goals, with a listener that is subscribed only while a goal runs."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ Array = npt.NDArray[np.float64]
 
 class Transforms:
     """
-    Knows where frames are, while it listens: transforms come all the time, which costs.
+    Transform buffer that subscribes to tf only while needed, because of its rate.
 
     Parameters
     ----------
     node
-        The node whose topics count.
+        The node that owns the subscriptions.
 
     """
 
@@ -36,7 +36,7 @@ class Transforms:
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Listen to the transforms meanwhile."""
+        """Subscribe to the transforms in the enclosed block."""
         self._buffer.clear()
         listener = TransformListener(self._buffer, self._node)
         self._listens = True
@@ -53,19 +53,19 @@ class Transforms:
         Parameters
         ----------
         goal
-            The goal that needs it, and whose end ends the wait.
+            The goal that needs it; the wait ends with it.
         frame, child
-            The pose of the frame `child` in `frame` is meant.
+            The target frame, and the frame whose pose in it is looked up.
 
         Returns
         -------
         Array
-            The newest pose (4, 4).
+            The latest pose (4, 4).
 
         Raises
         ------
         GoalAborted
-            The transform does not come within 5 s, or the goal is to end.
+            The transform is not available within 5 s, or the goal must end.
         GoalCanceled
             The client has canceled the goal.
 
@@ -73,21 +73,16 @@ class Transforms:
         await goal.comes(
             lambda: frame == child or bool(self._buffer.can_transform(frame, child, Time()))
         )
-        try:
-            return self.pose(frame, child)
-        except TransformException as error:
-            raise GoalAborted(
-                'NO_TRANSFORM', f"It is not known where '{child}' is: {error}"
-            ) from None
+        return self.pose(frame, child)
 
     def pose(self, frame: str, child: str) -> Array:
         """
-        Look up the newest transform; call it while the transforms are listened to.
+        Return the latest transform. Call in `listening`.
 
         Parameters
         ----------
         frame, child
-            The pose of the frame `child` in `frame` is meant.
+            The target frame, and the frame whose pose in it is looked up.
 
         Returns
         -------
@@ -96,13 +91,18 @@ class Transforms:
 
         Raises
         ------
-        TransformException
+        GoalAborted
             No transform connects the two frames.
 
         """
         assert self._listens, 'Transforms are known while they are listened to.'
         pose = np.eye(4)
         if frame != child:
-            found = self._buffer.lookup_transform(frame, child, Time())
+            try:
+                found = self._buffer.lookup_transform(frame, child, Time())
+            except TransformException as error:
+                raise GoalAborted(
+                    'NO_TRANSFORM', f"It is not known where '{child}' is: {error}"
+                ) from None
             pose[:3, 3], pose[:3, :3] = pose_of(found.transform)
         return pose

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a camera that looks at a remembered thing should see it, and what it sees there."""
+"""Predict whether a remembered object is visible in a view, and check its place by depth."""
 
 from __future__ import annotations
 
@@ -16,48 +16,49 @@ Array = npt.NDArray[np.float64]
 DepthImage = npt.NDArray[np.float32]
 
 _SAMPLES = 12
-"""How many pixels of a window are looked at along each of its sides, at most."""
+"""Largest number of pixels that are sampled along each side of a box in the image."""
 _FOOT = 0.3
-"""The lower part of a box that is left out, since what carries the thing begins there."""
+"""The lower fraction of a box that is left out, as it may contain the supporting surface."""
 _BORDER_PX = 3.0
-"""How far from the border of the picture a box has to be to be expected."""
+"""Smallest distance of a box from the image border for a detection to be expected."""
 _MARGIN_M = 0.03
-"""How much nearer than a box something has to be to hide it."""
+"""Tolerance around a box; points nearer to the camera than that occlude the object."""
 
 
 class Evidence(enum.Enum):
-    """What a look says of a thing that was not detected in it."""
+    """Evidence that a view gives about a remembered object that was not detected in it."""
 
     NONE = 'none'
-    """Nothing: it is out of the picture, too far, too small there, or hidden."""
+    """No evidence: the object is outside the image, too far, too small, or occluded."""
     UNKNOWN = 'unknown'
-    """It should be in the picture; without depth, nothing more is known."""
+    """The object should be visible; without depth, nothing more is known."""
     SOMETHING = 'something'
-    """There is something where it was."""
+    """There is something at its place."""
     EMPTY = 'empty'
-    """There is nothing where it was: one sees what is behind."""
+    """Its place is empty: the background is visible."""
 
 
 @dataclass(frozen=True)
 class View:
     """
-    A look of a camera, in the frame of the memory.
+    A camera view: pose, intrinsics and depth image, in the frame of the memory.
 
     Attributes
     ----------
     time_s
-        When.
+        The stamp of the image.
     position_m
-        Where the camera is; (3,).
+        The position of the camera (3,).
     rotation
-        Of its optical frame (z ahead, x right, y down) in the frame of the memory; (3, 3).
+        The rotation (3, 3) of its optical frame (z forward, x right, y down) in the frame of the
+        memory.
     width_px, height_px, fx_px, fy_px, cx_px, cy_px
-        The camera's picture and matrix.
+        The image size and the camera matrix.
     depth_m
-        The depth image, along the optical axis, not finite or zero where nothing is known; may be
-        of another size than the picture, and may be missing.
+        The depth image, along the optical axis, non-finite or zero where depth is unknown; it may
+        have another size than the image, and may be missing.
     turn_rad_s
-        How fast the camera turns, which makes its pose less sure.
+        The turn rate of the camera, which makes its pose less certain.
 
     """
 
@@ -87,7 +88,7 @@ class View:
 
     def project(self, points_m: Array) -> tuple[Array, Array]:
         """
-        Project points into the picture.
+        Project points into the image.
 
         Parameters
         ----------
@@ -98,7 +99,7 @@ class View:
         -------
         tuple of Array
             Their pixels (N, 2), column and row, and their depths (N,) in m along the optical axis.
-            Pixels of points behind the camera, whose depth is negative, mean nothing.
+            Pixels of points behind the camera, whose depth is negative, are meaningless.
 
         """
         x, y, depth = self.in_camera(points_m).T
@@ -127,7 +128,7 @@ def corners_of(position_m: Array, size_m: Array, yaw_rad: float) -> Array:
     Parameters
     ----------
     position_m, size_m, yaw_rad
-        Its middle (3,), its sides (3,), and its turn about the z axis.
+        Its centre (3,), its edge lengths (3,), and its rotation about the z axis.
 
     """
     signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
@@ -150,24 +151,25 @@ def evidence_at(
     min_size_px: float = 8.0,
 ) -> Evidence:
     """
-    Judge what a look that did not detect a thing says about it.
+    Evaluate the evidence of a view about an object that was not detected in it.
 
     Parameters
     ----------
     view
-        The look.
+        The view.
     position_m, size_m, yaw_rad
-        The upright box of the thing, in the frame of the view; (3,), (3,).
+        The upright bounding box of the object, in the frame of the view: centre (3,), edge lengths
+        (3,), and yaw.
     sigma_m
-        How unsure its position is.
+        The standard deviation of its position.
     max_range_m, min_size_px
-        How far away, and how small in the picture, a thing may be that has to be detected.
+        The largest distance, and the smallest size in the image, at which a detection is expected.
 
     Returns
     -------
     Evidence
-        With depth, points that lie within the box, grown by the uncertainty, tell that something
-        is there; its lowest part does not count, as the table would be in it.
+        The evidence. With depth, points within the box, expanded by the uncertainty, show that
+        something is there; the lowest part of the box is ignored, as it may contain the table.
 
     """
     if view.range_to(position_m) > max_range_m:
@@ -193,7 +195,7 @@ def _measured(
     low_px: Array,
     high_px: Array,
 ) -> Evidence:
-    """Judge by the depths within the rectangle of a box in the picture."""
+    """Evaluate the evidence from the depths within the image rectangle of a box."""
     columns = np.linspace(low_px[0], high_px[0], min(_SAMPLES, int(high_px[0] - low_px[0]) + 1))
     rows = np.linspace(low_px[1], high_px[1], min(_SAMPLES, int(high_px[1] - low_px[1]) + 1))
     rays, depths = _rays(view, columns, rows)
@@ -211,7 +213,7 @@ def _measured(
     count = len(depths)
     if is_there.sum() >= 0.12 * count:
         return Evidence.SOMETHING
-    # Where no depth is measured, nothing may be near, or the camera may be blind.
+    # Missing depth may mean free space, or a surface that the camera cannot measure.
     is_unknown = ~is_measured & ~np.isposinf(depths)
     if is_hidden.sum() + is_unknown.sum() > 0.3 * count:
         return Evidence.NONE
@@ -219,7 +221,7 @@ def _measured(
 
 
 def _rays(view: View, columns: Array, rows: Array) -> tuple[Array, Array]:
-    """Return rays (N, 3) of depth 1 through pixels, in the memory's frame, and depths (N,)."""
+    """Compute rays (N, 3) of depth 1 through pixels, in the memory frame, and depths (N,)."""
     assert view.depth_m is not None
     u, v = (each.ravel() for each in np.meshgrid(columns, rows))
     height, width = view.depth_m.shape

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What goes into a YOLO network and what comes out: letterbox, layouts of outputs, suppression.
+Pre- and postprocessing for YOLO networks: letterboxing, output decoding, and NMS.
 
-The layouts are those that the exports of the YOLO families have:
+The output layouts of exported models of the YOLO families:
 
 ==================  ===================  ==========================================================
 `scores`            [1, 4 + classes, N]  v8, v9, v11, v12: centre x, y, width, height; scores
-`objectness`        [1, N, 5 + classes]  v5, v7: the same, with one more score: that it is anything
+`objectness`        [1, N, 5 + classes]  v5, v7: the same, with an additional objectness score
 `end_to_end`        [1, N, 6]            v10, v26: left, top, right, bottom, score, class; without
                                          duplicates
 ==================  ===================  ==========================================================
@@ -41,36 +41,36 @@ AUTO, SCORES, OBJECTNESS, END_TO_END = 'auto', 'scores', 'objectness', 'end_to_e
 LAYOUTS = (AUTO, SCORES, OBJECTNESS, END_TO_END)
 _PAD = 114
 _MOST = 300
-"""How many boxes are kept of a picture."""
+"""Largest number of boxes per image."""
 _MOST_CANDIDATES = 2000
 _END_TO_END_ROWS = 1000
-"""Networks without duplicates give at most so many boxes; others have thousands."""
+"""Largest number of boxes of end-to-end networks; others output thousands."""
 
 Array = npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True)
 class Letterbox:
-    """How a picture was fitted into the input of a network: scaled, with bars around it."""
+    """The mapping of an image into the input of a network: scaled, with padding around it."""
 
     width_px: int
     height_px: int
-    """The size of the picture."""
+    """The size of the image."""
     scaled_width_px: int
     scaled_height_px: int
     left_px: int
     top_px: int
-    """Where the scaled picture begins in the input."""
+    """The top left corner of the scaled image in the input."""
 
     @classmethod
     def of(cls, picture: tuple[int, int], size: tuple[int, int]) -> Letterbox:
         """
-        Fit a picture into the middle of the input of a network, with its proportions.
+        Fit an image into the centre of the input of a network, keeping its aspect ratio.
 
         Parameters
         ----------
         picture, size
-            The sizes (height, width) in pixels of the picture and of the input.
+            The sizes (height, width) in pixels of the image and of the input.
 
         """
         height_px, width_px = picture
@@ -83,12 +83,12 @@ class Letterbox:
 
     def apply(self, color: Color, size: tuple[int, int]) -> Color:
         """
-        Scale and pad a picture to the input of a network; the bars are grey.
+        Scale an image to the input of a network, and pad it with grey.
 
         Parameters
         ----------
         color
-            The picture (height, width, 3), of the size that the letterbox is for.
+            The image (height, width, 3), of the size that the letterbox is for.
         size
             The size (height, width) in pixels of the input.
 
@@ -112,7 +112,7 @@ class Letterbox:
 
     def undo(self, boxes_px: Array) -> Array:
         """
-        Transform boxes from the input of the network to the picture, and clip them to its border.
+        Transform boxes from the input of the network to the image, and clip them to its border.
 
         Parameters
         ----------
@@ -122,7 +122,7 @@ class Letterbox:
         Returns
         -------
         Array
-            The same in pixels of the picture (n, 4).
+            The boxes in pixels of the image (n, 4).
 
         """
         scale_x = self.width_px / self.scaled_width_px
@@ -135,16 +135,16 @@ class Letterbox:
 
 def letterbox_size(picture: tuple[int, int], longest_px: int, stride_px: int) -> tuple[int, int]:
     """
-    Compute the smallest input size that fits a picture, for networks that take any size.
+    Compute the smallest input size that fits an image, for networks with dynamic input size.
 
     Parameters
     ----------
     picture
-        The size (height, width) in pixels of the picture.
+        The size (height, width) in pixels of the image.
     longest_px
-        What the longer edge is scaled to.
+        The length to which the longer edge is scaled.
     stride_px
-        Of what number the edges of the input are multiples; they are rounded up.
+        The edges of the input are rounded up to multiples of this.
 
     Returns
     -------
@@ -161,7 +161,7 @@ def letterbox_size(picture: tuple[int, int], longest_px: int, stride_px: int) ->
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Boxes that a network proposes."""
+    """Candidate boxes from the output of a network."""
 
     boxes_px: Array
     """(n, 4) left, top, right, bottom, in pixels of the input"""
@@ -175,23 +175,23 @@ def layout_of(
     shape: Sequence[int], class_count: int | None, metadata: dict[str, str], told: str = AUTO
 ) -> tuple[str, int]:
     """
-    Return the layout of an output, and how many classes it has (0: the output does not tell).
+    Determine the layout of an output, and its number of classes (0 if the shape does not tell).
 
     Parameters
     ----------
     shape
-        That of an output that the network gave.
+        The shape of an output of the network.
     class_count
-        How many names of classes are known; None if there are none.
+        The number of known class names; None if there are none.
     metadata
-        What the model file says of itself.
+        The metadata of the model file.
     told
-        A layout that is known to be right, or `AUTO`.
+        The layout given by the user, or `AUTO`.
 
     Raises
     ------
     DetectorError
-        If it is no output of a detector, or not in the layout that was told.
+        The output is not that of a detector, or does not have the given layout.
 
     """
     if len(shape) != 3 or shape[0] != 1 or min(shape) < 1:
@@ -206,7 +206,7 @@ def layout_of(
 
 
 def _guess(rows: int, columns: int, class_count: int | None, metadata: dict[str, str]) -> str:
-    """Return the layout that an output [1, rows, columns] has."""
+    """Guess the layout of an output [1, rows, columns]; empty if it is ambiguous."""
     if columns == 6:
         if metadata.get('end2end', '').strip().lower() == 'true':
             return END_TO_END
@@ -241,16 +241,16 @@ def candidates_in(output: npt.NDArray[Any], layout: str, confidence: float) -> C
     """
     Decode the output of a network to boxes with a score of at least `confidence`.
 
-    What is not finite, and boxes without an area, are left out.
+    Non-finite values and boxes without an area are left out.
 
     Parameters
     ----------
     output
-        The output, in the shape that the layout has: [1, ...].
+        The output, in the shape of the layout: [1, ...].
     layout
         One of `LAYOUTS`, but not `AUTO`.
     confidence
-        The least score, 0 to 1.
+        The score threshold, 0 to 1.
 
     """
     table = np.asarray(output[0], dtype=np.float32)
@@ -274,7 +274,7 @@ def candidates_in(output: npt.NDArray[Any], layout: str, confidence: float) -> C
 def _best(
     boxes: Array, scores: Array, confidence: float
 ) -> tuple[Array, Array, npt.NDArray[np.int64]]:
-    """Return corners, the best score and its class of centres, sizes (n, 4), scores (n, m)."""
+    """Convert centres and sizes (n, 4) to corners, and select the best of the scores (n, m)."""
     numbers = scores.argmax(axis=1)
     best = scores[np.arange(len(scores)), numbers]
     chosen = best >= confidence
@@ -287,20 +287,20 @@ def suppressed(found: Candidates, iou: float) -> Candidates:
     """
     Suppress duplicate boxes by greedy non-maximum suppression (NMS) within each class.
 
-    A box is left out if its intersection over union with a better one of its class is larger than
-    `iou`.
+    A box is dropped if its intersection over union (IoU) with a better one of its class is larger
+    than `iou`.
 
     Parameters
     ----------
     found
         The boxes, in any order.
     iou
-        The greatest intersection over union of boxes that are kept.
+        The IoU threshold.
 
     Returns
     -------
     Candidates
-        Those that are kept, of the best score first; at most 300.
+        The remaining boxes, by decreasing score; at most 300.
 
     """
     order = np.argsort(-found.scores, kind='stable')[:_MOST_CANDIDATES]

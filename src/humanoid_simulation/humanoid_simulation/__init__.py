@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The humanoid in a physics simulator.
+Simulation of the humanoid in MuJoCo.
 
-- `humanoid_simulation.model`: a world of robots and things, as MuJoCo wants it
-- `humanoid_simulation.scene`: what is in the world besides robots
-- `humanoid_simulation.backend`: the world as a backend of the controllers
-- `humanoid_simulation.pacing`: how fast the time of the world passes
-- `humanoid_simulation.disturbances`: ticks that a controller misses
+- `humanoid_simulation.model`: MuJoCo models of worlds with robots and objects
+- `humanoid_simulation.scene`: floor, objects and all else in a world besides robots
+- `humanoid_simulation.backend`: the simulation as a backend of the controllers
+- `humanoid_simulation.pacing`: the real-time factor of the simulation
+- `humanoid_simulation.disturbances`: missed ticks of a controller
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Choose a thing by its name."""
+"""Look up entries by name, with a suggestion for a misspelt one."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def named(kind: str, name: str, things: Mapping[str, T]) -> T:
     Parameters
     ----------
     kind
-        What is chosen, as the error calls it: `joint`, `scene`.
+        Kind of the entry, for the error message, such as `joint` or `scene`.
     name
         The name that was given, perhaps by a user.
     things
@@ -33,7 +33,7 @@ def named(kind: str, name: str, things: Mapping[str, T]) -> T:
     Raises
     ------
     SimulationError
-        There is no such entry; the text names the closest one, or all of them.
+        There is no such entry; the message names the closest one, or all of them.
 
     """
     if name in things:

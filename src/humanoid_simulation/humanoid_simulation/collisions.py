@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What collides with what.
+Collision filtering with `contype` and `conaffinity`.
 
 Two geoms collide when a bit of the `contype` of one is set in the `conaffinity` of the other.
 """
@@ -23,18 +23,18 @@ _TRUNK = ('base_link', 'torso', 'head', 'left_thigh', 'right_thigh')
 _LEGS = ('thigh', 'shank', 'foot')
 
 COLLISION_GROUP = 3
-"""The group of the geoms that collide but are not to be seen."""
+"""The group of the geoms that collide but are not rendered."""
 
 
 @dataclass(frozen=True)
 class Bits:
-    """Which collisions a geom is the cause of, and which ones it suffers."""
+    """Collision bits of a geom, as MuJoCo defines them."""
 
     contype: int
     conaffinity: int
 
     def __or__(self, other: Bits) -> Bits:
-        """Return what has the collisions of both."""
+        """Combine the collision bits of both."""
         return Bits(self.contype | other.contype, self.conaffinity | other.conaffinity)
 
 
@@ -43,7 +43,7 @@ NOTHING = Bits(0, 0)
 
 def is_collision(geom: Any) -> bool:
     """
-    Whether a geom of a robot came from a collision element of its URDF.
+    Check whether a geom of a robot came from a collision element of its URDF.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def robot_bits(link: str, number: int, self_collision: str) -> Bits:
     Returns
     -------
     Bits
-        For the geoms of the link that collide at all.
+        For the collision geoms of the link.
 
     """
     own = 1 << (_FIRST_ROBOT + number)
@@ -85,14 +85,14 @@ def robot_bits(link: str, number: int, self_collision: str) -> Bits:
 
 
 def _arm_bits(link: str) -> Bits:
-    """Return what makes arms collide with each other, with the trunk and with the thighs."""
+    """Compute the bits for collisions of arms with each other, the trunk and the thighs."""
     if link.endswith(_ARMS):
         return Bits(_ARM_ON_ARM | _ARM_ON_TRUNK, _ARM_ON_ARM)
     return Bits(0, _ARM_ON_TRUNK) if link in _TRUNK else NOTHING
 
 
 def _leg_bits(link: str) -> Bits:
-    """Return what makes the left leg collide with the right one."""
+    """Compute the bits for collisions of the left leg with the right one."""
     if not link.endswith(_LEGS):
         return NOTHING
     return Bits(_LEG_ON_LEG, 0) if link.startswith('left') else Bits(0, _LEG_ON_LEG)

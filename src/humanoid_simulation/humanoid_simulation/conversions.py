@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn messages into what the simulator takes, and the other way round."""
+"""Conversions between messages and the types of the simulator."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def entity_state(message: EntityStateMessage) -> EntityState:
     Returns
     -------
     EntityState
-        In the frame of the header still; accelerations are zero.
+        Still in the frame of the header; accelerations are zero.
 
     Raises
     ------
     SimulationError
-        A number is not finite, or the quaternion has not the length 1.
+        A number is not finite, or the quaternion is not normalised.
 
     """
     pose, twist = message.pose, message.twist
@@ -45,7 +45,7 @@ def entity_state(message: EntityStateMessage) -> EntityState:
 
 def contact_message(contact: Contact) -> ContactMessage:
     """
-    Convert a contact to its message, in world axes as the contact is.
+    Convert a contact to its message, in world axes like the contact.
 
     Parameters
     ----------
@@ -77,6 +77,6 @@ def vector(message: Any) -> Array:
 
 
 def _vector_message(values: Array) -> Vector3:
-    """Return the message of a vector."""
+    """Convert an array (3,) to a Vector3 message."""
     x, y, z = values.tolist()
     return Vector3(x=x, y=y, z=z)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What makes it hard for a controller, besides pushes, noise and latency: missed ticks."""
+"""Disturbances of a controller besides pushes, noise and latency: missed ticks."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ import numpy as np
 
 class DropOuts:
     """
-    Random drop-outs of control: ticks that it misses because its computer is busy elsewhere.
+    Random drop-outs of control: ticks that are missed because the computer is overloaded.
 
     Parameters
     ----------
     random
         Source of random numbers.
     chance
-        Probability that a drop-out begins at a tick, unless one lasts already.
+        Probability that a drop-out starts at a tick, unless one is in progress.
     longest_ticks
-        A drop-out lasts 1 to so many ticks, each number as likely.
+        Maximum length of a drop-out; lengths from 1 tick are uniformly distributed.
 
     """
 
@@ -28,7 +28,7 @@ class DropOuts:
         self._left = 0
 
     def misses(self) -> bool:
-        """Tell whether the controller misses this tick."""
+        """Decide whether the controller misses this tick; call once per tick."""
         if self._left == 0 and self._random.random() < self._chance:
             self._left = int(self._random.integers(1, self._longest_ticks + 1))
         missed = self._left > 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the entities of a world are, and how to find them."""
+"""Descriptions of the entities of a world, and a search among them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PERSON = 'person'
 
 
 class Category(IntEnum):
-    """What kind of thing an entity is, numbered as in simulation_interfaces/EntityCategory."""
+    """Category of an entity, numbered as in simulation_interfaces/EntityCategory."""
 
     UNKNOWN = 0
     OBJECT = 1
@@ -30,7 +30,7 @@ class Category(IntEnum):
 
 @dataclass(frozen=True)
 class Description:
-    """What an entity is."""
+    """Category, text and tags of an entity."""
 
     category: Category
     text: str = ''
@@ -39,7 +39,7 @@ class Description:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A part of the world: all within a distance of a box, which may be a point."""
+    """A region of the world: all within a margin of a box, which may be a point."""
 
     low_m: Array
     high_m: Array
@@ -47,7 +47,7 @@ class Region:
 
     def meets(self, low_m: Array, high_m: Array) -> bool:
         """
-        Whether an axis-aligned box comes within the margin of the region.
+        Check whether an axis-aligned box comes within the margin of the region.
 
         Parameters
         ----------
@@ -61,15 +61,15 @@ class Region:
 
 @dataclass(frozen=True)
 class Tags:
-    """Which tags are wanted; none: they do not matter."""
+    """Filter for tags; without any, all entities match."""
 
     tags: tuple[str, ...] = ()
     all_of_them: bool = False
-    """Whether one of them is not enough."""
+    """Whether an entity must have all of the tags rather than any of them."""
 
     def match(self, tags: Sequence[str]) -> bool:
         """
-        Whether the tags of an entity satisfy the filter.
+        Check whether the tags of an entity satisfy the filter.
 
         Parameters
         ----------
@@ -83,7 +83,7 @@ class Tags:
 
 @dataclass(frozen=True)
 class Search:
-    """Which entities are wanted: those to which all of it applies that is not empty."""
+    """Filter for entities, which must match all criteria that are not empty."""
 
     pattern: str = ''
     """A regular expression for the whole name."""
@@ -109,7 +109,7 @@ class EntityCatalogue:
 
     def describe(self, entity: str) -> Description:
         """
-        Describe an entity: as `change` has set it, else from the scene and where it is now.
+        Describe an entity: as set by `change`, else from the scene and its current position.
 
         Parameters
         ----------
@@ -184,7 +184,7 @@ class EntityCatalogue:
         Raises
         ------
         SimulationError
-            The pattern is no regular expression.
+            The pattern is not a regular expression.
 
         """
         try:
@@ -201,7 +201,7 @@ class EntityCatalogue:
         ]
 
     def _fits(self, entity: str, search: Search) -> bool:
-        """Tell whether an entity is what is searched for, whatever its name."""
+        """Check whether an entity matches a filter, except for its name."""
         if search.region is not None and not search.region.meets(*self._world_box(entity)):
             return False
         description = self.describe(entity)
@@ -210,7 +210,7 @@ class EntityCatalogue:
         return search.tags.match(description.tags)
 
     def _world_box(self, entity: str) -> tuple[Array, Array]:
-        """Return two corners, (3,), of the box around an entity along the axes of the world."""
+        """Compute the corners (3,) of the axis-aligned bounding box of an entity in the world."""
         low_m, high_m = self._backend.entity_box(entity)
         state = self._backend.entity_state(entity)
         middle_m, half_m = (low_m + high_m) / 2.0, (high_m - low_m) / 2.0
@@ -220,6 +220,6 @@ class EntityCatalogue:
 
 
 def _is_one_of(category: Category, wanted: Sequence[int]) -> bool:
-    """Tell whether a category is wanted: an object may be one that moves, or one that does not."""
+    """Check whether a category is wanted; OBJECT includes dynamic and static objects."""
     is_object = category in (Category.DYNAMIC_OBJECT, Category.STATIC_OBJECT)
     return category in wanted or (is_object and Category.OBJECT in wanted)

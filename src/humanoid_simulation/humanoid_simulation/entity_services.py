@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of `simulation_interfaces` about entities: robots, and things of the scene."""
+"""Services of `simulation_interfaces` for entities: robots, and objects of the scene."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ from simulation_interfaces.srv import (
 )
 
 MOST_THINGS = 1000
-"""In a scene: each one costs time in every step, and when another one comes or goes."""
+"""Maximum number in a scene: each one costs time in every step and in every scene change."""
 _NAME = re.compile(r'[A-Za-z0-9_][A-Za-z0-9_. -]*')
 _NAMESPACE = re.compile(r'/?([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?')
 
@@ -68,7 +68,7 @@ class EntityServices:
     Parameters
     ----------
     node
-        The node that offers them, below its own name.
+        The node that provides them, below its own name.
     world
         The world that they act on.
 
@@ -97,29 +97,29 @@ class EntityServices:
         return self._world.backend
 
     def _find(self, request: GetEntities.Request, response: GetEntities.Response) -> None:
-        """Name the entities that a filter lets through."""
+        """List the entities that match a filter."""
         response.entities = self._catalogue.found(_search(request.filters))
 
     def _tell_states(
         self, request: GetEntitiesStates.Request, response: GetEntitiesStates.Response
     ) -> None:
-        """Tell where the entities are that a filter lets through."""
+        """Report the states of the entities that match a filter."""
         response.entities = self._catalogue.found(_search(request.filters))
         response.states = [self._state(entity) for entity in response.entities]
 
     def _tell_state(self, request: GetEntityState.Request, response: Any) -> None:
-        """Tell where an entity is."""
+        """Report the state of an entity."""
         response.state = self._state(self._entity(request.entity))
 
     def _tell_info(self, request: GetEntityInfo.Request, response: Any) -> None:
-        """Tell what an entity is."""
+        """Report the description of an entity."""
         description = self._catalogue.describe(self._entity(request.entity))
         info = EntityInfo(description=description.text, tags=list(description.tags))
         info.category.category = int(description.category)
         response.info = info
 
     def _set_info(self, request: SetEntityInfo.Request, _: Any) -> None:
-        """Say something else of an entity from now on."""
+        """Override the description of an entity."""
         entity, info = self._entity(request.entity), request.info
         if info.category.category not in list(Category):
             raise SimulationError(
@@ -129,11 +129,11 @@ class EntityServices:
         self._catalogue.change(entity, Description(category, info.description, tuple(info.tags)))
 
     def _tell_bounds(self, request: GetEntityBounds.Request, response: Any) -> None:
-        """Tell how much room an entity takes, in its axes."""
+        """Report the bounding box of an entity, in its own axes."""
         response.bounds = _box(*self._backend.entity_box(self._entity(request.entity)))
 
     def _tell_places(self, request: GetNamedPoses.Request, response: Any) -> None:
-        """Tell the places that the scene names: where to stand."""
+        """List the named places of the scene, which are poses to stand in."""
         for place in self._backend.scene.places:
             surface = place.surface.name if place.surface else ''
             tags = [tag for tag in (place.room, surface) if tag]
@@ -146,7 +146,7 @@ class EntityServices:
             response.poses.append(pose)
 
     def _tell_place_bounds(self, request: GetNamedPoseBounds.Request, _: Any) -> None:
-        """Refuse: a place is where to stand, not room for something."""
+        """Reject the request: a place is a pose to stand in, without bounds."""
         with refusing(Result.RESULT_NOT_FOUND):
             self._backend.scene.place(request.name)
         raise Refusal(
@@ -156,7 +156,7 @@ class EntityServices:
         )
 
     def _tell_spawnables(self, _: Any, response: GetSpawnables.Response) -> None:
-        """Tell the classes of things that can be made; files are not looked for."""
+        """List the classes of objects that can be spawned; files are not searched for."""
         for uri, description, thing in spawnables():
             half_m = np.array(thing.box_m) / 2.0
             response.spawnables.append(
@@ -168,14 +168,14 @@ class EntityServices:
             )
 
     def _put(self, request: SetEntityState.Request, _: Any) -> None:
-        """Put an entity somewhere; what it is fixed to does not let it go."""
+        """Set the state of an entity; a fixed one is rejected."""
         entity = self._entity(request.entity)
         self._world.refuse_after_failure()
         with refusing(SetEntityState.Response.INVALID_POSE):
             self._world.put(entity, self._in_world(request.state))
 
     def _spawn(self, request: SpawnEntity.Request, response: SpawnEntity.Response) -> None:
-        """Make a thing."""
+        """Spawn an object."""
         name = self._new_name(request)
         if not _NAMESPACE.fullmatch(request.entity_namespace):
             raise Refusal(
@@ -199,7 +199,7 @@ class EntityServices:
         response.entity_name = name
 
     def _delete(self, request: DeleteEntity.Request, _: Any) -> None:
-        """Take a thing out of the world."""
+        """Delete an object from the scene."""
         entity, scene = self._entity(request.entity), self._backend.scene
         things = tuple(thing for thing in scene.things if thing.name != entity)
         if len(things) == len(scene.things):
@@ -211,12 +211,12 @@ class EntityServices:
         self._catalogue.forget([entity])
 
     def _entity(self, name: str) -> str:
-        """Return the entity that is meant, or raise Refusal."""
+        """Resolve the name of an entity, or raise Refusal."""
         with refusing(Result.RESULT_NOT_FOUND):
             return self._backend.entity(name)
 
     def _state(self, entity: str) -> EntityStateMessage:
-        """Return the message of the state of an entity."""
+        """Build the message of the state of an entity."""
         state, message = self._backend.entity_state(entity), EntityStateMessage()
         message.header.frame_id = WORLD
         fill_stamp(message.header.stamp, self._backend.time_s)
@@ -229,7 +229,7 @@ class EntityServices:
         return message
 
     def _in_world(self, message: EntityStateMessage) -> EntityState:
-        """Return a state that is given in a frame: the world, or an entity as it is now."""
+        """Transform a state to the world from its frame: the world, or the pose of an entity."""
         state, frame = entity_state(message), message.header.frame_id
         if frame in ('', WORLD):
             return state
@@ -243,7 +243,7 @@ class EntityServices:
         )
 
     def _new_name(self, request: SpawnEntity.Request) -> str:
-        """Return the name of what is to be made."""
+        """Determine the name of a new entity, or raise Refusal."""
         name, taken = request.name, {*self._backend.entities, FLOOR, WORLD}
         if not name and request.allow_renaming:
             words = re.findall(r'\w+', request.entity_resource.uri.rpartition('/')[2])
@@ -264,7 +264,7 @@ class EntityServices:
 
 
 def _without(scene: Scene, entity: str, things: tuple[Any, ...]) -> Scene:
-    """Return a scene without an entity, its surfaces, and what places say of these."""
+    """Return a scene without an entity, its surfaces, and references of places to these."""
     gone = {
         surface.name
         for surface in scene.surfaces
@@ -279,7 +279,7 @@ def _without(scene: Scene, entity: str, things: tuple[Any, ...]) -> Scene:
 
 
 def _search(filters: EntityFilters) -> Search:
-    """Return what is searched for."""
+    """Convert a message to an entity filter."""
     return Search(
         filters.filter,
         tuple(category.category for category in filters.categories),
@@ -289,7 +289,7 @@ def _search(filters: EntityFilters) -> Search:
 
 
 def _region(bounds: Bounds) -> Region | None:
-    """Return a part of the world; None is all of it."""
+    """Convert bounds to a region; None is the whole world."""
     if bounds.type == Bounds.TYPE_EMPTY:
         return None
     points = [vector(point) for point in bounds.points]
@@ -311,7 +311,7 @@ def _region(bounds: Bounds) -> Region | None:
 
 
 def _box(low_m: Any, high_m: Any) -> Bounds:
-    """Return the message of a box."""
+    """Build the message of a box."""
     bounds = Bounds(type=Bounds.TYPE_BOX)
     for corner_m in (low_m, high_m):
         point = Vector3()
@@ -321,5 +321,5 @@ def _box(low_m: Any, high_m: Any) -> Bounds:
 
 
 def _tags(wanted: TagsFilter) -> Tags:
-    """Return which tags are wanted."""
+    """Convert a message to a tag filter."""
     return Tags(tuple(wanted.tags), wanted.filter_mode == TagsFilter.FILTER_MODE_ALL)

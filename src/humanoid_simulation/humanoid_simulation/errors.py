@@ -5,4 +5,4 @@ from __future__ import annotations
 
 
 class SimulationError(Exception):
-    """Tell in sentences what the simulator refuses, or why it cannot go on."""
+    """A request that the simulator rejects, or a failure; its message is meant for users."""

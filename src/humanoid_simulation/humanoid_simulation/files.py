@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files that this package installs, and how it writes others."""
+"""Installed files of this package, and atomic writing of files."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ SCENE_SUFFIXES = ('.yaml', '.yml')
 
 
 def share() -> Path:
-    """Return the folder with the scenes and the configuration."""
+    """Return the share directory, with the scenes and the configuration."""
     from ament_index_python.packages import get_package_share_directory
 
     return Path(get_package_share_directory('humanoid_simulation'))
 
 
 def installed_scenes() -> dict[str, Path]:
-    """Return the files of the scenes that are installed, by name."""
+    """Find the files of the installed scenes, by name."""
     return {path.stem: path for path in sorted((share() / 'scenes').glob('*.yaml'))}
 
 
 def replace_file(path: Path, content: bytes) -> None:
     """
-    Write a file that appears complete or not at all.
+    Write a file atomically: it appears complete or not at all.
 
     Parameters
     ----------
     path
-        The file; one that is there is replaced.
+        Path of the file; an existing file is replaced.
     content
-        What it is to contain.
+        Content of the file.
 
     Raises
     ------
     SimulationError
-        It cannot be written; a file that was there stays as it was.
+        It cannot be written; an existing file is left unchanged.
 
     """
     new = path.with_name(f'.{path.name}.{os.getpid()}')

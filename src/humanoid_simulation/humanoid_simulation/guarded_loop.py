@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep a simulator alive when its physics is at an end."""
+"""Control loop that survives errors of the physics."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from humanoid_simulation.errors import SimulationError
 
 class GuardedLoop(ControlLoop):
     """
-    A control loop that stands still after an error of the simulation, until it is reset.
+    A control loop that halts after an error of the simulation, until it is reset.
 
     Parameters
     ----------
     backend
         The simulated world.
     brains
-        Controllers by the names of robots; a robot without one gets no targets.
+        Controllers by robot name; a robot without one gets no targets.
     say
         Called with the message of an error.
 
@@ -39,11 +39,11 @@ class GuardedLoop(ControlLoop):
 
     @property
     def has_failed(self) -> bool:
-        """Tell whether nothing goes on before a reset."""
+        """Whether the loop has halted after an error, until a reset."""
         return self._has_failed
 
     def tick(self) -> Mapping[str, Observation]:
-        """Let a period pass, if that is possible; return what was observed before it."""
+        """Advance by a period unless halted; return the observations before it."""
         if not self._has_failed:
             try:
                 return super().tick()
@@ -54,17 +54,17 @@ class GuardedLoop(ControlLoop):
 
     def reset(self, keyframe: str = 'home') -> None:
         """
-        Reset robots and brains, and end the standstill after an error; time goes on.
+        Reset robots and controllers, and clear an error; time continues.
 
         Parameters
         ----------
         keyframe
-            Name of the posture in which the robots begin again.
+            Name of the posture in which the robots start again.
 
         Raises
         ------
         SimulationError
-            There is no keyframe of that name; a standstill then lasts.
+            There is no keyframe of that name; an error is not cleared then.
 
         """
         super().reset(keyframe)

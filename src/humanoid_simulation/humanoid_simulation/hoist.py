@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A hoist that puts a fallen robot onto its feet."""
+"""A hoist that lifts a fallen robot onto its feet."""
 
 from __future__ import annotations
 
@@ -17,32 +17,32 @@ GRAVITY_M_S2 = 9.81
 
 @dataclass(frozen=True)
 class HoistSettings:
-    """How the hoist works; scaled by the mass and the height of what it lifts."""
+    """Settings of the hoist, which are scaled by the mass and the height of the robot."""
 
     lift_m_s: float = 0.5
-    """How fast it pulls up."""
+    """Lifting speed."""
     lower_m_s: float = 0.15
-    """How fast it lets down."""
+    """Lowering speed."""
     clearance: float = 0.15
-    """How high it lifts above the height of standing, as a share of that."""
+    """How far it lifts above the standing height, as a share of that."""
     wait_s: float = 2.5
-    """How long it keeps the robot up there, so that it can take the posture of standing."""
+    """How long it holds the robot up, so that it can assume its standing posture."""
     release_s: float = 1.0
-    """How long it takes to let go."""
+    """Time over which the forces fade out at the release."""
     rate_1_s: float = 6.0
-    """The natural frequency of its springs; they are damped critically."""
+    """Natural frequency of its springs, which are critically damped."""
     gyration: float = 0.6
-    """The radius of gyration of what it lifts, as a share of its height."""
+    """Radius of gyration of the robot, as a share of half its standing height."""
     slack: float = 0.15
-    """It lets go when it carries less than this share of the weight."""
+    """It releases the robot when it carries less than this share of the weight."""
     upright_rad: float = 0.15
-    """How well upright the robot has to be before the wait begins."""
+    """Maximum tilt of the robot at which the wait starts."""
     give_up_s: float = 20.0
-    """When it lets go even of a robot that does not stand."""
+    """Timeout after which it releases even a robot that does not stand."""
 
 
 class _Task(Enum):
-    """What the hoist does."""
+    """Phase of the hoist."""
 
     LIFT = 'lift'
     WAIT = 'wait'
@@ -53,10 +53,10 @@ class _Task(Enum):
 
 class Hoist:
     """
-    Springs and dampers between the base of a robot and a point that moves.
+    Springs and dampers between the base of a robot and a moving suspension point.
 
-    The point goes up above where the robot lies, waits there and comes down; meanwhile the base
-    is turned upright, facing where it faced. When the feet carry the robot, the hoist lets go.
+    The point rises above where the robot lies, waits there and comes down; meanwhile the base is
+    turned upright, with its heading kept. When the feet carry the robot, the hoist releases it.
 
     Parameters
     ----------
@@ -90,19 +90,19 @@ class Hoist:
 
     @property
     def is_done(self) -> bool:
-        """Tell whether the hoist has let go."""
+        """Whether the hoist has released the robot."""
         return self._task is _Task.DONE
 
     def wrench(self, state: EntityState, passed_s: float) -> tuple[Array, Array]:
         """
         Compute the wrench on the base for the coming period, and advance the hoist.
 
-        The suspension point moves on, and the hoist goes over to its next phase when that is due.
+        The suspension point moves on, and the hoist enters its next phase when that is due.
 
         Parameters
         ----------
         state
-            Pose and velocity of the base now, in the world frame.
+            Current pose and velocity of the base, in the world frame.
         passed_s
             Simulated time since the last call.
 
@@ -123,13 +123,13 @@ class Hoist:
 
     @property
     def _share(self) -> float:
-        """Return the share of the forces that act; it falls to zero at the end."""
+        """Return the share of the forces that is applied; it fades to zero during the release."""
         if self._task is _Task.RELEASE:
             return max(0.0, 1.0 - self._elapsed_s / self._settings.release_s)
         return 0.0 if self.is_done else 1.0
 
     def _move(self, passed_s: float) -> None:
-        """Let the point go up or down."""
+        """Raise or lower the suspension point."""
         s = self._settings
         top_m = self._ground_m + (1.0 + s.clearance) * self._standing_m
         if self._task is _Task.LIFT:
@@ -138,28 +138,28 @@ class Hoist:
             self._goal_m[2] = max(self._ground_m, self._goal_m[2] - s.lower_m_s * passed_s)
 
     def _pull(self, state: EntityState) -> Array:
-        """Return the force of the springs, which also carries the weight while it lifts."""
+        """Compute the spring force with gravity compensation; it never pushes down."""
         rate, off_m = self._settings.rate_1_s, self._goal_m - state.position_m
         force = self._mass_kg * (rate**2 * off_m - 2.0 * rate * state.linear_velocity_m_s)
         force[2] = max(0.0, force[2] + self._mass_kg * GRAVITY_M_S2)
         return force
 
     def _torque(self, state: EntityState, turn_rad: Array) -> Array:
-        """Return the torque that turns the base upright."""
+        """Compute the torque that turns the base upright."""
         rate = self._settings.rate_1_s
         return self._inertia_kgm2 * (
             rate**2 * turn_rad - 2.0 * rate * state.angular_velocity_rad_s
         )
 
     def _next(self, state: EntityState, tilt_rad: float, lifts_n: float) -> _Task:
-        """Return what to do from now on."""
+        """Determine the phase from now on, and restart its timer if it changes."""
         task = self._following(state, tilt_rad, lifts_n)
         if task is not self._task:
             self._elapsed_s = 0.0
         return task
 
     def _following(self, state: EntityState, tilt_rad: float, lifts_n: float) -> _Task:
-        """Return what follows what is done now, if that is complete."""
+        """Determine the next phase if the current one is complete, else the current one."""
         s, task = self._settings, self._task
         if task is _Task.RELEASE:
             return _Task.DONE if self._elapsed_s >= s.release_s else task

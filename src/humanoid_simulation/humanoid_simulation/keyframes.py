@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Postures that have a name."""
+"""Keyframes: named postures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SIDES = {'left_': 1.0, 'right_': -1.0}
 
 @dataclass(frozen=True)
 class Keyframe:
-    """The joints that are not at zero, by their names without a prefix, and how the base lies."""
+    """Joint positions by names without a prefix, zero by default, and the tilt of the base."""
 
     joints_rad: Mapping[str, float] = field(default_factory=dict)
     roll_rad: float = 0.0
@@ -32,7 +32,7 @@ class Keyframe:
         joints
             Names of the n joints, in the order of the result.
         prefix
-            What these names begin with; the keyframe's own are without it.
+            Prefix of these names, which those of the keyframe lack.
 
         Returns
         -------
@@ -53,7 +53,7 @@ class Keyframe:
 
 
 def load_keyframes() -> dict[str, Keyframe]:
-    """Return the installed keyframes."""
+    """Load the installed keyframes, by name."""
     table = load_table(share() / 'config' / 'keyframes.yaml')
     return {name: _keyframe(table.table(name)) for name in table.names}
 
@@ -70,7 +70,7 @@ def _keyframe(table: Table) -> Keyframe:
 
 
 def _both_sides(joints_rad: Mapping[str, float]) -> dict[str, float]:
-    """Return the joints of both sides for those that are named without one."""
+    """Expand joints that are named without a side to both sides, mirrored."""
     result: dict[str, float] = {}
     for name, position in joints_rad.items():
         if name.startswith((*SIDES, 'waist_', 'head_')):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of how far sensors are off."""
+"""The parameters of the sensor noise."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from humanoid_simulation.laser.scanner import ScanNoise
 
 
 def _deviation(default: float, of_what: str) -> float:
-    """Declare a standard deviation."""
+    """Declare the parameter of a standard deviation."""
     return parameter(
         default,
         f'Standard deviation of {of_what}, at sensor_noise 1.',
@@ -24,7 +24,7 @@ def _deviation(default: float, of_what: str) -> float:
 
 @dataclass(frozen=True)
 class NoiseParameters:
-    """How far sensors are off."""
+    """Noise of all sensors: joints, inertial measurement unit, feet, cameras and scanners."""
 
     sensor_noise: float = parameter(
         0.0,
@@ -84,7 +84,7 @@ class NoiseParameters:
 
     @property
     def noise(self) -> SensorNoise:
-        """Return the noise that the parameters describe."""
+        """Return the noise of the other sensors that the parameters describe."""
         return SensorNoise(
             position_rad=self.joint_position_noise_rad,
             velocity_rad_s=self.joint_velocity_noise_rad_s,

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How fast the time of the world passes."""
+"""Pacing of the simulation at a real-time factor."""
 
 from __future__ import annotations
 
 from humanoid_simulation.errors import SimulationError
 
 MOST_LATE_S = 0.1
-"""A computer that was busy elsewhere for longer does not catch up with the rest."""
+"""Maximum delay that is caught up with; the rest of a longer one is skipped."""
 _WINDOW_S = 1.0
 _LARGEST_FACTOR = 100.0
 
@@ -15,8 +15,8 @@ class Pacer:
     """
     Schedules the control periods at a real-time factor, and measures the one that is reached.
 
-    The factor is how many seconds of the world pass in a real one; 0 is as fast as possible. All
-    times but the period are those of a monotonic clock.
+    The factor is the simulated time per real time; 0 is as fast as possible. All times except the
+    period are those of a monotonic clock.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class Pacer:
     factor
         The real-time factor, from 0 to 100.
     now_s
-        Time now, at which the first period is due.
+        Current time, at which the first period is due.
 
     Raises
     ------
@@ -41,7 +41,7 @@ class Pacer:
 
     @property
     def factor(self) -> float:
-        """Return how fast the time of the world is to pass."""
+        """Return the real-time factor that is set."""
         return self._factor
 
     @property
@@ -51,14 +51,14 @@ class Pacer:
 
     def change(self, factor: float, now_s: float) -> None:
         """
-        Set the real-time factor, and begin to pace and to measure anew.
+        Set the real-time factor, and restart pacing and measuring.
 
         Parameters
         ----------
         factor
-            Simulated seconds in a real one; 0 is as fast as possible.
+            Simulated seconds per real second; 0 is as fast as possible.
         now_s
-            Time now, by a monotonic clock.
+            Current time of a monotonic clock.
 
         Raises
         ------
@@ -71,12 +71,12 @@ class Pacer:
 
     def restart(self, now_s: float) -> None:
         """
-        Resume after a pause; what was missed meanwhile is not caught up with.
+        Resume after a pause, without catching up on missed periods.
 
         Parameters
         ----------
         now_s
-            Time now, by a monotonic clock, at which the next period is due.
+            Current time of a monotonic clock, at which the next period is due.
 
         """
         self._next_s = now_s
@@ -91,7 +91,7 @@ class Pacer:
         Parameters
         ----------
         now_s
-            Time now, by a monotonic clock.
+            Current time of a monotonic clock.
 
         """
         return 0.0 if self._factor == 0.0 else max(0.0, self._next_s - now_s)
@@ -103,7 +103,7 @@ class Pacer:
         Parameters
         ----------
         now_s
-            Time now, by a monotonic clock.
+            Current time of a monotonic clock.
 
         """
         self._periods += 1
@@ -116,12 +116,12 @@ class Pacer:
 
     @property
     def reached(self) -> float | None:
-        """Return the factor that was reached in the last second; None before the first one."""
+        """Return the factor reached in the last second; None before the first one has passed."""
         return self._reached
 
 
 def _checked(factor: float) -> float:
-    """Refuse a factor that makes no sense."""
+    """Validate the range of a real-time factor."""
     if not 0.0 <= factor <= _LARGEST_FACTOR:
         raise SimulationError(
             f'The real-time factor cannot be {factor:g}. Give 1 for real time, 2 for twice as '

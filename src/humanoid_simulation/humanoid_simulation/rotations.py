@@ -19,7 +19,7 @@ def from_rpy(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Array:
     Parameters
     ----------
     roll_rad, pitch_rad, yaw_rad
-        Turns about the fixed axes x, y and z, in this order, as in a URDF.
+        Rotations about the fixed axes x, y and z, in this order, as in a URDF.
 
     Returns
     -------
@@ -42,7 +42,7 @@ def from_rpy(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Array:
 
 def product(first: Array, second: Array) -> Array:
     """
-    Compose two rotations: the second one is done first.
+    Compose two rotations, of which the second one is applied first.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def rotated(vector: Array, rotation: Array) -> Array:
 
 def heading_rad(rotation: Array) -> float:
     """
-    Compute the heading of a body, also of one that has pitched over.
+    Compute the heading of a body, even if it has fallen onto its face or back.
 
     The heading of a robot that lies on its face or back is the one that it had when it stood.
 

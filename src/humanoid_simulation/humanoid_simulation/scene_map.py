@@ -17,7 +17,7 @@ import numpy as np
 
 _GREY = {OCCUPIED: 0, FREE: 254}
 _UNKNOWN_GREY = 205
-"""Between the thresholds below, as map_saver writes it."""
+"""Between the thresholds below, as written by map_saver."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -27,7 +27,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv
-        Arguments of the command line, without the program; None takes those of the process.
+        Arguments of the command line, without the program; None uses those of the process.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    """Describe the command line."""
+    """Create the parser of the command line."""
     parser = argparse.ArgumentParser(
         prog='scene_map',
         description='Write the map of a scene that a perfect mapper would have drawn, as .pgm '
@@ -119,7 +119,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _layer(arguments: argparse.Namespace) -> Layer:
-    """Return the heights that the arguments name."""
+    """Return the range of heights that the arguments give."""
     if arguments.height is not None:
         return Layer(arguments.height, arguments.height)
     return Layer(arguments.from_height, arguments.to_height)
@@ -129,7 +129,7 @@ def write_map(drawn: OccupancyMap, stem: Path) -> tuple[Path, Path]:
     """
     Write an occupancy map as .pgm and .yaml, the format of `map_server`.
 
-    Each file appears complete or not at all; the .yaml, which names the .pgm, comes last.
+    Each file is written atomically; the .yaml, which names the .pgm, comes last.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def write_map(drawn: OccupancyMap, stem: Path) -> tuple[Path, Path]:
     for value, grey in _GREY.items():
         greys[drawn.cells == value] = grey
     header = f'P5\n{columns} {rows}\n255\n'.encode()
-    # A picture begins with the row of the largest y.
+    # The first row of an image is that of the largest y.
     replace_file(picture, header + greys[::-1].tobytes())
     x_m, y_m = drawn.origin_m
     text = (

@@ -35,7 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv
-        Arguments of the command line, without the program; None takes those of the process.
+        Arguments of the command line, without the program; None uses those of the process.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def places_text(scene: Scene) -> str:
 
 
 def _depth(scene: Scene, surface: Surface) -> str:
-    """Return how thick a surface is, if it is a board with something free below."""
+    """Format the thickness of a surface, if it is a board with free space below."""
     base = surface.name.partition('/')[0]
     boards = sum(each.name.partition('/')[0] == base for each in scene.surfaces)
     is_board = boards > 1 or scene.thing(base).kind in _OPEN_BELOW
@@ -107,13 +107,13 @@ def _depth(scene: Scene, surface: Surface) -> str:
 
 
 def _container(scene: Scene, surface: Surface) -> str:
-    """Return that a surface is an opening, if it is one."""
+    """Format the flag of a container, if the surface is the opening of one."""
     is_one = scene.thing(surface.name.partition('/')[0]).kind in _CONTAINERS
     return ', container: true' if is_one else ''
 
 
 def _fixtures(scene: Scene, surface: Surface) -> str:
-    """Return what stands on a surface for good, if anything does."""
+    """Format the outlines and heights of the fixtures on a surface, if there are any."""
     found = []
     for thing in scene.things:
         x_m, y_m, foot_m = thing.position_m

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Answer requests of `simulation_interfaces`: every response has a result with a sentence."""
+"""Results of `simulation_interfaces` services: every response has a code and a message."""
 
 from __future__ import annotations
 
@@ -17,10 +17,19 @@ Do = Callable[[Any, Any], None]
 
 
 class Refusal(SimulationError):
-    """A request that is not fulfilled, with the number that says why to programs."""
+    """
+    A rejected request, with a result code for programs.
+
+    Parameters
+    ----------
+    result
+        The code: a constant of `Result`, or of the response of the service.
+    sentence
+        Message for users.
+
+    """
 
     def __init__(self, result: int, sentence: str) -> None:
-        """Take a constant of Result, or of the service, and a sentence for people."""
         super().__init__(sentence)
         self.result = result
 
@@ -38,7 +47,7 @@ def refusing(number: int) -> Iterator[None]:
     Raises
     ------
     Refusal
-        The block raised SimulationError; the text is the same.
+        The block raised SimulationError; the message is the same.
 
     """
     try:
@@ -60,7 +69,7 @@ def refusing_resource(response: Any) -> Iterator[None]:
     Raises
     ------
     Refusal
-        The block raised ResourceError; the text is the same.
+        The block raised ResourceError; the message is the same.
 
     """
     try:
@@ -120,7 +129,7 @@ def failure(error: SimulationError) -> Result:
 
 
 def _answer(do: Do, request: Any, response: Any) -> Any:
-    """Answer at once."""
+    """Fill the response; an error becomes its result."""
     try:
         do(request, response)
         response.result.result = Result.RESULT_OK
@@ -132,7 +141,7 @@ def _answer(do: Do, request: Any, response: Any) -> Any:
 async def _answer_later(
     do: Callable[[Any, Any], Awaitable[None]], request: Any, response: Any
 ) -> Any:
-    """Answer when it is done."""
+    """Fill the response when the coroutine has ended; an error becomes its result."""
     try:
         await do(request, response)
         response.result.result = Result.RESULT_OK

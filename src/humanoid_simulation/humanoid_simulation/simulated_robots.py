@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make the world and the control of its robots, as parameters say."""
+"""Build the world and the controllers of its robots from parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from humanoid_simulation.simulator_parameters import SimulatorParameters
 
 @dataclass(frozen=True, eq=False)
 class SimulatedRobots:
-    """A world, and what decides what each of its robots does."""
+    """A world, and the controller of each of its robots, by name."""
 
     backend: MujocoBackend
     controls: dict[str, WalkingRobotControl]
@@ -41,14 +41,14 @@ def simulated_robots(
     Returns
     -------
     SimulatedRobots
-        The world, with all robots standing in the posture in which walking begins.
+        The world, with all robots standing in the posture in which walking starts.
 
     Raises
     ------
     DescriptionError
         The model of the robot cannot be made.
     SimulationError
-        The scene cannot be read, or such a world cannot be simulated.
+        The scene cannot be read, or the world cannot be simulated.
 
     """
     description = humanoid(parameters.scale, parameters.prefix, parameters.hands)
@@ -69,7 +69,7 @@ def _backend(
     scene: Scene,
     controls: dict[str, WalkingRobotControl],
 ) -> MujocoBackend:
-    """Return the world; home is where walking begins."""
+    """Build the world; its keyframe `home` is the posture in which walking starts."""
     home = next(iter(controls.values())).home_rad
     unprefixed = {name.removeprefix(description.prefix): at for name, at in home.items()}
     return MujocoBackend(
@@ -82,7 +82,7 @@ def _backend(
 
 
 def _settings(parameters: SimulatorParameters) -> BackendSettings:
-    """Return how the world is computed."""
+    """Build the settings of the backend."""
     return BackendSettings(
         Physics(1.0 / parameters.physics_rate_hz, parameters.self_collision),
         parameters.steps_per_period,
@@ -94,7 +94,7 @@ def _settings(parameters: SimulatorParameters) -> BackendSettings:
 
 
 def _placements(parameters: SimulatorParameters) -> list[Placement]:
-    """Return where the robots begin: one to the left of the other."""
+    """Compute the initial poses of the robots, each to the left of the previous one."""
     yaw_rad = parameters.start_yaw_rad
     return [
         Placement(

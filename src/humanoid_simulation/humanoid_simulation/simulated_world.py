@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The world that services act on: what is in it, and whether its time passes."""
+"""The world that services act on: its entities, and whether it is playing."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from humanoid_simulation.scene import Scene
 from rclpy.task import Future
 
 MOST_STEPS = 100_000
-"""Of one call: whoever mistypes a number should not have to wait for hours."""
+"""Maximum of a call: a mistyped number should not take hours."""
 
 
 class State(IntEnum):
-    """Whether the world moves, numbered as in simulation_interfaces/SimulationState."""
+    """State of the simulation, numbered as in simulation_interfaces/SimulationState."""
 
     STOPPED = 0
     PLAYING = 1
@@ -35,7 +35,7 @@ class SimulatedWorld:
     Parameters
     ----------
     backend, loop, host
-        The world, the control loop of its robots, and what ticks that.
+        The backend, the control loop of its robots, and the host that ticks the loop.
     steps_per_period
         Physics steps in a control period.
     follow
@@ -66,23 +66,23 @@ class SimulatedWorld:
 
     @property
     def state(self) -> State:
-        """Tell whether time passes."""
+        """Return the state of the simulation: stopped, playing or paused."""
         if not self._host.paused:
             return State.PLAYING
         return State.STOPPED if self._is_stopped else State.PAUSED
 
     @property
     def is_stepping(self) -> bool:
-        """Tell whether steps are still to be done, in a pause; another request ends them."""
+        """Whether steps are pending in a pause; another request ends them."""
         return self._host.is_stepping
 
     @property
     def has_failed(self) -> bool:
-        """Tell whether the physics has failed, so that nothing moves before a reset."""
+        """Whether the physics has failed, so that nothing moves before a reset."""
         return self._loop.has_failed
 
     def refuse_after_failure(self) -> None:
-        """Refuse what has no effect before a reset."""
+        """Raise SimulationError if the physics has failed and needs a reset."""
         if self.has_failed:
             raise SimulationError('The physics has failed; reset the simulation first.')
 
@@ -95,7 +95,7 @@ class SimulatedWorld:
         entity
             Name of an entity that can be moved; '' is the robot without a name.
         state
-            Where it is to be, and how it is to move, in the world frame.
+            Its new pose and velocity, in the world frame.
 
         Raises
         ------
@@ -110,12 +110,12 @@ class SimulatedWorld:
 
     def pause(self, paused: bool) -> None:
         """
-        Pause or resume the simulation; steps that are still to be done are dropped.
+        Pause or resume the simulation; pending steps are dropped.
 
         Parameters
         ----------
         paused
-            Whether time stands still.
+            Whether to pause.
 
         Raises
         ------
@@ -135,7 +135,7 @@ class SimulatedWorld:
         Parameters
         ----------
         keyframe
-            Name of the posture in which the robots begin again.
+            Name of the posture in which the robots start again.
 
         Raises
         ------
@@ -149,16 +149,17 @@ class SimulatedWorld:
 
     def reset(self, state: bool = True, spawned: bool = True, keyframe: str = 'home') -> None:
         """
-        Put back what is wanted; time goes on. What had failed runs again, unless it was paused.
+        Reset the state, the spawned objects, or both; time does not go back.
 
         Parameters
         ----------
         state
-            Whether all is put where it began, robots into the posture of the keyframe.
+            Whether robots and objects return to their initial poses, with robots in the keyframe.
+            This clears a failure of the physics; the simulation resumes unless it was paused.
         spawned
-            Whether things that were made go, and those that were deleted come back.
+            Whether spawned objects are deleted, and deleted ones restored.
         keyframe
-            The name of a posture.
+            Name of a posture.
 
         """
         had_failed = self.has_failed
@@ -171,19 +172,19 @@ class SimulatedWorld:
 
     def load(self, scene: Scene, keyframe: str = 'home') -> None:
         """
-        Replace the scene by another one, with robots where they begin, and stop the time.
+        Replace the scene by another one, with robots at their initial poses, and stop the time.
 
         Parameters
         ----------
         scene
-            The new scene, to which later resets go back.
+            The new scene, which later resets restore.
         keyframe
-            Name of the posture in which the robots begin.
+            Name of the posture in which the robots start.
 
         Raises
         ------
         SimulationError
-            No such world can be simulated, or there is no such keyframe.
+            The world cannot be simulated, or there is no such keyframe.
 
         """
         self.change_scene(scene)
@@ -193,17 +194,17 @@ class SimulatedWorld:
 
     def change_scene(self, scene: Scene) -> None:
         """
-        Switch to a scene with other objects; robots and objects in both of them stay as they are.
+        Switch to a scene with other objects; robots and objects in both scenes keep their states.
 
         Parameters
         ----------
         scene
-            The scene from now on, until a reset of what was spawned.
+            The scene from now on, until a reset of spawned objects.
 
         Raises
         ------
         SimulationError
-            No such world can be simulated; the one before goes on.
+            The world cannot be simulated; the previous one continues.
 
         """
         self.backend.change_scene(scene)

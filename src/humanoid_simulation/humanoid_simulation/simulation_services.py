@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of `simulation_interfaces` about time and worlds, and what they lack: pushes."""
+"""Services of `simulation_interfaces` for time and worlds; also pushes and `stand_up`."""
 
 from __future__ import annotations
 
@@ -74,9 +74,9 @@ _ABOUT = (
     'boxes, cylinders and spheres.'
 )
 _FEEDBACK_PERIODS = 10
-"""After so many control periods the action SimulateSteps says how far it is."""
+"""Control periods between two feedback messages of the action SimulateSteps."""
 _QUIT_S = 0.2
-"""So long after the answer, the simulator ends."""
+"""Delay from the response to the shutdown of the simulator."""
 
 
 class SimulationServices:
@@ -86,11 +86,11 @@ class SimulationServices:
     Parameters
     ----------
     node
-        The node that offers them, below its own name, but `stand_up` in that of each robot.
+        The node that provides them, below its own name; `stand_up` in that of each robot.
     world
         The world that they act on.
     parameters : SimulatorParameters
-        The parameters of the simulator, of which `scene` and `reset_keyframe` count.
+        The parameters of the simulator, of which `scene` and `reset_keyframe` are used.
 
     Raises
     ------
@@ -114,7 +114,7 @@ class SimulationServices:
         ):
             node.create_service(kind, f'~/{service}', answering(do))
         node.create_service(GetSimulatorFeatures, '~/get_simulator_features', _tell_features)
-        # In groups of their own: while they wait for their steps, all else is heard.
+        # In their own callback groups: all other callbacks run while they wait for their steps.
         create_async_service(
             node,
             StepSimulation,
@@ -137,22 +137,22 @@ class SimulationServices:
 
     def change(self, parameters: SimulatorParameters) -> None:
         """
-        Apply changed parameters: the posture in which robots begin after the next reset.
+        Apply changed parameters: the posture in which robots start after the next reset.
 
         Parameters
         ----------
         parameters : SimulatorParameters
-            The parameters of the simulator, of which `reset_keyframe` counts.
+            The parameters of the simulator, of which `reset_keyframe` is used.
 
         """
         self._keyframe = parameters.reset_keyframe
 
     def _tell_state(self, _: Any, response: GetSimulationState.Response) -> None:
-        """Tell whether time passes."""
+        """Report the state of the simulation."""
         response.state.state = int(self._world.state)
 
     def _set_state(self, request: SetSimulationState.Request, _: Any) -> None:
-        """Let time pass or not, put all back, or end."""
+        """Play, pause, stop or quit the simulation."""
         wanted, world = request.state.state, self._world
         if wanted == world.state and not world.is_stepping:
             raise Refusal(
@@ -179,13 +179,13 @@ class SimulationServices:
             )
 
     def _quit(self) -> None:
-        """End the node when the answer is on its way."""
+        """Shut down the node once the response has been sent."""
         self._node.get_logger().info('The simulator ends, as set_simulation_state asked')
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._node.create_timer(_QUIT_S, self._node.context.try_shutdown, clock=steady)
 
     def _reset(self, request: ResetSimulation.Request, _: Any) -> None:
-        """Put all, or a part, where it began; time goes on."""
+        """Reset the state, the spawned objects, or both; time continues."""
         scope = request.scope or ResetSimulation.Request.SCOPE_ALL
         parts = scope & (
             ResetSimulation.Request.SCOPE_STATE | ResetSimulation.Request.SCOPE_SPAWNED
@@ -204,11 +204,11 @@ class SimulationServices:
         )
 
     async def _step(self, request: StepSimulation.Request, _: Any) -> None:
-        """Let a paused simulation go on by whole control periods."""
+        """Advance a paused simulation by whole control periods."""
         await self._world.step(self._periods(request.steps))
 
     async def _simulate_steps(self, goal: ServerGoalHandle) -> SimulateSteps.Result:
-        """Let a paused simulation go on, and say how far it is."""
+        """Advance a paused simulation, and publish feedback."""
         result, steps = SimulateSteps.Result(), goal.request.steps
         try:
             periods = self._periods(steps)
@@ -235,7 +235,7 @@ class SimulationServices:
         return result
 
     def _periods(self, steps: int) -> int:
-        """Return how many control periods some steps take, or raise Refusal."""
+        """Convert physics steps to control periods, or raise Refusal."""
         if self._world.state == State.PLAYING:
             raise Refusal(
                 Result.RESULT_INCORRECT_STATE,
@@ -244,13 +244,13 @@ class SimulationServices:
         return self._world.periods_of(steps)
 
     def _tell_world(self, _: Any, response: GetCurrentWorld.Response) -> None:
-        """Tell which world is loaded."""
+        """Report the world that is loaded."""
         response.world = _world_message(self._loaded)
 
     def _tell_worlds(
         self, request: GetAvailableWorlds.Request, response: GetAvailableWorlds.Response
     ) -> None:
-        """Tell the worlds that are installed, and those of other folders."""
+        """List the installed worlds, and those in additional folders."""
         worlds = installed_worlds()
         for source in request.additional_sources:
             try:
@@ -262,7 +262,7 @@ class SimulationServices:
             response.worlds = [_world_message(world) for world in worlds]
 
     def _load(self, request: LoadWorld.Request, response: LoadWorld.Response) -> None:
-        """Go on in another world."""
+        """Load another world."""
         with refusing_resource(LoadWorld.Response):
             world, scene = world_of(request.uri, request.resource_string)
         self._world.load(scene, self._keyframe)
@@ -273,14 +273,14 @@ class SimulationServices:
         )
 
     def _unload(self, _: Any, __: Any) -> None:
-        """Refuse: robots need a floor."""
+        """Reject the request: robots need a floor."""
         raise Refusal(
             Result.RESULT_FEATURE_UNSUPPORTED,
             "There is always a world here, for robots need a floor. Load the world 'flat'.",
         )
 
     def _push(self, request: ApplyWrench.Request) -> str:
-        """Push a robot or a thing."""
+        """Apply a wrench to a robot or an object."""
         self._world.refuse_after_failure()
         backend = self._world.backend
         backend.apply_wrench(
@@ -302,7 +302,7 @@ class SimulationServices:
 def _tell_features(
     _: GetSimulatorFeatures.Request, response: GetSimulatorFeatures.Response
 ) -> GetSimulatorFeatures.Response:
-    """Tell what can be done here; the one response without a result."""
+    """Report the supported features; the only response without a result."""
     response.features = SimulatorFeatures(
         features=list(FEATURES), spawn_formats=list(THING_FORMATS), custom_info=_ABOUT
     )
@@ -310,7 +310,7 @@ def _tell_features(
 
 
 def _world_message(world: World) -> WorldResource:
-    """Return the message that tells of a world."""
+    """Build the message that describes a world."""
     return WorldResource(
         name=world.name,
         world_resource=Resource(uri=world.uri),
@@ -319,7 +319,7 @@ def _world_message(world: World) -> WorldResource:
 
 
 def _answer(do: Any, request: Any, response: Any) -> Any:
-    """Answer a request of our own: whether it was done, and if not, why."""
+    """Fill a response of our own interfaces: success, and a message."""
     try:
         response.message, response.success = do(request), True
     except SimulationError as error:

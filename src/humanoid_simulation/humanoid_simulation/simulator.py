@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run robots in a simulated world."""
+"""Node that simulates robots in a world and runs their controllers."""
 
 from __future__ import annotations
 
@@ -46,7 +46,6 @@ class Simulator(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Start to run."""
         super().__init__('simulator', **options)
         self._settings = NodeParameters(self, SimulatorParameters, self._change)
         parameters = self._settings.current
@@ -92,23 +91,23 @@ class Simulator(Node):
 
     @property
     def camera_process_id(self) -> int | None:
-        """Return the number of the process that draws what the cameras see, if it runs."""
+        """Return the process id of the render process of the cameras, if it runs."""
         return self._cameras.process_id
 
     def destroy_node(self) -> None:
-        """End, together with the process that draws."""
+        """Destroy the node, and end the render process."""
         self._cameras.close()
         super().destroy_node()
 
     def _build(self, parameters: SimulatorParameters) -> SimulatedRobots:
-        """Return the world, or say why there is none."""
+        """Build the world, or raise NodeStartError."""
         try:
             return simulated_robots(parameters, Refusals(self.get_logger().error).add)
         except (DescriptionError, SimulationError) as error:
             raise NodeStartError(f'The simulator cannot start. {error}') from error
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:
-        """Publish what is due after a period; at time zero nothing: ROS takes it for no time."""
+        """Publish what is due after a period; nothing at time zero, which is unset time in ROS."""
         if next(iter(observations.values())).time_s <= 0.0:
             return
         self._world.tell(observations)
@@ -117,31 +116,31 @@ class Simulator(Node):
         self._see()
 
     def _see(self) -> None:
-        """Let the cameras see the world as it is."""
+        """Tick the cameras with the current state of the world."""
         time_ns = round(self._backend.time_s * 1e9)
         self._cameras.tick(time.monotonic(), time_ns, self._backend.data)
 
     def _follow_scene(self) -> None:
-        """Let viewers and sensors follow a change of the scene, which the backend has made."""
+        """Update viewers and sensors after the backend has changed the scene."""
         self._world.change_scene()
         self._cameras.change_model(self._backend.model)
         self._scans.change_model(self._backend.model)
         self._see()
 
     def _speed(self) -> Speed | None:
-        """Return how fast the time of the world passes; None in a pause, and at the start."""
+        """Return the real-time factors; None in a pause, and at the start."""
         reached = self._pacer.reached
         if reached is None or self._host.paused:
             return None
         return Speed(reached, self._pacer.factor)
 
     def _fail(self, sentence: str) -> None:
-        """Stand still after an error of the physics."""
+        """Log an error of the physics, and pause."""
         self.get_logger().error(sentence)
         self._host.pause(True)
 
     def _change(self, parameters: SimulatorParameters) -> None:
-        """Follow a change of the parameters."""
+        """Apply changed parameters."""
         self._robots.change(parameters)
         self._world.change(parameters)
         self._scans.change(parameters)
@@ -152,7 +151,7 @@ class Simulator(Node):
 
 
 def _greeting(simulated: SimulatedRobots, parameters: SimulatorParameters) -> str:
-    """Say what runs."""
+    """Compose the log message at the start."""
     robots = ', '.join(simulated.backend.robots) or 'one robot'
     factor = parameters.real_time_factor
     pace = f'at {factor:g} times real time' if factor else 'as fast as possible'

@@ -16,12 +16,12 @@ from humanoid_simulation.model.physics import SELF_COLLISIONS
 from humanoid_simulation.noise_parameters import NoiseParameters
 
 SLOWEST_FACTOR = 0.001
-"""Besides zero: slower than that, nobody would tell it from a simulator that hangs."""
+"""Minimum besides zero: anything slower would look like a simulator that hangs."""
 
 
 @dataclass(frozen=True)
 class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, NoiseParameters):
-    """The world and its time, besides what all hosts of robots, cameras and sensors have."""
+    """World and time, besides the parameters of hosts, cameras, laser scanners and noise."""
 
     scene: str = parameter(
         'flat',
@@ -114,7 +114,7 @@ class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, Noi
     )
 
     def __post_init__(self) -> None:
-        """Check what must hold together."""
+        """Check the keyframe, and constraints between parameters."""
         super().__post_init__()
         try:
             named('keyframe', self.reset_keyframe, load_keyframes())
@@ -138,5 +138,5 @@ class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, Noi
 
     @property
     def steps_per_period(self) -> int:
-        """Return how many physics steps a control period has."""
+        """Return the number of physics steps in a control period."""
         return round(self.physics_rate_hz / self.control_rate_hz)

@@ -2,7 +2,7 @@
 """
 Start the simulator: `ros2 run humanoid_simulation simulator`.
 
-Physics and walk take seconds to load. They are loaded here, where Ctrl-C ends the node in order.
+Physics and walking take seconds to import. They are imported here, where Ctrl-C ends cleanly.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from humanoid_common.running import run_node
 from rclpy.node import Node
 
 NO_GL = 'disable'
-"""This process draws nothing; whatever the user has set, mujoco would load it here, or fail."""
+"""This process renders nothing; mujoco would load any OpenGL that the user has set, or fail."""
 
 
 def main() -> int:
@@ -23,7 +23,7 @@ def main() -> int:
 
 
 def _simulator() -> Node:
-    """Load and make the node."""
+    """Import and create the node."""
     os.environ['MUJOCO_GL'] = NO_GL
     from humanoid_simulation.simulator import Simulator
 

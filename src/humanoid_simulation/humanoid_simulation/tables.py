@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read YAML files so that every mistake becomes a sentence with the file, the line and the key."""
+"""Read YAML files, with errors that name the file, the line and the key."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ T = TypeVar('T')
 
 @dataclass(frozen=True)
 class Place:
-    """Where something stands in a file; line 0 is not known."""
+    """A location in a file; line 0 is unknown."""
 
     file: str
     line: int = 0
     key: str = ''
-    """The way to it: `things[0].size`; empty is the whole file."""
+    """The path of the key, such as `things[0].size`; empty is the whole file."""
 
     def of(self, key: str, line: int) -> Place:
         """
@@ -33,7 +33,7 @@ class Place:
         key
             Name of the value.
         line
-            Its line, from 1 on; 0 if that is not known, which gives the line of the table.
+            Its line, from 1 on; 0 if unknown, which gives the line of the table.
 
         """
         return Place(self.file, line or self.line, f'{self.key}.{key}' if self.key else key)
@@ -47,7 +47,7 @@ class Place:
         number
             Index of the item, from 0 on.
         line
-            Its line, from 1 on; 0 if that is not known, which gives the line of the list.
+            Its line, from 1 on; 0 if unknown, which gives the line of the list.
 
         """
         return Place(self.file, line or self.line, f'{self.key}[{number}]')
@@ -72,7 +72,7 @@ class Place:
 
 
 class TableError(SimulationError):
-    """A mistake in a file, with its place."""
+    """An error in a file, with its location."""
 
 
 class Table:
@@ -82,14 +82,14 @@ class Table:
     Parameters
     ----------
     values
-        What the file holds there; of a `LinedTable`, errors name the lines of the values too.
+        The parsed table; for a `LinedTable`, errors also name the lines of the values.
     place
-        Where that is in the file.
+        Location of the table in the file.
 
     Raises
     ------
     TableError
-        The values are no table.
+        The values are not a table.
 
     """
 
@@ -108,7 +108,7 @@ class Table:
 
     def has(self, name: str) -> bool:
         """
-        Whether a value is set, and not null.
+        Check whether a value is set, and not null.
 
         Parameters
         ----------
@@ -125,12 +125,12 @@ class Table:
         Parameters
         ----------
         *names
-            All names that mean something in this table.
+            All names that are allowed in this table.
 
         Raises
         ------
         TableError
-            It sets another one; the text suggests the closest that is known.
+            It sets another one; the message suggests the closest known name.
 
         """
         for name in self.names:
@@ -149,7 +149,7 @@ class Table:
         name
             Name of the value.
         default
-            What it is if the table does not set it; None if it must.
+            Value if the table does not set it; None if it is required.
 
         Raises
         ------
@@ -171,12 +171,12 @@ class Table:
         name
             Name of the value.
         default
-            What it is if the table does not set it.
+            Value if the table does not set it.
 
         Raises
         ------
         TableError
-            It is something else.
+            It is not such a number.
 
         """
         value = self._value(name, default)
@@ -197,12 +197,12 @@ class Table:
         length
             How many numbers the list must have.
         default
-            What it is if the table does not set it; None if it must.
+            Value if the table does not set it; None if it is required.
 
         Raises
         ------
         TableError
-            It is missing, or is no such list.
+            It is missing, or is not such a list.
 
         """
         value = self._value(name, default)
@@ -221,12 +221,12 @@ class Table:
         length
             How many numbers each of the inner lists must have.
         least
-            How many inner lists there must be, or more.
+            Minimum number of inner lists.
 
         Raises
         ------
         TableError
-            It is missing, or is no such list.
+            It is missing, or is not such a list.
 
         """
         values = self._value(name, None)
@@ -240,19 +240,19 @@ class Table:
 
     def text(self, name: str, default: str | None = None) -> str:
         """
-        Read a text; it may be empty only if the default is.
+        Read a string; it may be empty only if the default is.
 
         Parameters
         ----------
         name
             Name of the value.
         default
-            What it is if the table does not set it; None if it must.
+            Value if the table does not set it; None if it is required.
 
         Raises
         ------
         TableError
-            It is missing, empty, or no text.
+            It is missing, empty, or not a string.
 
         """
         value = self._value(name, default)
@@ -262,21 +262,21 @@ class Table:
 
     def choice(self, name: str, choices: Sequence[str], default: str | None = None) -> str:
         """
-        Read one of several texts.
+        Read a string that must be one of several choices.
 
         Parameters
         ----------
         name
             Name of the value.
         choices
-            The texts that are allowed.
+            The strings that are allowed.
         default
-            What it is if the table does not set it; None if it must.
+            Value if the table does not set it; None if it is required.
 
         Raises
         ------
         TableError
-            It is missing, or none of these; the text suggests the closest one.
+            It is missing, or none of these; the message suggests the closest one.
 
         """
         value = self.text(name, default)
@@ -290,7 +290,7 @@ class Table:
 
     def value(self, name: str) -> Any:
         """
-        Look up a value as it stands in the file, unchecked; None if it is not set.
+        Return a value as parsed from the file, unchecked; None if it is not set.
 
         Parameters
         ----------
@@ -312,7 +312,7 @@ class Table:
         Raises
         ------
         TableError
-            The value is no table.
+            The value is not a table.
 
         """
         return Table(self._values.get(name, {}), self.at(name))
@@ -329,12 +329,12 @@ class Table:
         Yields
         ------
         Table
-            Each item, with its own place in the file.
+            Each item, with its own location in the file.
 
         Raises
         ------
         TableError
-            The value is no list, or an item no table.
+            The value is not a list, or an item is not a table.
 
         """
         values = self._values.get(name, [])
@@ -358,7 +358,7 @@ class Table:
 
     def checked(self, make: Callable[[], T]) -> T:
         """
-        Build an object from this table; an error gets the place of the table in its text.
+        Build an object from this table, and add the location of the table to an error.
 
         Parameters
         ----------
@@ -373,7 +373,7 @@ class Table:
         Raises
         ------
         TableError
-            It raised SimulationError; a TableError, which has a place already, stays as it is.
+            `make` raised SimulationError; a TableError, which has a location, passes unchanged.
 
         """
         try:
@@ -384,7 +384,7 @@ class Table:
             raise self.place.error(str(error)) from error
 
     def _value(self, name: str, default: Any) -> Any:
-        """Return a value, or the default; if there is neither, say so."""
+        """Return a value, or the default; raise TableError if there is neither."""
         value = self._values.get(name, default)
         if value is None:
             raise self.place.error(
@@ -393,7 +393,7 @@ class Table:
         return value
 
     def _wrong(self, name: str, wanted: str, value: Any) -> TableError:
-        """Return the error about a value of the wrong kind."""
+        """Create the error for a value of the wrong type."""
         return self.at(name).error(f'{self.at(name).key} must be {wanted}, but is {value!r}.')
 
 
@@ -411,7 +411,7 @@ def load_table(path: Path) -> Table:
     SimulationError
         The file cannot be read.
     TableError
-        It is no YAML in UTF-8, or has no table at the top.
+        It is not YAML in UTF-8, or its top level is not a table.
 
     """
     try:
@@ -437,7 +437,7 @@ def table_of(text: str, source: str) -> Table:
     Raises
     ------
     TableError
-        It is no YAML, or has no table at the top.
+        It is not YAML, or its top level is not a table.
 
     """
     from humanoid_simulation.yaml_lines import read_lines
@@ -451,13 +451,13 @@ def table_of(text: str, source: str) -> Table:
 
 
 def _is_number(value: Any) -> bool:
-    """Tell whether a value is a finite number."""
+    """Check whether a value is a finite number."""
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     return is_number and math.isfinite(value)
 
 
 def _is_vector(value: Any, length: int) -> bool:
-    """Tell whether a value is a list of so many finite numbers."""
+    """Check whether a value is a list of `length` finite numbers."""
     return (
         isinstance(value, Sequence)
         and not isinstance(value, str)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read YAML, and remember on which line each value stands."""
+"""Parse YAML with the line number of each value."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import yaml
 
 
 class LinedTable(dict[str, Any]):
-    """A table that knows its line, and those of its values, counted from 1."""
+    """A table with its line number, and those of its values, counted from 1."""
 
     line: int
     lines: dict[str, int]
 
 
 class _Loader(yaml.SafeLoader):
-    """Makes tables that know their lines; a key that stands twice is refused."""
+    """Loader of tables with line numbers; a duplicate key is rejected."""
 
 
 def _construct_table(loader: _Loader, node: yaml.MappingNode) -> Any:
-    """Yield a table, and then fill it, as PyYAML wants it of what may contain itself."""
+    """Yield a table, and then fill it, as PyYAML requires for recursive structures."""
     table = LinedTable()
     table.line, table.lines = node.start_mark.line + 1, {}
     yield table
@@ -59,7 +59,7 @@ def read_lines(text: str) -> Any:
     Raises
     ------
     YAMLError
-        It is no YAML, or has the same key twice in one table.
+        It is not YAML, or a table has a duplicate key.
 
     """
     return yaml.load(text, Loader=_Loader)  # noqa: S506 - it is a SafeLoader

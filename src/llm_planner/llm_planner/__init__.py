@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn what somebody says into a plan, and do it."""
+"""Turn natural-language commands into plans, and execute them."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How skills are begun, and how those are done that need no more than arms and a voice."""
+"""Start skills, and implement those that need only the arms and speech."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ _UP, _OUT = (-1.6, 0.6, 0.0, -1.6), (-1.6, 1.0, 0.0, -1.0)
 
 class Actions:
     """
-    Starts skills.
+    Dispatcher that starts the implementation of each skill.
 
     Parameters
     ----------
     robot, watch
-        What moves and speaks, and what is known.
+        The interface to the robot, and the observed world.
     skills
         The skills, for the defaults of their arguments.
 
@@ -52,7 +52,7 @@ class Actions:
             *('go_to', 'tidy', 'wave', 'point_at', 'say', 'wait', 'stop'),
         )
     )
-    """The names of the skills that can be done."""
+    """The names of the implemented skills."""
 
     def __init__(self, robot: Robot, watch: WorldWatch, skills: Skills) -> None:
         self._robot, self._watch, self._skills = robot, watch, skills
@@ -77,7 +77,7 @@ class Actions:
         }
 
     def begin_plan(self) -> None:
-        """Take note of where the robot is when it is asked, and forget what was found before."""
+        """Store the pose to come back to, and forget the objects found by the previous plan."""
         self._recall.begin_plan()
         self._walking.begin_plan()
 
@@ -85,18 +85,18 @@ class Actions:
         """
         Start the skill of a plan step.
 
-        What the skill announces at its start is said at once; all else happens while the result is
-        iterated.
+        The announcement of the skill is spoken immediately; everything else happens while the
+        result is iterated.
 
         Parameters
         ----------
         step
-            A step that was checked. Arguments that it leaves out get the defaults of the skill.
+            A validated step. Omitted arguments get the defaults of the skill.
 
         Returns
         -------
         SkillRun
-            The running skill: to be advanced once per tick, and closed to cancel it.
+            The running skill: advance it once per tick, and close it to cancel.
 
         """
         skill = self._skills[step.skill]
@@ -120,7 +120,7 @@ class Actions:
         yield from self._walking.go_to(target)
         if isinstance(target, ObjectDescription):
             yield from self._looking.glance_at(self._recall.position(target))
-            self._recall.thing(target)  # it is seen to be there, or found to be gone
+            self._recall.thing(target)  # raises if the robot has seen that it is gone
 
     def _say(self, text: str) -> SkillRun:
         self._robot.say(text)
@@ -149,13 +149,13 @@ class Actions:
         yield from self._looking.glance_at(position_m)
         y, z = y - sign * 0.2, z - HEAD_M
         length = math.sqrt(x * x + y * y + z * z) or 1.0
-        # The upper arm, which hangs down, is turned about y by the shoulder, then about x.
+        # At zero the upper arm hangs down; the shoulder rotates it about y, then about x.
         pitch, roll = math.atan2(-x, -z), sign * math.asin(max(-1.0, min(1.0, y / length)))
         pointing = (max(-2.6, min(0.5, pitch)), max(-0.2, min(1.5, roll)), 0.0, 0.0)
         yield from self._move_arm(side, [pointing, pointing, pointing, _DOWN])
 
     def _free_arm(self, preferred: str) -> str:
-        """Return the side of an arm whose hand holds nothing."""
+        """Return the side of an arm with an empty hand, the preferred one if possible."""
         other = 'left' if preferred == 'right' else 'right'
         free = [side for side in (preferred, other) if not self._watch.held_by(side)]
         if not free:
@@ -163,7 +163,7 @@ class Actions:
         return free[0]
 
     def _move_arm(self, side: str, postures: Sequence[Sequence[float]]) -> SkillRun:
-        """Move an arm through postures of the left one, mirrored for the right one."""
+        """Move an arm through postures given for the left arm; the right arm mirrors them."""
         mirror = (1.0, -1.0, -1.0, 1.0) if side == 'right' else (1.0, 1.0, 1.0, 1.0)
         names = self._watch.arm_joints(side)
         level = [0.0] * (len(names) - len(mirror))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Part a sentence into clauses, each of which is a phrase of a skill."""
+"""Split a sentence into clauses, each of which matches a phrase of a skill."""
 
 from __future__ import annotations
 
@@ -14,19 +14,20 @@ __all__ = ['ClauseSearch', 'joints', 'skipped']
 
 class ClauseSearch:
     """
-    Finds the ways to read a sentence as clauses.
+    Backtracking parser that splits a sentence into clauses.
 
     Parameters
     ----------
     grammar, sayings
-        What a clause can be.
+        The grammar, and the phrases that a clause can match.
     tokens
-        The words of the sentence, and its commas.
+        The words and commas of the sentence.
 
     Attributes
     ----------
     furthest
-        The index of the word from which on nothing was understood, so far.
+        The furthest index at which a clause was tried so far; if parsing fails, nothing was
+        understood from there on.
 
     """
 
@@ -44,15 +45,15 @@ class ClauseSearch:
 
     def first(self, at: int = 0, *, needs_joint: bool = True) -> list[Clause] | None:
         """
-        Return the best way to read the sentence from a place on; None if there is none.
+        Return the best parse of the sentence from an index on; None if there is none.
 
         Parameters
         ----------
         at
-            The index of its first word.
+            The index of the first word.
         needs_joint
-            Whether something has to part clauses, such as a comma or `and`. Commas cannot be
-            heard.
+            Whether clauses have to be separated, by a comma or a word such as `and`. A speech
+            recogniser hears no commas.
 
         """
         self._needs_joint = needs_joint
@@ -60,7 +61,7 @@ class ClauseSearch:
         return next(self._readings(at), None)
 
     def _readings(self, at: int) -> Iterator[list[Clause]]:
-        """Yield each way to read the rest of the sentence from a place on."""
+        """Yield each parse of the sentence from an index on."""
         if at in self._hopeless:
             return
         is_hopeless = True
@@ -78,7 +79,7 @@ class ClauseSearch:
             self._hopeless.add(at)
 
     def _clauses(self, at: int) -> Iterator[tuple[Clause, list[int]]]:
-        """Yield the clauses that can follow, each with the places behind what may end it."""
+        """Yield the clauses that can follow, each with the indices behind its optional ending."""
         grammar, tokens = self._grammar, self._tokens
         for begin in skipped(grammar, 'beginning', tokens, at):
             if begin not in self._found:
@@ -100,10 +101,10 @@ class ClauseSearch:
                     for end, bindings in grammar.matches(saying.phrase, self._tokens, at)
                 ]
         seen = set()
-        # As much as possible, but of a free text as little as leaves the rest understandable.
+        # Longest match first, but shortest first for free text, so that the rest can be parsed.
         for clause in sorted(matches, key=lambda each: each.end if each.is_free else -each.end):
             key = (clause.end, clause.skill.name)
-            if key not in seen:  # one way to read the same words as the same skill is enough
+            if key not in seen:  # one parse of the same words per skill is enough
                 seen.add(key)
                 yield clause
 
@@ -115,12 +116,12 @@ class ClauseSearch:
 
 def skipped(grammar: Grammar, rule: str, tokens: Sequence[str], at: int) -> list[int]:
     """
-    Return the places to which a rule leads that may be said any number of times.
+    Return the indices reached by matching a rule any number of times.
 
     Parameters
     ----------
     grammar, rule
-        The rules, and the name of one: `beginning` or `end`.
+        The grammar, and the name of the rule: `beginning` or `end`.
     tokens, at
         The words, and the index of the first one.
 
@@ -136,12 +137,12 @@ def skipped(grammar: Grammar, rule: str, tokens: Sequence[str], at: int) -> list
 
 def joints(grammar: Grammar, tokens: Sequence[str], at: int) -> Iterator[int]:
     """
-    Yield where the next clause can begin, behind what parts it from the one before.
+    Yield the indices at which the next clause can start, behind its separator.
 
     Parameters
     ----------
     grammar
-        Its rule `joint` has the words that part clauses; commas do as well.
+        Its rule `joint` has the words that separate clauses; commas do so as well.
     tokens, at
         The words, and the index behind a clause.
 

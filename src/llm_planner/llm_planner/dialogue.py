@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the robot says instead of planning: refusals and questions; and what answers mean."""
+"""Responses other than plans (refusals and questions), and the interpretation of answers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _ORDINALS = ('first', 'second', 'third', 'fourth')
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why there is no plan, as a sentence for the person who asked."""
+    """The reason why a command was rejected, as a message to the user."""
 
     text: str
 
@@ -34,19 +34,19 @@ class Refusal:
 @dataclass(frozen=True)
 class Question:
     """
-    What has to be known before there is a plan.
+    A question, for clarification or confirmation, to be answered before a plan is executed.
 
     Attributes
     ----------
     text
         The question.
     command
-        What had been asked for.
+        The command that led to the question.
     subject
-        What several things fit: an `ObjectDescription`, or a tuple of names of places; None if
-        it is asked whether `command` was meant; the `Plan`, if whether that is to be done.
+        What is ambiguous: an `ObjectDescription`, or a tuple of place names; None if the question
+        is whether `command` was meant; the `Plan`, if it is whether to execute that plan.
     choices
-        What can be answered, and what each answer means.
+        The possible answers, and the meaning of each.
 
     """
 
@@ -57,23 +57,23 @@ class Question:
 
     @property
     def is_yes_or_no(self) -> bool:
-        """Whether it is answered by yes or no."""
+        """Whether the answer is yes or no."""
         return self.subject is None or isinstance(self.subject, Plan)
 
 
 @dataclass
 class Dialogue:
-    """What was spoken about before, so that `it` and answers can be understood."""
+    """Dialogue context that resolves pronouns such as `it`, and answers to questions."""
 
     last_object: ObjectDescription | None = None
     last_place: str = ''
     question: Question | None = None
     chosen: dict[Any, Any] = field(default_factory=dict)
-    """What was answered, by the subject of the question; for the sentence that is planned."""
+    """The choices made for the current command, by the subject of the question."""
 
 
 class AskFirstError(PlanError):
-    """Several things fit."""
+    """The command is ambiguous: the user has to be asked first."""
 
     def __init__(self, question: Question) -> None:
         super().__init__(question.text)
@@ -87,10 +87,10 @@ def answer_to(tokens: Sequence[str], question: Question) -> str | None:
     Parameters
     ----------
     tokens
-        The words of the answer. Some are enough: `red` for `the red one`, or `the second`; `no`
-        is an answer to each question that can be answered by yes.
+        The words of the answer. A part of the choice is enough: `red` for `the red one`, or `the
+        second`; `no` answers every yes-or-no question.
     question
-        What was asked.
+        The question.
 
     """
     said = [each for each in tokens if each not in _FILLERS and each != ',']
@@ -107,15 +107,15 @@ def answer_to(tokens: Sequence[str], question: Question) -> str | None:
 
 def confirmation(plan: Plan, skills: Skills, when: str) -> Question | None:
     """
-    Return the question whether a plan is to be done.
+    Return the question that asks for confirmation of a plan; None if none is required.
 
     Parameters
     ----------
     plan, skills
-        The plan, and what its steps are.
+        The plan, and the skills of its steps.
     when
-        Which plans are asked about: `always` all, `motion` those that move the robot, `never`
-        none.
+        Which plans require confirmation: `always` all, `motion` those that move the robot,
+        `never` none.
 
     """
     is_motion = any(moves(step, skills) for step in plan.steps)
@@ -127,14 +127,14 @@ def confirmation(plan: Plan, skills: Skills, when: str) -> Question | None:
 
 def with_answers(jsgf: str, *, asks_to_confirm: bool) -> str:
     """
-    Return the grammar of a speech recogniser with what answers questions.
+    Add the answers to questions to the grammar of a speech recogniser.
 
     Parameters
     ----------
     jsgf
         The grammar of commands, with the public rule `<command>`.
     asks_to_confirm
-        Whether there are questions for yes or no.
+        Whether yes-or-no questions are asked.
 
     """
     answers = ['the (first | second | third) one']

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences that ask for skills, as examples for people, for pages and for recognisers."""
+"""Example commands for users, web pages and speech recognisers."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from llm_planner.skills import Skill, Skills
 __all__ = ['ExampleWords', 'examples', 'fixed_words', 'worlds_examples']
 
 ExampleWords = Mapping[str, Iterator[str]]
-"""By the type of an argument, what stands for it in one sentence after another."""
+"""Texts for arguments in successive examples, by the type of the argument."""
 _NUMBERS = {'metres': 'one metre', 'degrees': 'ninety degrees', 'seconds': 'ten seconds'}
 
 
 def examples(skill: Skill, skills: Skills, words: ExampleWords) -> list[str]:
     """
-    Return an example of each phrase of a skill.
+    Generate an example command for each phrase of a skill.
 
     Parameters
     ----------
     skill, skills
-        The skill, one of these, whose rules are used.
+        The skill, and all skills, whose rules are used.
     words
-        What stands for arguments.
+        The texts that stand for arguments.
 
     Returns
     -------
     list[str]
-        Of each phrase the first of all alternatives, without what may be left out.
+        The first alternative of each phrase, without optional parts.
 
     """
     said = (_example(saying.phrase, skill, skills.rules, words) for saying in skill.sayings)
@@ -38,7 +38,7 @@ def examples(skill: Skill, skills: Skills, words: ExampleWords) -> list[str]:
 
 
 def fixed_words() -> ExampleWords:
-    """Return words that do not depend on the world; two places, which take turns."""
+    """Return argument texts that do not depend on the world; two places alternate."""
     fixed = {
         'places': 'the kitchen and the hall',
         'object': 'the red mug',
@@ -52,19 +52,19 @@ def fixed_words() -> ExampleWords:
 
 def _words_of(skills: Skills, places: Sequence[str]) -> ExampleWords:
     """
-    Return words that change from sentence to sentence, so that many are shown.
+    Return argument texts that vary between examples, to show many of them.
 
     Parameters
     ----------
     skills
-        Their vocabulary has the things and colours.
+        The skills, whose vocabulary has the classes and colours of objects.
     places
-        The names of places, as they are said.
+        The names of places, as spoken.
 
     """
 
     def of(name: str) -> Iterator[str]:
-        """Yield the first word for each value of a list, again and again."""
+        """Cycle through the first word for each value of a list."""
         return cycle([words[0] for words in skills.vocabulary.get(name, {}).values()] or [''])
 
     def joined(*parts: Iterator[str]) -> Iterator[str]:
@@ -84,14 +84,14 @@ def _words_of(skills: Skills, places: Sequence[str]) -> ExampleWords:
 
 def worlds_examples(skills: Skills, places: Sequence[str]) -> list[str]:
     """
-    Return examples for a recogniser: one of each skill, and each place.
+    Generate examples for a recogniser: one for each skill, and one for each place.
 
     Parameters
     ----------
     skills
-        What can be asked for; free text is left out.
+        The skills; those with free text are left out.
     places
-        The names of places, as they are said.
+        The names of places, as spoken.
 
     """
     words = _words_of(skills, places)

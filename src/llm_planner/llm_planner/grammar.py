@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read sentences by phrases, and write phrases down for speech recognisers."""
+"""Parse sentences with phrases, and export phrases as JSGF for speech recognisers."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ _CONTRACTIONS = {
     "let's": 'let us',
 }  # fmt: skip
 Bindings = tuple[tuple[str, Any], ...]
-"""What the slots of a phrase stand for, by name, in the order in which they were said. The value
-is that of a list, a float, a text, or, for a rule, a further `Bindings`."""
+"""The values bound to the slots of a phrase, by name, in spoken order. A value is that of a list
+entry, a float, a text, or, for a rule, nested `Bindings`."""
 
 
 def tokenized(text: str) -> list[str]:
     """
-    Return the words of a sentence in lower case, commas, and numbers; units as one word each.
+    Tokenise a sentence into lower-case words, numbers and commas, with normalised units.
 
     Parameters
     ----------
     text
-        What was said or typed. What is no word, number or comma parts words.
+        The sentence, as spoken or typed. All other characters separate words.
 
     """
     lower = text.lower().replace('\u2019', "'").replace('°', ' degrees ')
@@ -49,18 +49,18 @@ def tokenized(text: str) -> list[str]:
 @dataclass
 class Grammar:
     """
-    Rules, lists and numbers that slots of phrases stand for.
+    Grammar that defines the slots of phrases: rules, word lists, numbers and free text.
 
     Attributes
     ----------
     rules
-        Phrases by the names of slots.
+        Phrases by slot name.
     lists
-        By the names of slots: texts that can be said, each with its value.
+        Spoken texts with their values, by slot name.
     numbers
-        Units by the names of slots: metres, degrees or seconds.
+        Units by slot name: metres, degrees or seconds.
     texts
-        Slots that stand for one word or more, whatever they are.
+        Slots for free text: one word or more, whatever they are.
 
     """
 
@@ -84,12 +84,12 @@ class Grammar:
 
     def beginnings(self, phrase: Phrase) -> frozenset[str] | None:
         """
-        Return the words with which a phrase can begin; None if that can be any word, or none.
+        Compute the possible first words of a phrase; None if any word, or none, can be first.
 
         Parameters
         ----------
         phrase
-            It is kept, as what was found.
+            The phrase; it is cached together with the result.
 
         """
         found = self._beginnings.get(id(phrase))
@@ -99,7 +99,7 @@ class Grammar:
         return found[1]
 
     def _first_words(self, phrase: Phrase) -> tuple[frozenset[str], bool]:
-        """Return the words with which a phrase can begin, and whether it can do without them."""
+        """Compute the first words of a phrase, and whether it may also begin otherwise."""
         if isinstance(phrase, Word):
             return frozenset((phrase.text,)), False
         if isinstance(phrase, Option):
@@ -124,19 +124,19 @@ class Grammar:
         self, phrase: Phrase, tokens: Sequence[str], at: int = 0
     ) -> Iterator[tuple[int, Bindings]]:
         """
-        Yield each way in which a phrase can be read from a place on, the longest choices first.
+        Yield each match of a phrase at an index, the longest list entries first.
 
         Parameters
         ----------
         phrase
-            What is looked for.
+            The phrase to match.
         tokens, at
             The words, and the index of the first one.
 
         Yields
         ------
         int, Bindings
-            The index behind the last word, and what the slots stand for.
+            The index behind the last word, and the bindings of the slots.
 
         """
         if isinstance(phrase, Word):
@@ -157,7 +157,7 @@ class Grammar:
             yield from self._in_turn(phrase.parts, 0, tokens, at)
 
     def _may_begin(self, phrase: Phrase, tokens: Sequence[str], at: int) -> bool:
-        """Whether a phrase can begin with the word of a place, as far as is seen at once."""
+        """Check quickly, from its first word only, whether a phrase can match at an index."""
         words = self.beginnings(phrase)
         return words is None or (at < len(tokens) and tokens[at] in words)
 
@@ -191,10 +191,10 @@ class Grammar:
         shown: Sequence[str] = (),
     ) -> str:  # fmt: skip
         """
-        Return the grammar of a speech recogniser.
+        Export a JSGF grammar for a speech recogniser.
 
-        What has a slot for any text, or for a list without entries, is left out: a recogniser
-        knows its words beforehand.
+        Parts that need a slot for free text, or for an empty list, are left out: a recogniser has
+        to know its words in advance.
 
         Parameters
         ----------
@@ -203,10 +203,10 @@ class Grammar:
         command
             The expansion of the public rule `<command>`; `<name>` stands for another rule.
         phrases
-            Further rules by their names.
+            Further rules by name.
         shown
-            Commands for the documentation comment of the public rule, as `@example`: recognisers
-            of free speech can learn from them what is likely.
+            Commands for the documentation comment of the public rule, as `@example`: they can
+            prime recognisers of free speech.
 
         Returns
         -------
@@ -242,7 +242,7 @@ class Grammar:
 
 
 def _jsgf(phrase: Phrase, usable: set[str]) -> str:
-    """Return a phrase in JSGF; nothing if it cannot be said without a slot that is not usable."""
+    """Return a phrase in JSGF; empty if it requires a slot that is not usable."""
     if isinstance(phrase, Word):
         return '' if phrase.text == ',' else phrase.text
     if isinstance(phrase, Slot):

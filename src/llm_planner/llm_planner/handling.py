@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How skills take things into a hand, put them down, and give them away."""
+"""Manipulation skills: pick up objects, put them down, and hand them over."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ __all__ = ['Handling']
 
 class Handling:
     """
-    Moves things by the actions of the manipulator.
+    Manipulation skills that use the actions of the manipulator.
 
     Parameters
     ----------
     robot, watch, recall
-        What moves, what is known, and which remembered thing is meant.
+        The interface to the robot, the observed world, and the lookup of remembered objects.
 
     """
 
@@ -29,12 +29,12 @@ class Handling:
 
     def pick(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
         """
-        Pick up an object by the action `pick`.
+        Pick up an object with the action `pick`.
 
         Parameters
         ----------
         object
-            Which one: the best remembered object that fits is taken.
+            The description; the remembered object that fits best is picked up.
 
         Raises
         ------
@@ -47,12 +47,12 @@ class Handling:
 
     def place(self, place: str) -> SkillRun:
         """
-        Put down what a hand holds by the action `place`.
+        Put down the held object with the action `place`.
 
         Parameters
         ----------
         place
-            The name of a surface; for a room or an empty name, the nearest surface is taken.
+            The name of a surface; for a room or an empty name, the nearest surface is used.
 
         Raises
         ------
@@ -65,5 +65,5 @@ class Handling:
         yield from self._robot.act(Place, 'place', Place.Goal(place=name))
 
     def hand_over(self) -> SkillRun:
-        """Hold out what a hand holds, until it is taken."""
+        """Hold out the held object until a person takes it."""
         yield from self._robot.act(HandOver, 'hand_over', HandOver.Goal())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How planner and executor are, for diagnostics."""
+"""Diagnostic status of the planner and the executor."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from humanoid_common.diagnostics import Level, PartStatus
 __all__ = ['PlannerHealth', 'skills_status', 'work_status']
 
 _REMEMBERED_S = 60.0
-"""How long a failure of the model is a warning."""
+"""How long a failure of the model is reported as a warning."""
 _LONGEST = 200
 
 
 @dataclass
 class PlannerHealth:
     """
-    What is to be said of a planner.
+    State of the planner, for diagnostics.
 
     Attributes
     ----------
     backend, server
-        What makes plans, and where a language model is asked; empty if none is.
+        The planning backend, and the URL of the language model server; empty if there is none.
     plans
-        How many were made.
+        The number of plans made.
     command
-        What is being done; empty if nothing is.
+        The command being executed; empty if there is none.
     question
-        The question that waits for an answer; empty if none does.
+        The question that awaits an answer; empty if there is none.
     error, error_at_s
-        How the model failed last, and when, by the clock of `status`; empty if it did not.
+        The last failure of the model, and its time by the clock of `status`; empty if none.
 
     """
 
@@ -50,23 +50,23 @@ class PlannerHealth:
         Parameters
         ----------
         error
-            Why it failed, as a sentence.
+            The reason, as a message.
         now_s
-            When it failed, by the clock of `status`.
+            The time of the failure, by the clock of `status`.
 
         """
         self.error, self.error_at_s = error, now_s
 
     def status(self, now_s: float, *, has_executor: bool) -> PartStatus:
         """
-        Return how the planner is.
+        Return the diagnostic status of the planner.
 
         Parameters
         ----------
         now_s
-            The time, by a clock that nobody stops.
+            The time of a steady clock.
         has_executor
-            Whether something runs that does plans.
+            Whether an executor of plans is running.
 
         """
         values = {
@@ -90,14 +90,14 @@ class PlannerHealth:
 
 def skills_status(missing: Mapping[str, str], implemented: Collection[str]) -> PartStatus:
     """
-    Return which skills cannot be used now, and why.
+    Return the diagnostic status of the skills: which are unavailable now, and why.
 
     Parameters
     ----------
     missing
-        The reasons, by the names of skills.
+        The reasons, by skill name.
     implemented
-        The names of skills that can be done once their servers run; the others are no trouble.
+        The names of the implemented skills; only these cause a warning.
 
     """
     lacking = sorted({*missing} & {*implemented})
@@ -109,14 +109,14 @@ def skills_status(missing: Mapping[str, str], implemented: Collection[str]) -> P
 
 def work_status(command: str, step: str, failure: str) -> PartStatus:
     """
-    Return what an executor does.
+    Return the diagnostic status of the executor.
 
     Parameters
     ----------
     command, step
-        What it was asked for, and what it is at, in words; empty if nothing is done.
+        The command and its current step, in words; empty when idle.
     failure
-        Why the last plan failed; empty if it did not.
+        The reason for the last failure; empty if there was none.
 
     """
     values = {'command': command[:_LONGEST] or 'none', 'last failure': failure or 'none'}

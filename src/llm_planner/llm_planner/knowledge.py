@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What both nodes start with: skills and named places, by the same parameters."""
+"""Common start-up of both nodes: load the skills and named places from the same parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ['KnowledgeParameters', 'begin_watch']
 
 @dataclass(frozen=True)
 class KnowledgeParameters:
-    """The parameters that both nodes have."""
+    """The parameters that both nodes share."""
 
     skills_file: str = parameter(
         '', 'What the robot can be asked for; empty for the file of this package.', read_only=True
@@ -33,19 +33,19 @@ class KnowledgeParameters:
 
 def begin_watch(node: Node, told: KnowledgeParameters) -> tuple[RulePlanner, WorldWatch]:
     """
-    Return what understands sentences, and what follows the world for it.
+    Create the rule planner, and the observer of the world that it plans in.
 
     Parameters
     ----------
     node
-        The node that listens; a refusal has its name.
+        The node that subscribes; its name appears in error messages.
     told
-        Which files it has to know.
+        The parameters with the files to load.
 
     Raises
     ------
     NodeStartError
-        A file cannot be used.
+        A file cannot be loaded.
 
     """
     try:

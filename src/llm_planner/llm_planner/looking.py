@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the robot looks at things, around itself, and for what it does not remember."""
+"""Gaze skills: look at targets, look around, and search for objects."""
 
 from __future__ import annotations
 
@@ -22,17 +22,18 @@ __all__ = ['Looking']
 _SEEN_FROM_M = 4.0
 _LOOK_S = 2.0
 _LATELY_S = 600.0
-"""A room in which it looked around in so short a time is searched after the others."""
+"""A room that was scanned within this time is searched after the others."""
 
 
 class Looking:
     """
-    Looks by the actions of the gaze.
+    Gaze and search skills that use the actions of the head.
 
     Parameters
     ----------
     robot, watch, recall, walking
-        What moves and speaks, what is known, what is meant, and what brings the robot there.
+        The interface to the robot, the observed world, the lookup of remembered objects, and the
+        walking skills.
 
     """
 
@@ -43,7 +44,7 @@ class Looking:
 
     def look_at(self, target: Any) -> SkillRun:
         """
-        Turn the head towards an object or a place, and the body too if that is behind.
+        Turn the head towards an object or a place; turn the body first if that is not in front.
 
         Parameters
         ----------
@@ -69,10 +70,10 @@ class Looking:
 
     def glance_at(self, position_m: tuple[float, float, float]) -> SkillRun:
         """
-        Look at a point for 2 s if that is possible, and ignore failures.
+        Point the head at a position for 2 s if possible; failures are ignored.
 
-        It is skipped if the point is more than 4 m away, the pose of the robot is unknown, or
-        nothing offers the action `look_at`.
+        Nothing happens if the point is more than 4 m away, the pose of the robot is unknown, or
+        the action `look_at` is unavailable.
 
         Parameters
         ----------
@@ -93,12 +94,12 @@ class Looking:
             return
 
     def look_around(self) -> SkillRun:
-        """Look into all directions."""
+        """Scan all directions with the action `scan_room`, turning the body."""
         yield from self._robot.act(ScanRoom, 'scan_room', ScanRoom.Goal(turn_body=True))
 
     def look_over(self, place: str) -> SkillRun:
         """
-        Look at every surface of a piece of furniture, from where the robot stands.
+        Point the head at every surface of a piece of furniture, from the current pose.
 
         Parameters
         ----------
@@ -120,17 +121,17 @@ class Looking:
 
     def find(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
         """
-        Search for an object, from one place after another, and say where it is.
+        Search for an object in one place after another, and report where it is.
 
         Parameters
         ----------
         object
-            Which one; the object that is found is the one meant for the rest of the plan.
+            The description; for the rest of the plan it refers to the object that was found.
 
         Raises
         ------
         SkillError
-            The object was not found, or an action that the search needs is not running.
+            The object was not found, or an action that the search needs is unavailable.
 
         """
         looked: list[str] = []
@@ -156,10 +157,10 @@ class Looking:
 
     def _searches(self, wanted: ObjectDescription, looked: list[str]) -> Iterator[SkillRun]:
         """
-        Yield one way to look for a thing after another; take note of the rooms.
+        Yield the stages of a search for an object; append the names of the rooms to `looked`.
 
-        Most things are seen by who looks around in the middle of a room. So all rooms come first,
-        and then what stands in them, one piece of furniture after another.
+        Most objects are visible from the centre of a room. All rooms are therefore scanned first,
+        and then the furniture in them, one piece after another.
         """
         places, pose = self._watch.places, self._watch.pose()
         yield self._robot.sleep(0.0)
@@ -191,7 +192,7 @@ class Looking:
                     yield self._visit(surface.name)
 
     def _was_searched(self, room: str) -> bool:
-        """Whether the robot has looked around in a room not long ago."""
+        """Check whether a room was scanned recently."""
         passed_s = self._robot.now_s() - self._searched_s.get(room, -math.inf)
         return 0.0 <= passed_s < _LATELY_S
 

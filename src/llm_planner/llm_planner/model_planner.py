@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Have a language model make plans.
+Plan with a language model.
 
-What the model writes is data: it becomes a plan only of known skills with values that exist, and
-`plan.check` decides about it as about any other. The model neither sees nor names topics,
+The output of the model is treated as data: it can only become a plan of known skills with existing
+values, and `plan.check` validates it like any other plan. The model neither sees nor names topics,
 velocities, files or addresses.
 """
 
@@ -46,22 +46,22 @@ failed, and do not repeat what was done. If nothing else makes sense, refuse.
 
 
 class ModelError(Exception):
-    """The model did not answer; the text says why, without the key."""
+    """The model gave no usable answer; the message states why, without the API key."""
 
 
 class ModelPlanner:
     """
-    Makes plans by asking a language model.
+    Planner that queries a language model.
 
     Parameters
     ----------
     skills
-        What can be done.
+        The available skills.
     ask
-        Asks the model: messages, the schema of its answer, and until when by `time.monotonic`;
-        `ModelServer.answer`.
+        Queries the model, given the messages, the JSON schema of the answer and the deadline by
+        `time.monotonic`, such as `ModelServer.answer`.
     timeout_s
-        How long a plan may take, with all that has to be asked again.
+        The time limit for a plan, with all repeated queries.
 
     """
 
@@ -70,21 +70,21 @@ class ModelPlanner:
 
     def plan(self, text: str, world: World, account: Account | None = None) -> Plan | Refusal:
         """
-        Return what the model makes of a sentence.
+        Query the model for a plan.
 
         Parameters
         ----------
         text
-            What was said or typed.
+            The command, as spoken or typed.
         world
-            What is known now.
+            The current state of the world.
         account
-            What became of a first plan, if another one is wanted.
+            The outcome of the first plan, when replanning.
 
         Raises
         ------
         ModelError
-            It does not answer, or nothing that can be used.
+            The model does not answer, or gives no usable plan.
 
         """
         deadline_s = time.monotonic() + self._timeout_s
@@ -120,7 +120,7 @@ class ModelPlanner:
         raise ModelError(f'The model made no plan that can be used. {reason}')
 
     def _facts(self, world: World) -> str:
-        """Return what the model has to know, as JSON."""
+        """Serialise the skills and the state of the world for the model, as JSON."""
         vocabulary = self._skills.vocabulary
         things = [
             {'id': each.object_id, 'class': each.class_id, 'colour': each.colour, 'on': each.place,
@@ -152,14 +152,14 @@ class ModelPlanner:
 
 def plan_schema(skills: Skills, world: World) -> dict[str, Any]:
     """
-    Return the JSON schema of a plan, in the subset that all servers with schemas take.
+    Build the JSON schema of a plan, in the subset that all servers with schemas support.
 
-    Each field is required, what may be left out can be null, and there are no limits of numbers.
+    Each field is required, optional ones are nullable, and numbers have no limits.
 
     Parameters
     ----------
     skills, world
-        They give the names that there are.
+        The skills and the state of the world, which provide the valid names.
 
     """
     steps = [
@@ -187,21 +187,21 @@ def plan_schema(skills: Skills, world: World) -> dict[str, Any]:
 
 def plan_from(command: str, answer: str, skills: Skills) -> Plan | Refusal:
     """
-    Return the plan that a model has written; whether it may be done is not checked.
+    Parse the plan that a model wrote, without validating it.
 
     Parameters
     ----------
     command
-        What it is for.
+        The command that the plan is for.
     answer
-        What the model wrote: JSON, perhaps between other words.
+        The output of the model: JSON, possibly between other text.
     skills
-        The types of arguments.
+        The skills, which provide the types of arguments.
 
     Raises
     ------
     PlanError
-        It is no plan.
+        The answer contains no plan.
 
     """
     told = _json_in(answer)
@@ -215,7 +215,7 @@ def plan_from(command: str, answer: str, skills: Skills) -> Plan | Refusal:
 
 
 def _json_in(answer: str) -> dict[str, Any]:
-    """Return the first JSON object of a text."""
+    """Extract the first JSON object with steps or a refusal from a text."""
     text = _THOUGHT.sub('', answer[:_LONGEST_ANSWER])
     decoder = json.JSONDecoder()
     at = -1
@@ -310,7 +310,7 @@ def _argument_schema(argument: Argument, skills: Skills, world: World) -> dict[s
 
 
 def _about(argument: Argument) -> str:
-    """Return what a model is told of an argument."""
+    """Describe the type of an argument for the model."""
     if argument.kind == 'number':
         return f'{argument.unit}, {argument.at_least:g} to {argument.at_most:g}'
     if argument.kind == 'choice':

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Ask a language model behind an interface like that of OpenAI: OpenAI, Ollama, llama.cpp, vLLM.
+Client for language model servers with an OpenAI-compatible API: OpenAI, Ollama, llama.cpp, vLLM.
 
-Only `chat/completions` and `models` are used. What servers differ in is how they can be made to
-answer in JSON: by a schema, as any object, or not at all. The first that works is kept.
+Only `chat/completions` and `models` are used. Servers differ in how they can be made to answer in
+JSON: by a schema, as any object, or not at all. The first mode that works is kept.
 """
 
 from __future__ import annotations
@@ -24,25 +24,25 @@ _MODES = ('json_schema', 'json_object', 'text')
 _LARGEST = 1_000_000
 _MOST_TOKENS = 800
 _NAMED = 8
-"""How many models a sentence lists."""
+"""How many models a message lists."""
 _CONNECT_S = 3.0
 
 
 class ModelServer:
     """
-    A server of language models.
+    Client of a language model server.
 
     Parameters
     ----------
     base_url
-        Where its interface begins: `http://127.0.0.1:11434/v1`.
+        The base URL of the API: `http://127.0.0.1:11434/v1`.
     model
         The name of the model; empty for the only one that the server has.
     key
-        What the server asks for; empty if nothing. It is sent, and never shown.
+        The API key; empty if the server requires none. It is sent, but never shown.
     mode
-        How it is made to answer in JSON: `json_schema`, `json_object` or `text`; `auto` for the
-        first of these that it takes.
+        How JSON output is requested: `json_schema`, `json_object` or `text`; `auto` for the first
+        of these that the server accepts.
 
     """
 
@@ -57,21 +57,21 @@ class ModelServer:
         self, messages: Sequence[Message], schema: Mapping[str, Any], deadline_s: float
     ) -> str:
         """
-        Return what the model answers.
+        Request a chat completion from the model.
 
         Parameters
         ----------
         messages
             The conversation: roles and contents.
         schema
-            The JSON schema of the answer, for servers that take one.
+            The JSON schema of the answer, for servers that support one.
         deadline_s
-            By `time.monotonic`: when all of it has to be over.
+            The deadline for all requests together, by `time.monotonic`.
 
         Raises
         ------
         ModelError
-            There is no answer, or none in time.
+            The server gives no answer, or none in time.
 
         """
         model = self._model or self._only_model(deadline_s)
@@ -117,7 +117,7 @@ class ModelServer:
         return names
 
     def _unknown(self, model: str, deadline_s: float) -> str:
-        """Say that there is no such model, and which ones there are."""
+        """Build the error message for an unknown model, with the names of those available."""
         try:
             names = self._models(deadline_s)
         except ModelError:
@@ -126,7 +126,7 @@ class ModelServer:
         return f"The server at {self._url} has no model '{shortened(model)}'.{offer}"
 
     def _check(self, status: int, text: str) -> None:
-        """Raise what a status means."""
+        """Raise ModelError for an HTTP error status."""
         if status in (401, 403):
             raise ModelError(
                 f'The server at {self._url} does not accept the key: set OPENAI_API_KEY in the '
@@ -140,7 +140,7 @@ class ModelServer:
     def _request(
         self, method: str, path: str, deadline_s: float, body: Any = None
     ) -> tuple[int, str]:
-        """Return the status and the text of an answer that is there in time."""
+        """Send a request; return the status and text of a response within the deadline."""
         left_s = deadline_s - time.monotonic()
         late = ModelError(f'The server at {self._url} did not answer in time.')
         if left_s <= 0.0:
@@ -155,7 +155,7 @@ class ModelServer:
                     received += part
                     if len(received) > _LARGEST:
                         raise ModelError(f'The answer of {self._url} is endless.')
-                    if time.monotonic() > deadline_s:  # one that trickles
+                    if time.monotonic() > deadline_s:  # the response trickles in
                         raise late
                 return response.status_code, received.decode(errors='replace')
         except httpx.TimeoutException:
@@ -177,7 +177,7 @@ def _format(mode: str, schema: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _content(text: str) -> str:
-    """Return what the model has written, of the answer of a server."""
+    """Extract the text that the model wrote from a chat completion."""
     try:
         message = json.loads(text)['choices'][0]['message']
         content = message['content']

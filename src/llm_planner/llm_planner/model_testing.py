@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A server of language models that behaves as it is told."""
+"""Scripted language model server for tests."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from typing import Any
 
 GOOD = {'steps': [{'skill': 'go_to', 'arguments': {'target': 'hall'}}], 'refusal': None}
 Answer = tuple[int, Any]
-"""A status, and what is sent: an object as JSON, a text, or bytes that come one after another."""
+"""A status, and the body: an object sent as JSON, a text, or a function that yields chunks."""
 
 
 def says(content: Any) -> Answer:
     """
-    Build the answer of a model that writes something.
+    Build the answer of a model that writes some content.
 
     Parameters
     ----------
     content
-        What it writes: a text, or an object, which becomes JSON.
+        The content: a text, or an object, which becomes JSON.
 
     Returns
     -------
     Answer
-        Status 200, and a chat completion with one choice, as the API of OpenAI has it.
+        Status 200, and a chat completion with one choice, as in the OpenAI API.
 
     """
     text = content if isinstance(content, str) else json.dumps(content)
@@ -36,12 +36,12 @@ def says(content: Any) -> Answer:
 
 class ModelStub:
     """
-    What a server answers, and what it was asked.
+    Scripted answers of a server, and a record of its requests.
 
     Parameters
     ----------
     *answers
-        What it answers, one after the other; a function gets the request.
+        The answers, in order; a function is called with the request.
 
     """
 
@@ -70,12 +70,12 @@ class ModelStub:
 @contextmanager
 def serving(stub: ModelStub) -> Iterator[ModelStub]:
     """
-    Serve the answers of a stub by HTTP on a free port of 127.0.0.1.
+    Serve the answers of a stub over HTTP on a free port of 127.0.0.1.
 
     Parameters
     ----------
     stub
-        What answers; its `url` is set.
+        The source of the answers; its `url` is set.
 
     Yields
     ------
@@ -86,14 +86,14 @@ def serving(stub: ModelStub) -> Iterator[ModelStub]:
     over = threading.Event()
 
     class Handler(BaseHTTPRequestHandler):
-        """Answers as the stub says."""
+        """Request handler that returns the answers of the stub."""
 
         def do_GET(self) -> None:
             """List the models."""
             self._send(200, {'data': [{'id': name} for name in stub.models]})
 
         def do_POST(self) -> None:
-            """Answer a conversation."""
+            """Answer a chat completion request."""
             length = int(self.headers['Content-Length'])
             stub.headers.append(dict(self.headers))
             status, content = stub.answer(json.loads(self.rfile.read(length)))
@@ -117,7 +117,7 @@ def serving(stub: ModelStub) -> Iterator[ModelStub]:
                     return
 
         def log_message(self, *_: Any) -> None:
-            """Log nothing."""
+            """Suppress logging."""
 
     server = ThreadingHTTPServer(('127.0.0.1', 0), Handler)
     server.daemon_threads = True

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-One notation for the sentences that are parsed and for those that are recognised.
+Common notation of phrases for parsing and for speech recognition.
 
 A phrase is written like an expansion of JSGF (the Java Speech Grammar Format): words, `(a | b)`
-for one of several, `[a]` for what may be left out, and `{name}` for a slot, which stands for a
-rule, a list of words with their values, a number, or any text.
+for alternatives, `[a]` for optional parts, and `{name}` for a slot, which stands for a rule, a
+list of words with their values, a number, or free text.
 """
 
 from __future__ import annotations
@@ -22,40 +22,40 @@ _TOKEN = re.compile(r'\{\w+\}|[\[\]()|,]|[^\s\[\](){}|,]+')
 
 
 class GrammarError(Exception):
-    """A phrase or a list of words cannot be used; the text says why."""
+    """A phrase or a word list is invalid; the message states why."""
 
 
 @dataclass(frozen=True)
 class Word:
-    """A word that has to be said."""
+    """A required word."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Series:
-    """Parts that have to be said one after another."""
+    """A sequence of parts."""
 
     parts: tuple[Phrase, ...]
 
 
 @dataclass(frozen=True)
 class Choice:
-    """Alternatives, one of which has to be said."""
+    """Alternatives, of which one is required."""
 
     parts: tuple[Phrase, ...]
 
 
 @dataclass(frozen=True)
 class Option:
-    """What may be said."""
+    """An optional part."""
 
     part: Phrase
 
 
 @dataclass(frozen=True)
 class Slot:
-    """What stands for a rule, a list, a number or a text, and the name by which that is bound."""
+    """A slot for a rule, a list, a number or a text, and the name to which its value is bound."""
 
     name: str
     rule: str
@@ -66,7 +66,7 @@ Phrase = Word | Series | Choice | Option | Slot
 
 def part_of(phrase: Phrase) -> Iterator[Phrase]:
     """
-    Traverse a phrase and all its parts, each before its own parts.
+    Traverse a phrase and all its parts in pre-order.
 
     Parameters
     ----------
@@ -91,14 +91,14 @@ def part_of(phrase: Phrase) -> Iterator[Phrase]:
 
 def with_rules(phrase: Phrase, rules: Mapping[str, str]) -> Phrase:
     """
-    Return a phrase some of whose slots stand for other rules.
+    Return a copy of a phrase in which slots refer to other rules.
 
     Parameters
     ----------
     phrase
-        Is left as it is.
+        The phrase; it is not changed.
     rules
-        The names of the rules by the names of slots.
+        The names of the rules by slot name.
 
     """
     if isinstance(phrase, Slot):
@@ -124,7 +124,7 @@ def parse_phrase(text: str) -> Phrase:
     Returns
     -------
     Phrase
-        Its tree; the rule of each slot has the name of the slot.
+        The syntax tree; each slot refers to the rule of the same name.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plans: steps with arguments, and whether the robot may and can do them."""
+"""Plans: steps with arguments, and their validation."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _LONGEST_TEXT = 300
 
 
 class PlanError(Exception):
-    """A plan may not be done; the text says why, to the person who asked."""
+    """A plan is invalid; the message tells the user why."""
 
 
 class UnavailableError(PlanError):
-    """A plan needs what the robot cannot do now."""
+    """A plan needs something that the robot cannot do now."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,10 @@ class Step:
     Attributes
     ----------
     skill
-        Its name.
+        The name of the skill.
     arguments
-        By name: a name of a place, an `ObjectDescription`, a number, a value of a choice, a text,
-        or a tuple of names of places.
+        By name: a place name, an `ObjectDescription`, a number, a value of a choice, a text, or a
+        tuple of place names.
 
     """
 
@@ -49,7 +49,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Plan:
-    """What was asked for, and the steps that do it."""
+    """A command, and the steps that fulfil it."""
 
     command: str
     steps: tuple[Step, ...]
@@ -58,25 +58,25 @@ class Plan:
 
 def check(plan: Plan, skills: Skills, world: World) -> None:
     """
-    Refuse what the robot may not, or cannot do.
+    Validate a plan: reject what the robot may not do, or cannot do now.
 
-    Everything that is done comes through here, whoever made the plan: only known skills, values
-    that exist, numbers within their limits, at most `MOST_STEPS` steps, in an order in which each
-    can follow the one before.
+    Every plan is validated here, whoever made it: only known skills, existing values, numbers
+    within their limits, at most `MOST_STEPS` steps, in an order in which each step can follow the
+    previous one.
 
     Parameters
     ----------
     plan
-        What is to be done.
+        The plan.
     skills, world
-        What can be done, and what is known.
+        The available skills, and the state of the world.
 
     Raises
     ------
     PlanError
-        It may not be done.
+        The plan is invalid.
     UnavailableError
-        It may, but not now.
+        The plan is valid, but cannot be executed now.
 
     """
     if not plan.steps:
@@ -116,7 +116,7 @@ def _check_arguments(step: Step, skill: Skill, skills: Skills, world: World) -> 
 
 
 def _check_value(value: Any, argument: Argument, skills: Skills, world: World) -> None:
-    """Refuse a value that an argument cannot have."""
+    """Validate the value of an argument."""
     if isinstance(value, ObjectDescription):
         if argument.kind not in ('object', 'objects', 'target'):
             raise PlanError(f'{argument.name} is no object, but {argument.kind}.')
@@ -149,7 +149,7 @@ def _check_value(value: Any, argument: Argument, skills: Skills, world: World) -
 
 
 def _check_object(value: ObjectDescription, skills: Skills, world: World) -> None:
-    """Refuse a description with a word that nobody knows, or of a thing that is not there."""
+    """Validate a description: its words must be known, and its object id remembered."""
     for name, given in (
         ('class', value.class_id),
         ('colour', value.colour),
@@ -180,13 +180,13 @@ def _check_place(place: Any, world: World) -> None:
 
 def moves(step: Step, skills: Skills) -> bool:
     """
-    Return whether the robot moves in a step: body, arm or head.
+    Check whether a step moves the robot: body, arm or head.
 
     Parameters
     ----------
     step, skills
-        A step, and the skills. One with a server of actions moves, one that needs to stand walks,
-        and what has a target is gone to or looked at.
+        The step, and the skills. A skill with an action server moves, one that needs to stand
+        walks, and one with a target goes to it or looks at it.
 
     """
     skill = skills[step.skill]
@@ -202,12 +202,12 @@ def moves(step: Step, skills: Skills) -> bool:
 
 def words_for(step: Step, skill: Skill) -> str:
     """
-    Return a step as words of an imperative: `go to the kitchen`.
+    Phrase a step as an imperative: `go to the kitchen`.
 
     Parameters
     ----------
     step, skill
-        A step, and its skill: the first wording whose arguments the step has is taken.
+        The step, and its skill; the first template whose arguments the step has is used.
 
     """
     said = {
@@ -225,12 +225,12 @@ def words_for(step: Step, skill: Skill) -> str:
 
 def value_in_words(value: Any, argument: Argument | None = None) -> str:
     """
-    Return the value of an argument as people say it.
+    Phrase the value of an argument in natural language.
 
     Parameters
     ----------
     value
-        As in a `Step`.
+        The value, as in a `Step`.
     argument
         Its type, which gives numbers their unit; without it, a text is the name of a place.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plans as messages: arguments are texts there, and are read by the types that skills give."""
+"""Conversion of plans to and from messages, whose text arguments are parsed by type."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _CODES = ('INVALID', 'UNAVAILABLE', 'FAILED', 'TIMEOUT', 'STOPPED', 'PREEMPTED')
 
 def plan_message(plan: Plan, planner: RulePlanner) -> PlanMessage:
     """
-    Return a plan as a message, with its steps in words.
+    Convert a plan to a message, with its steps in words.
 
     Parameters
     ----------
     plan
-        A plan of skills that there are.
+        A plan of known skills.
     planner
-        It knows the skills.
+        The rule planner, which has the skills.
 
     """
     steps = []
@@ -44,19 +44,19 @@ def plan_message(plan: Plan, planner: RulePlanner) -> PlanMessage:
 
 def plan_of(message: PlanMessage, planner: RulePlanner, world: World) -> Plan:
     """
-    Return the plan of a message, whoever wrote it; whether it may be done is not checked.
+    Convert a message from any source to a plan, without validating it.
 
     Parameters
     ----------
     message
-        A plan. An object is described in words or by its id, places are parted by commas.
+        A plan. An object is given by its description or its id; places are separated by commas.
     planner, world
-        They know the skills, and understand the objects.
+        The rule planner and the state of the world, to look up skills and objects.
 
     Raises
     ------
     PlanError
-        An argument cannot be read.
+        An argument cannot be parsed.
 
     """
     steps = []
@@ -80,7 +80,7 @@ def failure_of(result: ExecutePlan.Result) -> Failure:
     Parameters
     ----------
     result
-        The result of `execute_plan`; an error code that is not known becomes `UNKNOWN`.
+        The result of `execute_plan`; an unknown error code becomes `UNKNOWN`.
 
     """
     kind = type(result)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The behaviour tree that does a plan: one step after another, each watched, timed and tried again.
+Behaviour tree that executes a plan: steps in sequence, with guards, timeouts and retries.
 
-A skill is a generator: it yields once a tick while it waits, returns when it has succeeded, and
-raises SkillError when it has not. Closing it undoes what goes on, such as a goal that was sent.
+A skill is a generator: it yields once per tick while it is running, returns on success, and raises
+SkillError on failure. Closing it cancels pending work, such as a goal that was sent.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ Start = Callable[[Step], SkillRun]
 
 class SkillError(Exception):
     """
-    A skill has failed; the text says why, to the person who asked.
+    A skill has failed; the message tells the user why.
 
     Attributes
     ----------
     code
-        The name of a code of `ExecutePlan`'s result.
+        The name of an error code of the `ExecutePlan` result.
     is_final
-        Whether it makes no sense to try again.
+        Whether a retry is pointless.
 
     """
 
@@ -43,7 +43,7 @@ class SkillError(Exception):
 
 @dataclass(frozen=True)
 class StepNews:
-    """What happens to a step: its index, a state of `ExecutePlan`'s feedback, and words."""
+    """A change of a step: its index, a state of the `ExecutePlan` feedback, and a message."""
 
     index: int
     state: str
@@ -52,16 +52,16 @@ class StepNews:
 
 @dataclass
 class Progress:
-    """How far a plan is, and why it does not go on."""
+    """The progress of a plan, and its latest error."""
 
     tell: Callable[[StepNews], None] = lambda _: None
     index: int = -1
-    """Of the step that runs, or ran last."""
+    """The index of the running step, or of the last one that ran."""
     error: SkillError | None = None
 
 
 class _SkillBehaviour(Behaviour):
-    """Runs one attempt of a skill."""
+    """Behaviour that runs one attempt of a skill."""
 
     def __init__(
         self,
@@ -78,15 +78,15 @@ class _SkillBehaviour(Behaviour):
         self._end_s = 0.0
 
     def initialise(self) -> None:
-        """Begin an attempt."""
+        """Start an attempt."""
         self._progress.error = None
         self._end_s = self._now_s() + self._skill.timeout_s
         self._run = self._start(self._step)
 
     def update(self) -> Status:
-        """Go on with it until it waits again."""
+        """Advance the skill by one tick."""
         assert self._run is not None
-        # A simulation that begins anew sets the time back.
+        # A restart of the simulation sets the clock back.
         self._end_s = min(self._end_s, self._now_s() + self._skill.timeout_s)
         if self._now_s() >= self._end_s:
             return self._fail(
@@ -106,7 +106,7 @@ class _SkillBehaviour(Behaviour):
         return Status.RUNNING
 
     def terminate(self, new_status: Status) -> None:
-        """Undo what goes on."""
+        """Cancel the running skill."""
         run, self._run = self._run, None
         if run is not None:
             run.close()
@@ -117,18 +117,18 @@ class _SkillBehaviour(Behaviour):
 
 
 class _Retry(py_trees.decorators.Decorator):
-    """Tries a skill again unless that makes no sense."""
+    """Decorator that retries a skill unless its error is final."""
 
     def __init__(self, child: Behaviour, attempts: int, progress: Progress) -> None:
         super().__init__(f'up to {attempts} times', child)
         self._attempts, self._progress, self._failures = attempts, progress, 0
 
     def initialise(self) -> None:
-        """Count anew."""
+        """Reset the failure count."""
         self._failures = 0
 
     def update(self) -> Status:
-        """Let the child be ticked again after a failure that may be overcome."""
+        """Stay running, to retry, after a failure that is not final."""
         status: Status = self.decorated.status
         if status != Status.FAILURE:
             return status
@@ -140,14 +140,14 @@ class _Retry(py_trees.decorators.Decorator):
 
 
 class _Condition(Behaviour):
-    """Fails as soon as something hinders the step."""
+    """Guard that fails as soon as the step is inhibited."""
 
     def __init__(self, inhibition: Callable[[], str], progress: Progress) -> None:
         super().__init__('nothing hinders')
         self._inhibition, self._progress = inhibition, progress
 
     def update(self) -> Status:
-        """Look."""
+        """Check the inhibition."""
         reason = self._inhibition()
         if not reason:
             return Status.RUNNING
@@ -156,19 +156,19 @@ class _Condition(Behaviour):
 
 
 class _Told(py_trees.decorators.Decorator):
-    """Tells how a step begins and ends."""
+    """Decorator that reports the start and the result of a step."""
 
     def __init__(self, child: Behaviour, index: int, text: str, progress: Progress) -> None:
         super().__init__(f'step {index}', child)
         self._index, self._text, self._progress = index, text, progress
 
     def initialise(self) -> None:
-        """Tell that it begins."""
+        """Report the start."""
         self._progress.index = self._index
         self._progress.tell(StepNews(self._index, 'running', self._text))
 
     def update(self) -> Status:
-        """Tell how it ended."""
+        """Report the result."""
         status: Status = self.decorated.status
         if status == Status.SUCCESS:
             self._progress.tell(StepNews(self._index, 'succeeded', self._text))
@@ -187,21 +187,21 @@ def make_tree(
     progress: Progress,
 ) -> Behaviour:
     """
-    Return the tree that does a plan when it is ticked; `stop(Status.INVALID)` breaks it off.
+    Build the behaviour tree that executes a plan; `stop(Status.INVALID)` aborts it.
 
     Parameters
     ----------
     plan, skills
-        What to do. It was checked before.
+        The validated plan, and the skills.
     start
-        Begins an attempt of a step.
+        Starts an attempt of a step.
     inhibition
-        Returns why the robot cannot walk now; nothing if it can. It ends a skill that needs
-        `standing`.
+        Returns why the robot cannot walk now; empty if it can. An inhibition aborts a skill that
+        needs `standing`.
     now_s
         Returns the time in s.
     progress
-        Is kept up to date.
+        The progress; the tree updates it.
 
     """
     steps: list[Behaviour] = []

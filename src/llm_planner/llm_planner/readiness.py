@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say once that the robot is ready, or that it is back and no longer does what it did before."""
+"""Announce once that the robot is ready, or is back after a crash and has stopped its work."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ STARTING = 'Navigation is still starting.'
 UNPLANNED = 'I cannot plan, as the task planner is not running.'
 _LOOK_S = 0.25
 _SETTLE_S = 1.5
-"""How long it takes to find and hear what was there before the node."""
+"""How long it takes to discover nodes, and receive latched messages, from before the start."""
 _PATIENCE_S = 20.0
 _MANAGER = 'lifecycle_manager_navigation/is_active'
 _FURTHER_ACTIONS = ('backup', 'right_arm_controller/follow_joint_trajectory')
-"""Those that skills use besides their servers."""
+"""Actions that skills use besides their servers."""
 _HANDS = frozenset(('empty_hand', 'holding'))
-"""What skills need that use hands."""
+"""Needs of the skills that use hands."""
 
 
 class Patience:
-    """Decides when the robot says that it is ready, from what it lacks as time goes by."""
+    """Timing of the announcement that the robot is ready, from what it lacks over time."""
 
     def __init__(self) -> None:
         self._lacks: frozenset[str] | None = None
@@ -45,14 +45,14 @@ class Patience:
 
     def sentence(self, lacks: Mapping[str, str], now_s: float) -> str:
         """
-        Return what to say; empty while something may still be starting.
+        Return the announcement; empty while something may still be starting.
 
         Parameters
         ----------
         lacks
-            Why the robot cannot do something, by what that is.
+            The reasons why skills or resources are unavailable, by name.
         now_s
-            That of a clock that nobody sets.
+            The time of a steady clock.
 
         """
         if self._lacks is None:
@@ -67,19 +67,19 @@ class Patience:
 
 class Readiness:
     """
-    Looks for all that skills need, and says when it is there.
+    Monitor that announces when everything that skills need is available.
 
-    A node that is started anew after a crash finds the plan that was given before: it cancels
-    what the actions of the robot still do for that plan, and says so.
+    A node that is restarted after a crash receives the previous plan, which is latched: it cancels
+    the goals that the actions of the robot still pursue for that plan, and says so.
 
     Parameters
     ----------
     node, watch
-        The node that does skills, and what it knows.
+        The node that executes skills, and the observed world.
     skills
-        Those that can be done if their servers are there.
+        The skills that can be executed if their servers are running.
     say
-        Says a text.
+        Speaks a text.
 
     """
 
@@ -93,7 +93,7 @@ class Readiness:
         self._node, self._watch, self._skills, self._say = node, watch, tuple(skills), say
         self._patience = Patience()
         self._clock = Clock(clock_type=ClockType.STEADY_TIME)
-        self._began_ns = self._now_ns()  # a plan may come before the first look
+        self._began_ns = self._now_ns()  # a plan may arrive before the first check
         self._plan_ns: int | None = None
         self._is_navigating = False
         self._asked: Future[Trigger.Response] | None = None
@@ -118,7 +118,7 @@ class Readiness:
             self._end(sentence)
 
     def _now_ns(self) -> float:
-        """Return the time of the node in ns; infinite as long as that is not known."""
+        """Return the time of the node in ns; infinite while it is unknown."""
         return self._node.get_clock().now().nanoseconds or math.inf
 
     def _steady_s(self) -> float:
@@ -130,8 +130,8 @@ class Readiness:
         self._say(sentence)
 
     def _lacks(self) -> dict[str, str]:
-        """Return why the robot cannot do something now that it can do in general."""
-        # Of a robot that was built without hands, nobody expects that it uses them.
+        """Collect the reasons why abilities of the robot are unavailable now."""
+        # A robot without hands is not expected to use them.
         lacks = {
             each.name: self._watch.lack(each)
             for each in self._skills
@@ -148,13 +148,13 @@ class Readiness:
         return lacks
 
     def _hears_planner(self) -> bool:
-        """Return whether the planner is there, and what it sends would come."""
+        """Check whether the planner is running, and its goals would arrive."""
         planner = self._node.resolve_service_name('task_planner/plan')
         goals = self._node.resolve_service_name('execute_plan/_action/send_goal')
         return bool(self._node.count_services(planner) and self._node.count_clients(goals))
 
     def _navigates(self) -> bool:
-        """Return whether navigation accepts goals, as far as its manager tells."""
+        """Check whether navigation accepts goals, as far as its lifecycle manager reports."""
         if self._asked is not None and self._asked.done():
             answer, self._asked = self._asked.result(), None
             self._is_navigating = answer is not None and answer.success
@@ -165,17 +165,17 @@ class Readiness:
     # After a crash
 
     def _find_servers(self) -> None:
-        """Begin to cancel the goals of all actions that skills use."""
+        """Create the clients that cancel the goals of all actions that skills use."""
         used = {each.server for each in self._skills if each.server_kind == 'action'}
         for name in sorted(used.union(_FURTHER_ACTIONS)):
             client = self._node.create_client(CancelGoal, f'{name}/_action/cancel_goal')
             self._cancels[client] = None
 
     def _cancel(self, steady_s: float) -> None:
-        """Cancel the goals of the servers that were found since; at the end, say what was so."""
+        """Cancel the goals of the servers found so far; at the end, announce the outcome."""
         for client, answer in self._cancels.items():
             if answer is None and client.service_is_ready():
-                # Without an id and a time it is about all goals.
+                # A request without an id and a stamp cancels all goals.
                 self._cancels[client] = client.call_async(CancelGoal.Request())
         if steady_s < self._end_s:
             return

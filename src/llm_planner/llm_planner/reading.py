@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the clauses of a sentence mean: which steps, with which arguments."""
+"""Interpretation of the clauses of a sentence as steps with arguments."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from llm_planner.world import ANYTHING, base_name, in_words, listed, ObjectDescr
 __all__ = ['Clause', 'Reading']
 
 _ASKING = frozenset(('find', 'where', 'describe', 'identify', 'count', 'tell_count'))
-"""Skills that do not mind which of several things is meant."""
+"""Skills for which an ambiguous description needs no clarification."""
 _UNKNOWN = 'something'
-"""What a hand holds of which nobody knows what it is."""
+"""The name of a held object whose class is unknown."""
 
 
 @dataclass(frozen=True)
 class Clause:
-    """A phrase of a skill, found in a sentence: from which word to which, and its slots."""
+    """A phrase of a skill matched in a sentence: its bindings, and its range of words."""
 
     skill: Skill
     saying: Saying
@@ -33,7 +33,7 @@ class Clause:
 
     @property
     def is_free(self) -> bool:
-        """Whether it has any text that somebody liked to say."""
+        """Whether it contains free text."""
         return any(
             name in self.skill.arguments and self.skill.arguments[name].kind == 'text'
             for name, _ in self.bindings
@@ -47,11 +47,11 @@ class Reading:
     Parameters
     ----------
     skills
-        What the robot can be asked for.
+        The skills that the robot can be asked for.
     world
-        What is known of places, objects, the robot and its hand.
+        The state of the world: places, objects, the robot and its hand.
     dialogue
-        What was spoken of before, and which choices were answered; it is not changed.
+        The dialogue context, with the choices that were answered; it is not changed.
 
     Attributes
     ----------
@@ -71,14 +71,14 @@ class Reading:
 
     def read(self, clause: Clause, command: str) -> None:
         """
-        Append the steps of a clause to `steps`. Call once per clause, in their order.
+        Append the steps of a clause to `steps`. Call once per clause, in order.
 
         Parameters
         ----------
         clause
             The clause.
         command
-            The whole sentence, which is planned anew when a question about it was answered.
+            The whole sentence, which is planned again when a question about it was answered.
 
         Raises
         ------
@@ -116,12 +116,12 @@ class Reading:
         Parameters
         ----------
         bindings
-            What the slots of the rule stand for.
+            The bindings of the slots of the rule.
 
         Returns
         -------
         ObjectDescription
-            For a pronoun, the object that was spoken of last.
+            For a pronoun, the object that was mentioned last.
 
         Raises
         ------
@@ -155,7 +155,7 @@ class Reading:
         )
 
     def _value(self, raw: Any, argument: Argument, skill: Skill) -> Any:
-        """Return the value of an argument for what its slot was read as."""
+        """Convert the binding of a slot to the value of an argument."""
         if argument.kind == 'place':
             return self._place(raw)
         if argument.kind == 'places':
@@ -179,7 +179,7 @@ class Reading:
         return found
 
     def _place(self, bindings: Bindings) -> str:
-        """Return the place that is meant: the only one, the one in the room spoken of, or ask."""
+        """Resolve a place name: the only match, the one in the room mentioned last, or ask."""
         names: tuple[str, ...] = dict(bindings)['place']
         if names in self._dialogue.chosen:
             names = (self._dialogue.chosen[names],)
@@ -198,7 +198,7 @@ class Reading:
         return names[0]
 
     def _distinct(self, described: ObjectDescription, skill: Skill) -> ObjectDescription:
-        """Ask which one is meant if several remembered things fit, and it matters."""
+        """Raise AskFirstError if several remembered objects fit and it matters which is meant."""
         if described in self._dialogue.chosen:
             chosen: ObjectDescription = self._dialogue.chosen[described]
             return chosen
@@ -236,18 +236,18 @@ class Reading:
             self._held = ''
 
     def _is_about_held(self, skill: Skill) -> bool:
-        """Whether a skill does something with what the hand holds, if that is what is meant."""
+        """Check whether a pronoun can refer to the held object in a skill."""
         return any(step.unless_holding for step in skill.steps)
 
     def _held_object(self) -> ObjectDescription:
-        """Return what the hand holds by then."""
+        """Return the description of the object that the hand will hold by then."""
         if isinstance(self._held, ObjectDescription):
             return self._held
         colour, _, class_id = self._held.rpartition(' ')
         return ObjectDescription(ANYTHING if class_id == _UNKNOWN else class_id, colour)
 
     def _holds(self, wanted: Any) -> bool:
-        """Whether the hand will hold by then what is wanted."""
+        """Check whether the hand will hold the wanted object by then."""
         if not self._held:
             return False
         if isinstance(self._held, ObjectDescription):

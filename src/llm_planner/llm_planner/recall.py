@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which remembered thing is meant, and where it is."""
+"""Lookup of remembered objects, and of the positions of objects and places."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from llm_planner.world_watch import WorldWatch
 __all__ = ['HEAD_M', 'Recall']
 
 HEAD_M = 1.0
-"""How high above the floor a room is looked at, and the shoulders are; m."""
+"""Height above the floor of the shoulders, and of the point at which to look in a room; m."""
 
 
 class Recall:
     """
-    Finds what a plan speaks of among the remembered things.
+    Resolver of the descriptions in a plan to remembered objects.
 
     Parameters
     ----------
     watch
-        What is remembered.
+        The observed world, with the remembered objects.
 
     """
 
@@ -33,18 +33,18 @@ class Recall:
         self._known: set[ObjectDescription] = set()
 
     def begin_plan(self) -> None:
-        """Forget what the plan before has found."""
+        """Forget the objects found by the previous plan."""
         self._found.clear()
         self._known.clear()
 
     def take_found(self, described: ObjectDescription, thing: Thing) -> None:
         """
-        Take note of which thing it is that a description means until the plan is over.
+        Bind a description to the object that was found for it, until the plan is over.
 
         Parameters
         ----------
         described, thing
-            The words, and the thing that was found for them.
+            The description, and the object.
 
         """
         self._found[described] = thing.object_id
@@ -56,7 +56,7 @@ class Recall:
         Parameters
         ----------
         described
-            The description. What `take_found` has set for it comes first, then what fits best.
+            The description. An object bound by `take_found` comes first, then the best match.
 
         Returns
         -------
@@ -75,7 +75,7 @@ class Recall:
 
     def thing(self, described: ObjectDescription) -> Thing:
         """
-        Find the remembered object that a description means, or fail.
+        Find the remembered object that a description means, or raise.
 
         Parameters
         ----------
@@ -103,13 +103,13 @@ class Recall:
         Parameters
         ----------
         target
-            An `ObjectDescription`, or the name of a surface or room that there is.
+            An `ObjectDescription`, or the name of an existing surface or room.
 
         Returns
         -------
         tuple
-            The position (3,) in the map frame in m: the centre of an object, the middle of a
-            surface, or 1 m above the floor in the middle of a room.
+            The position (3,) in the map frame in m: the centre of an object, the centre of a
+            surface, or 1 m above the floor in the centre of a room.
 
         Raises
         ------

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What to try after a step of a plan has failed.
+Replanning after a step of a plan has failed.
 
-Nothing is tried after what is final: a refusal, a stop, a fall, a newer command, a fault of a
-program. At most `MOST_REPLANS` new plans are made for a command, none of steps that have failed
-already, and none that moves the robot of somebody who only asked something.
+Nothing is tried after a final error: a rejection, a stop, a fall, a newer command, an internal
+error. At most `MOST_REPLANS` new plans are made for a command, none with steps that have already
+failed, and none that moves the robot if the command was only a question.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _WAIT_S = 5.0
 
 @dataclass(frozen=True)
 class Failure:
-    """How a plan failed: a code of `ExecutePlan`'s result by its name, the step, and why."""
+    """Failure of a plan: the name of an `ExecutePlan` error code, the step, and the reason."""
 
     code: str
     step: int
@@ -36,7 +36,7 @@ class Failure:
 
 @dataclass(frozen=True)
 class Account:
-    """What became of a command so far, in words: what was done, what failed, and why."""
+    """Outcome of a command so far, in words: what was done, what failed, and why."""
 
     done: tuple[str, ...]
     failed: str
@@ -45,7 +45,7 @@ class Account:
 
 @dataclass(frozen=True)
 class Remedy:
-    """Steps to try instead, and what is said of them; without steps, only advice."""
+    """Steps to try instead, and their announcement; without steps, only advice."""
 
     steps: tuple[Step, ...]
     text: str
@@ -54,19 +54,19 @@ class Remedy:
 
 def remedy_for(steps: Sequence[Step], failed: int, skills: Skills, world: World) -> Remedy | None:
     """
-    Return what the rules try after a step that did not succeed.
+    Select a remedy for a failed step with the rules.
 
     Parameters
     ----------
     steps, failed
         The plan, and the index of the step that failed.
     skills, world
-        What can be done, and what is known by now.
+        The skills, and the current state of the world.
 
     Returns
     -------
     Remedy or None
-        What is left to do, in another way; None if nothing else makes sense.
+        The remaining steps, done in another way; None if nothing else makes sense.
 
     """
     after = failed + 1
@@ -89,7 +89,7 @@ def remedy_for(steps: Sequence[Step], failed: int, skills: Skills, world: World)
 def _search(
     steps: Sequence[Step], failed: int, wanted: ObjectDescription, skills: Skills, world: World
 ) -> Remedy | None:
-    """Look for an object that is not, or no longer, where it was thought to be."""
+    """Plan a search for an object that is not, or no longer, where it was expected."""
     if not any('standing' in skills[each.skill].needs for each in steps):
         return Remedy((), 'You can tell me to find it.')
     step, done = steps[failed], steps[:failed]
@@ -112,7 +112,7 @@ def _search(
 
 
 def _object_of(step: Step, skills: Skills) -> ObjectDescription | None:
-    """Return the single object with which a step has to do."""
+    """Return the single object that a step refers to."""
     for name, argument in skills[step.skill].arguments.items():
         value = step.arguments.get(name)
         if argument.kind in ('object', 'target') and isinstance(value, ObjectDescription):
@@ -127,19 +127,19 @@ def _with(step: Step, old: Any, new: Any) -> Step:
 
 class Recovery:
     """
-    What was tried for a command, and what else may be.
+    Replanning state of a command: what was tried, and what else may be.
 
     Parameters
     ----------
     plan
         The first plan.
     skills
-        What can be done.
+        The available skills.
 
     Attributes
     ----------
     replans
-        How many new plans were made.
+        The number of new plans made.
 
     """
 
@@ -152,7 +152,7 @@ class Recovery:
 
     def fail(self, failure: Failure) -> None:
         """
-        Record how the newest plan has failed.
+        Record the failure of the latest plan.
 
         Parameters
         ----------
@@ -174,7 +174,7 @@ class Recovery:
         Parameters
         ----------
         world
-            What is known now.
+            The current state of the world.
 
         Returns
         -------
@@ -190,23 +190,23 @@ class Recovery:
         )
 
     def account(self) -> Account:
-        """Return what became of the command so far."""
+        """Summarise the outcome of the command so far."""
         [failed] = self._in_words([self._plan.steps[self._failure.step]])
         return Account(self._in_words(self._done), failed, self._failure.text)
 
     def by_rules(self, world: World) -> Remedy | None:
         """
-        Find a remedy by the rules.
+        Find a remedy with the rules.
 
         Parameters
         ----------
         world
-            What is known now.
+            The current state of the world.
 
         Returns
         -------
         Remedy or None
-            None if the step took too long, the rules know of nothing, or it may not be done.
+            None if the step timed out, the rules know no remedy, or it may not be executed.
 
         """
         if self._failure.code != 'FAILED':
@@ -221,20 +221,20 @@ class Recovery:
         Parameters
         ----------
         plan
-            What the model answered; if all steps that were done come first, they are left out.
+            The answer of the model; if it starts with all completed steps, they are left out.
         world
-            What is known now.
+            The current state of the world.
 
         Returns
         -------
         Remedy or None
-            None if the steps were tried already, may not be done, or there are none.
+            None if the steps were tried already, may not be executed, or there are none.
 
         """
         steps = plan.steps
         count = len(self._done)
         if count and steps[:count] == self._done:
-            steps = steps[count:]  # what was done is not done again
+            steps = steps[count:]  # completed steps are not repeated
         if not steps or not self._may_be_done(steps, world):
             return None
         text = f'I try something else: {listed(self._in_words(steps))}.'
@@ -247,7 +247,7 @@ class Recovery:
         Parameters
         ----------
         remedy
-            What is tried next; it has steps.
+            The remedy to try next; it must have steps.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What skills do with the robot: send goals, speak, and wait; one tick after another."""
+"""Interface of the skills to the robot: send goals, speak, and wait, tick by tick."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from std_msgs.msg import String
 __all__ = ['Robot']
 
 _PATIENCE_S = 5.0
-"""How long a server may take to appear, or to accept a goal; by a clock that nobody stops."""
+"""How long a server may take to appear, or to accept a goal; by a steady clock."""
 _WORDS = {'COLLISION_AHEAD': 'Something is in my way, so I have stopped.'}
-"""What to say instead of what is meant for engineers, by the names of error codes."""
+"""Messages to users that replace those for engineers, by the names of error codes."""
 _FINAL = ('NOT_REACHABLE', 'OCCUPIED_HAND', 'EMPTY_HAND')
-"""The names of codes after which it makes no sense to try again."""
+"""The names of error codes after which a retry is pointless."""
 _LOOK_TICKS = 20
-"""After how many ticks it is looked again for another server of an action."""
+"""Number of ticks between checks for another server of an action, and between retries."""
 
 
 class Robot:
@@ -47,7 +47,7 @@ class Robot:
         self._say = node.create_publisher(String, 'speech/say', EVENT)
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.said: list[str] = []
-        """What was said since somebody emptied this list."""
+        """The texts spoken since this list was last cleared."""
 
     def now_s(self) -> float:
         """Return the time of the node in s."""
@@ -60,7 +60,7 @@ class Robot:
         Parameters
         ----------
         text
-            A sentence for the people around the robot.
+            The text, for the people around the robot.
 
         """
         self.said.append(text)
@@ -73,7 +73,7 @@ class Robot:
         Parameters
         ----------
         duration_s
-            How long; the wait also ends if the clock is set back to before it began.
+            The duration; the wait also ends if the clock is set back to before its start.
 
         """
         begin_s = self.now_s()
@@ -84,7 +84,7 @@ class Robot:
         self, kind: Any, name: str, goal: Any, otherwise: str = ''
     ) -> Generator[None, None, Any]:
         """
-        Send a goal to an action, and wait for its result; closed before, cancel it.
+        Send a goal to an action, and wait for its result; closing the generator cancels the goal.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Robot:
         goal
             The goal.
         otherwise
-            Why it did not succeed, for a result that cannot say so itself.
+            The reason for a failure, for a result that states none itself.
 
         Returns
         -------
@@ -103,7 +103,7 @@ class Robot:
         Raises
         ------
         SkillError
-            The action is not there, rejects the goal, or does not succeed.
+            The action is unavailable, rejects the goal, or does not succeed.
 
         """
         if name not in self._clients:
@@ -127,7 +127,7 @@ class Robot:
     def _accepted(
         self, client: ActionClient, name: str, goal: Any
     ) -> Generator[None, None, Future[Any]]:
-        """Send a goal until it is accepted: a server that was just started does not do so yet."""
+        """Send a goal until it is accepted: a server that just started may still reject it."""
         begin = self._steady.now()
         while True:
             sent = client.send_goal_async(goal)
@@ -146,7 +146,7 @@ class Robot:
     def _ended(
         self, client: ActionClient, name: str, end: GoalResult, servers: set[bytes]
     ) -> SkillRun:
-        """Wait for a result; SkillError if the server that has accepted the goal is gone."""
+        """Wait for a result; raise SkillError if the server that accepted the goal is gone."""
         for tick in count():
             if end.done():
                 return
@@ -157,17 +157,17 @@ class Robot:
                 yield from self._patiently(
                     client.server_is_ready, f"'{name}' ended in the middle of it."
                 )
-                # What comes back after a crash knows nothing of this goal.
+                # A server restarted after a crash does not know this goal.
                 if not end.done():
                     raise SkillError(f"'{name}' ended in the middle of it.")
 
     def _servers(self, name: str) -> set[bytes]:
-        """Return who offers an action; one that was killed stays in the graph for some time."""
+        """Return the GIDs of the servers of an action; killed ones stay in the graph a while."""
         found = self._node.get_publishers_info_by_topic(f'{name}/_action/status')
         return {bytes(each.endpoint_gid) for each in found}
 
     def _patiently(self, condition: Any, failure: str) -> SkillRun:
-        """Wait until something holds; SkillError if it does not for too long."""
+        """Wait until a condition holds; raise SkillError after the timeout."""
         begin = self._steady.now()
         while not condition():
             if self._is_over(begin):
@@ -175,18 +175,18 @@ class Robot:
             yield
 
     def _is_over(self, begin: Time) -> bool:
-        """Return whether patience is over that began at a time."""
+        """Check whether the timeout since a start time has expired."""
         return bool((self._steady.now() - begin).nanoseconds * 1e-9 > _PATIENCE_S)
 
 
 def _reason(result: Any) -> str:
-    """Return why an action did not succeed, in words for people; '' if it does not say."""
+    """Return the reason for a failed result, as a message to the user; '' if it states none."""
     said = getattr(result, 'error_msg', '') or getattr(result, 'error_string', '')
     return _WORDS.get(_code(result), str(said))
 
 
 def _code(result: Any) -> str:
-    """Return the name of the error code of a result, of those that matter; '' for others."""
+    """Return the name of the error code of a result if it is handled here; '' for others."""
     code = getattr(result, 'error_code', 0)
     known = (name for name in (*_WORDS, *_FINAL) if getattr(result, name, None) == code)
     return next(known, '') if code else ''

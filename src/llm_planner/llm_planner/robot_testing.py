@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot for tests of planner and executor: its servers do as they are told."""
+"""Fake robot with scripted servers, for tests of the planner and the executor."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ rooms:
 
 def detection(name: str, *classes: str, at: tuple[float, float, float]) -> Detection3D:
     """
-    Return a remembered object.
+    Build a remembered object.
 
     Parameters
     ----------
     name, classes
-        Its id, what it is, and its further names: `mug`, `red mug`.
+        Its id, its class, and its further names: `mug`, `red mug`.
     at
-        Where it is in the map; m.
+        Its position in the map; m.
 
     """
     found = Detection3D(id=name)
@@ -65,20 +65,20 @@ MUGS = [
 
 class Robot(Node):
     """
-    Navigation that goes nowhere, eyes that remember, and ears for what is said.
+    Fake robot: navigation that does not move, scripted perception, and a record of messages.
 
     Attributes
     ----------
     walks, spins, looks, scans, said, plans, grammars, statuses
-        What it was told to do, and has heard.
+        The goals and messages received so far.
     is_slow
-        Whether a walk goes on until it is canceled.
+        Whether a walk continues until it is canceled.
     is_hemmed_in, is_stiff
-        Whether a turn would touch something, and whether the head cannot be turned.
+        Whether a turn would collide, and whether the head cannot be turned.
     failure, failures
-        Why walks fail; those of the list one after another, the other one always.
+        The reasons why walks fail: first those of the list in order, then always the single one.
     after_walk, after_scan
-        What is remembered after the next walk, and after the next look around, if anything else.
+        The objects remembered after the next walk, and after the next scan, if they change.
 
     Parameters
     ----------
@@ -129,9 +129,10 @@ class Robot(Node):
 
     def give_hands(self) -> None:
         """
-        Take things and put them down, and move the arms, from now on.
+        Offer the actions of the hands and the arms from now on.
 
-        It holds `held` in its right hand, has `placed` things, and has `moved` the arms of sides.
+        `held` are the objects in the right hand, `placed` those put down, and `moved` the sides of
+        the arms that moved.
         """
         self.held: list[Detection3D] = []
         self.placed: list[tuple[str, str]] = []
@@ -165,7 +166,7 @@ class Robot(Node):
         await self._tell_hands(goal)
 
     async def _tell_hands(self, goal: RunningGoal) -> None:
-        """Tell what is held; that is remembered nowhere else."""
+        """Publish the held objects, which are no longer among the remembered ones."""
         self.holding.publish(Detection3DArray(detections=self.held))
         gone = {each.id for each in self.held} | {name for name, _ in self.placed}
         await self._see(goal, [each for each in self._remembered if each.id not in gone])
@@ -177,7 +178,7 @@ class Robot(Node):
         Parameters
         ----------
         x_m, y_m
-            Where `base_footprint` is in the map frame.
+            The position of `base_footprint` in the map frame.
 
         """
         here = TransformStamped(child_frame_id='base_footprint')
@@ -193,7 +194,7 @@ class Robot(Node):
         Parameters
         ----------
         things
-            All objects; those of before are forgotten.
+            All objects; previous ones are forgotten.
 
         """
         self._remembered = list(things)
@@ -201,7 +202,7 @@ class Robot(Node):
 
     def heard(self, *texts: str) -> Callable[[], bool]:
         """
-        Build a predicate that tells whether some texts were said, in their order.
+        Build a predicate that checks whether some texts were spoken, in order.
 
         Parameters
         ----------
@@ -211,7 +212,7 @@ class Robot(Node):
         Returns
         -------
         Callable
-            The predicate, for all that was said since the node was made.
+            The predicate, for everything spoken since the node was created.
 
         """
 
@@ -251,7 +252,7 @@ class Robot(Node):
             raise GoalAborted('UNKNOWN', '')
 
     async def _see(self, goal: RunningGoal, things: Sequence[Detection3D] | None) -> None:
-        """Remember something else, and give all a moment to hear of it."""
+        """Publish other objects if given, and leave all nodes time to receive them."""
         if things is not None:
             self.remember(things)
             for _ in range(_SEEING_TICKS):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Understand English sentences by the phrases of the skills, without a language model.
+Parse English commands with the phrases of the skills, without a language model.
 
-A sentence is understood as a whole or not at all: each of its clauses has to be a phrase of a
-skill, and what is left over is quoted in the refusal.
+A sentence is understood as a whole or not at all: each of its clauses has to match a phrase of a
+skill, and the error message quotes the part that was not understood.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ __all__ = ['RulePlanner']
 
 _LONGEST = 500
 _REPAIRED_FROM = 4
-"""Shorter words are not taken for misspelt ones."""
+"""The spelling of shorter words is not corrected."""
 _CLOSE = 0.8
 _OPEN = ('place', 'class', 'classes')
-"""Lists of names; when a sentence fits but for a name, that name is said to be unknown."""
+"""Lists of names; if a sentence matches except for a name, that name is reported as unknown."""
 
 
 class RulePlanner:
     """
-    Makes plans of sentences.
+    Rule-based planner that parses commands into plans.
 
     Parameters
     ----------
     skills
-        What can be asked for, and in which words.
+        The skills, with the phrases that ask for them.
 
     """
 
@@ -51,16 +51,16 @@ class RulePlanner:
 
     def plan(self, text: str, world: World, dialogue: Dialogue) -> Plan | Question | Refusal:
         """
-        Return what to do about a sentence.
+        Parse a command into a plan, a question or a refusal.
 
         Parameters
         ----------
         text
-            What was said or typed; an answer, if the dialogue has a question.
+            The command, as spoken or typed; it may answer the question of the dialogue.
         world
-            What is known now.
+            The current state of the world.
         dialogue
-            What was spoken about before; is changed.
+            The dialogue context; it is updated.
 
         """
         if len(text) > _LONGEST:
@@ -91,7 +91,7 @@ class RulePlanner:
         return plan
 
     def _confirmed(self, plan: Plan, world: World) -> Plan | Refusal:
-        """Return a plan to which somebody said yes, if it can still be done."""
+        """Return a confirmed plan if it is still valid, else the reason."""
         try:
             check(plan, self.skills, world)
         except PlanError as error:
@@ -105,9 +105,9 @@ class RulePlanner:
         Parameters
         ----------
         text
-            The description; a pronoun is none.
+            The description; a pronoun is not accepted.
         world
-            What is known: the names of places are from there.
+            The state of the world, which has the names of places.
 
         Raises
         ------
@@ -124,12 +124,12 @@ class RulePlanner:
 
     def to_jsgf(self, world: World) -> str:
         """
-        Write the grammar of all commands for a speech recogniser.
+        Export the grammar of all commands for a speech recogniser, in JSGF.
 
         Parameters
         ----------
         world
-            The places that can be named.
+            The state of the world, with the places that can be named.
 
         Returns
         -------
@@ -155,7 +155,7 @@ class RulePlanner:
         Parameters
         ----------
         text
-            What was said or typed.
+            The sentence, as spoken or typed.
 
         """
         grammar, _, _ = self._grammar(World())
@@ -175,7 +175,7 @@ class RulePlanner:
         return any(len(tokens) in skipped(grammar, 'end', tokens, end) for end in ends)
 
     def _grammar(self, world: World) -> tuple[Grammar, Grammar, frozenset[str]]:
-        """Return the grammar of a world, one that takes any words for names, and all words."""
+        """Return the grammar of a world, one that accepts any words as names, and all words."""
         key = (tuple(world.places), world.rooms)
         if key not in self._grammars:
             vocabulary = self.skills.vocabulary
@@ -205,7 +205,7 @@ class RulePlanner:
         return self._grammars[key]
 
     def _clauses(self, tokens: list[str], world: World) -> list[Clause]:
-        """Return the clauses of a sentence; ask if it is one with its spelling mended."""
+        """Parse a sentence into clauses; ask if that needs a correction of the spelling."""
         grammar, loose, words = self._grammar(world)
         search = ClauseSearch(grammar, self._sayings, tokens)
         found, furthest = search.first(), search.furthest
@@ -222,7 +222,7 @@ class RulePlanner:
         raise PlanError(self._not_understood(grammar, tokens, furthest))
 
     def _not_understood(self, grammar: Grammar, tokens: list[str], at: int) -> str:
-        """Quote the clause that was not understood, and say what could be said instead."""
+        """Build the message that quotes the clause not understood, with a hint on what to say."""
         end = next(
             (
                 index
@@ -248,7 +248,7 @@ class RulePlanner:
     def _interpreted(
         self, text: str, clauses: Sequence[Clause], world: World, dialogue: Dialogue
     ) -> Plan:
-        """Return the steps that the clauses ask for."""
+        """Build the plan that the clauses ask for, and update the dialogue."""
         reading = Reading(self.skills, world, dialogue)
         for clause in clauses:
             reading.read(clause, text)
@@ -257,7 +257,7 @@ class RulePlanner:
 
 
 def _mended(token: str, words: frozenset[str]) -> str:
-    """Return a known word that is spelt nearly like an unknown one, or the word itself."""
+    """Correct the spelling of an unknown word to a similar known one, if there is one."""
     if token in words or len(token) < _REPAIRED_FROM or not token.isalpha():
         return token
     close = difflib.get_close_matches(token, words, 1, _CLOSE)
@@ -273,7 +273,7 @@ def _all_words(grammar: Grammar, sayings: Sequence[tuple[Skill, Saying]]) -> fro
 
 
 def _first_words(saying: Saying) -> Iterator[Phrase]:
-    """Yield the words with which a phrase can begin."""
+    """Yield the possible first words of a phrase."""
     pending: list[Phrase] = [saying.phrase]
     while pending:
         phrase = pending.pop()
@@ -288,7 +288,7 @@ def _first_words(saying: Saying) -> Iterator[Phrase]:
 def _refuse_unknown_names(
     bindings: Bindings, grammar: Grammar, words: frozenset[str], world: World
 ) -> None:
-    """Raise PlanError for the first name that has no word which is known."""
+    """Raise PlanError for the first name without any known word."""
     for name, value in bindings:
         if isinstance(value, tuple):
             _refuse_unknown_names(value, grammar, words, world)

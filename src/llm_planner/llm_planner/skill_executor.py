@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Do plans, one at a time: the node `skill_executor` with the action `execute_plan`."""
+"""Execute plans, one at a time: the node `skill_executor` with the action `execute_plan`."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ from std_msgs.msg import String
 __all__ = ['SkillExecutor', 'main']
 
 _PATIENCE_TICKS = 40
-"""How often it is looked for a server that is not there; twenty times a second."""
+"""Number of checks for a missing server, at twenty per second."""
 
 
 class SkillExecutor(Node):
     """
-    Does the steps of plans by the actions of the robot, and says what happens.
+    Node that executes the steps of plans with the actions of the robot, and reports on them.
 
-    A plan with the stamp and the command of the one before is another one for the same command:
-    coming back leads to where the robot was when the first began, and a reason is said once.
-    `executor/state` names the run of the node, so that one who waits for the end of a plan notices
-    that its executor was killed and another one runs.
+    A plan with the stamp and the command of the previous one is another plan for the same command:
+    coming back leads to the pose at the start of the first one, and each reason is spoken only
+    once. `executor/state` has an id of the run of the node, so that a client that waits for the
+    end of a plan notices that its executor was killed and another one runs.
 
     Parameters
     ----------
@@ -72,20 +72,20 @@ class SkillExecutor(Node):
         self._tell('', [])
 
     def _tell(self, command: str, steps: list[dict[str, str]]) -> None:
-        """Publish what is done, and how far it has come."""
+        """Publish the current command, and the states of its steps."""
         told = {'run': self._run, 'command': command, 'steps': steps}
         self._states.publish(String(data=json.dumps(told)))
 
     def _heed_stop(self, message: String) -> None:
-        """Stop, also when the planner that has sent the plan is gone and cannot cancel it."""
+        """Obey a stop command, even if the planner that sent the plan is gone."""
         if self._planner.is_stop(message.data):
             request = CancelGoal.Request()
-            # All goals up to now: a newer one may be on its way.
+            # Cancel all goals accepted up to now: a newer one may be on its way.
             request.goal_info.stamp = self.get_clock().now().to_msg()
             self._cancels.call_async(request)
 
     async def _work(self, goal: RunningGoal) -> None:
-        """Do a plan; the result says how far it came, whatever happens."""
+        """Execute a plan; the result reports how far it came in every case."""
         goal.result.failed_step = -1
         self._robot.said = []
         self._begin(goal.request.plan)
@@ -100,7 +100,7 @@ class SkillExecutor(Node):
             self._doing = ''
 
     def _begin(self, plan: PlanMessage) -> None:
-        """Forget the command before, unless the plan is another one for it."""
+        """Reset the state of the previous command, unless the plan is another one for it."""
         self._doing, self._step = plan.command or 'a plan', ''
         stamp = (plan.header.stamp.sec, plan.header.stamp.nanosec)
         command = (stamp, plan.command) if any(stamp) else None
@@ -110,14 +110,14 @@ class SkillExecutor(Node):
         self._command = command
 
     def _explain(self, reason: str) -> None:
-        """Say why a plan has failed, but not twice for a command."""
+        """Speak the reason why a plan failed, but not twice for a command."""
         self._failure = reason
         if reason not in self._reasons:
             self._reasons.add(reason)
             self._robot.say(reason)
 
     def _status(self) -> list[PartStatus]:
-        """Return how the node is, for diagnostics."""
+        """Return the diagnostic status of the node."""
         missing = self._watch.world().missing
         return [
             work_status(self._doing, self._step, self._failure),
@@ -125,7 +125,7 @@ class SkillExecutor(Node):
         ]
 
     async def _checked(self, goal: RunningGoal) -> Plan:
-        """Return the plan of a goal; wait a while for what it needs and may be starting."""
+        """Parse and validate the plan of a goal; wait a while for servers that are starting."""
         for tick in range(_PATIENCE_TICKS + 1):
             world = self._watch.world()
             try:

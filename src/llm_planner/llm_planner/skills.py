@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the robot can be asked for: the skills."""
+"""Data model of the skills that the robot can be asked for."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Argument:
     unit, at_least, at_most
         Of a number.
     default
-        What it is if it is not given; None if it has to be given.
+        Its value if it is not given; None if it is required.
 
     """
 
@@ -49,7 +49,7 @@ class Argument:
 
 @dataclass(frozen=True)
 class Saying:
-    """A phrase that asks for a skill, and the arguments that it gives without a slot."""
+    """A phrase that asks for a skill, and the argument values that it implies without a slot."""
 
     phrase: Phrase
     constants: Mapping[str, Any] = field(default_factory=dict)
@@ -57,32 +57,32 @@ class Saying:
 
 @dataclass(frozen=True)
 class SkillStep:
-    """One of the skills that a compound skill consists of; arguments name those of the whole."""
+    """A step of a compound skill; its arguments refer to those of the compound skill."""
 
     skill: str
     arguments: Mapping[str, str]
     unless_holding: bool = False
     only_if: str = ''
-    """The argument, or `argument.place`, without which the step is left out."""
+    """The argument, or `argument.place`, without which the step is skipped."""
 
 
 @dataclass(frozen=True)
 class Skill:
     """
-    A skill: what it does, what it needs, and the sentences that ask for it.
+    A skill: what it does, what it needs, and the phrases that ask for it.
 
     Attributes
     ----------
     server_kind, server
-        `action` or `service`, and its name; both empty if nothing has to run.
+        `action` or `service`, and its name; both empty if it needs no server.
     without
-        What the robot says if that is not running.
+        What the robot says if the server is not running.
     needs, leaves
-        What has to be so before, and is so afterwards: of `NEEDS` and `LEAVES`.
+        The preconditions and effects: some of `NEEDS` and `LEAVES`.
     timeout_s, attempts
-        How long it may take, and how often it is tried.
+        The time limit, and the maximum number of attempts.
     steps
-        The skills that it consists of; none if it is done itself.
+        The skills of which a compound skill consists; empty for a simple one.
 
     """
 
@@ -98,7 +98,7 @@ class Skill:
     attempts: int = 1
     steps: tuple[SkillStep, ...] = ()
     does: tuple[str, ...] = ()
-    """Words for it as an imperative, with `{argument}`s; the first whose arguments are given."""
+    """Imperatives with `{argument}`s that describe it; the first with all arguments is used."""
     says: str = ''
     sayings: tuple[Saying, ...] = ()
 
@@ -106,7 +106,7 @@ class Skill:
 @dataclass(frozen=True)
 class Skills:
     """
-    All skills, in the order of their file, with the words that they share.
+    All skills, in the order of their file, with the rules and words that they share.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class Skills:
     rules
         Phrases that are parts of others, by name.
     vocabulary
-        Words by the name of their list and the value for which they stand.
+        Words by the name of their list and the value that they stand for.
 
     """
 

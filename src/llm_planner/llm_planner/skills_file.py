@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read what the robot can be asked for from a file such as skills.yaml."""
+"""Load the skills from a file such as skills.yaml."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _RULES = {
     'place': 'place_name', 'places': 'places', 'object': 'object', 'objects': 'objects',
     'target': 'target',
 }  # fmt: skip
-"""The rules that arguments stand for, by type; numbers, choices and texts have their own."""
+"""The rules of the slots of arguments, by type; numbers, choices and texts have their own."""
 _NEEDED_RULES = ('beginning', 'joint', 'end', 'object', 'objects', 'place_name', 'target')
 _ARGUMENT_KEYS = ('type', 'values', 'unit', 'at_least', 'at_most', 'default')
 _SKILL_KEYS = (
@@ -41,12 +41,12 @@ _MOST_TIMEOUT_S = 3600.0
 
 
 class SkillsError(Exception):
-    """A file of skills cannot be used; the text says why."""
+    """A skills file is invalid; the message states why."""
 
 
 def skills_path(given: str = '') -> Path:
     """
-    Locate the file of skills.
+    Locate the skills file.
 
     Parameters
     ----------
@@ -61,17 +61,17 @@ def skills_path(given: str = '') -> Path:
 
 def load_skills(path: Path) -> Skills:
     """
-    Read a file of skills.
+    Load a skills file.
 
     Parameters
     ----------
     path
-        A YAML file; the one of this package explains itself.
+        A YAML file; the one of this package documents the format.
 
     Raises
     ------
     SkillsError
-        It cannot be read, or something in it is missing, unknown or impossible.
+        The file cannot be read, or something in it is missing, unknown or invalid.
 
     """
     try:
@@ -176,7 +176,7 @@ def _argument(name: str, entry: Any, of: str) -> Argument:
 
 
 def _saying(skill: str, arguments: Mapping[str, Argument], entry: Any) -> Saying:
-    """Return a phrase; it is a text, or a table of one text and what that gives besides."""
+    """Parse a phrase: a text, or a table of one text and the arguments that it implies."""
     constants: Mapping[str, Any] = {}
     if isinstance(entry, dict) and len(entry) == 1:
         [(entry, constants)] = entry.items()
@@ -202,7 +202,7 @@ def _step(entry: Any, what: str) -> SkillStep:
 
 
 def _check_steps(skill: Skill, skills: Skills) -> None:
-    """Refuse steps that are no skills, or whose arguments do not fit."""
+    """Validate that steps are simple skills, and that their arguments exist."""
     for step in skill.steps:
         other = skills.skills.get(step.skill)
         if other is None or other.steps:
@@ -220,7 +220,7 @@ def _check_steps(skill: Skill, skills: Skills) -> None:
 
 
 def _templates(value: Any, arguments: Mapping[str, Argument], what: str) -> tuple[str, ...]:
-    """Return texts in which `{argument}` stands for an argument."""
+    """Validate and return texts in which `{argument}` stands for an argument."""
     texts = tuple(value) if isinstance(value, list) else (value,) if value else ()
     for text in texts:
         try:
@@ -272,7 +272,7 @@ def _some_of(value: Any, known: Iterable[str], what: str) -> tuple[str, ...]:
 
 
 def _words(values: Any, what: str) -> dict[str, tuple[str, ...]]:
-    """Return the words for each value of a list."""
+    """Parse the lists of words for each value."""
     found = {}
     for value, words in _table(values, what).items():
         if not isinstance(words, list) or not all(isinstance(each, str) for each in words):

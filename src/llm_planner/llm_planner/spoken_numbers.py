@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers with units, as people say and type them."""
+"""Parsing of spoken and typed numbers with units."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ _SPOKEN_UNITS = {
 
 def numbers_at(tokens: Sequence[str], at: int, unit: str) -> Iterator[tuple[int, float]]:
     """
-    Yield the ways to read a number, with its unit or without.
+    Yield the parses of a number, with its unit or without.
 
     Parameters
     ----------
     tokens, at
-        Words, and the index of the first one of the number: `half a metre`, `90`.
+        The words, and the index of the first one of the number: `half a metre`, `90`.
     unit
-        What is wanted: `metres`, `degrees` or `seconds`. Others of the kind are converted.
+        The target unit: `metres`, `degrees` or `seconds`. Units of the same kind are converted.
 
     Yields
     ------
@@ -67,7 +67,7 @@ def numbers_at(tokens: Sequence[str], at: int, unit: str) -> Iterator[tuple[int,
 
 
 def _number(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
-    """Return the index behind a number, and the number; None if there is none."""
+    """Parse a number; return the index behind it, and the number, or None if there is none."""
     if at >= len(tokens):
         return None
     if tokens[at][0].isdigit():
@@ -90,7 +90,7 @@ def _number(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
 
 
 def _hundreds(tokens: Sequence[str], at: int) -> int:
-    """Return how many hundreds are said from a place on: 3 for `three hundred`."""
+    """Parse the number of hundreds at an index: 3 for `three hundred`."""
     if not _says(tokens, at + 1, 'hundred'):
         return 0
     number = 1.0 if tokens[at] == 'a' else NUMBER_WORDS.get(tokens[at], 0.0)
@@ -98,7 +98,7 @@ def _hundreds(tokens: Sequence[str], at: int) -> int:
 
 
 def _below_hundred(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
-    """Return the index behind a number such as `sixty five`, and the number; or None."""
+    """Parse a number such as `sixty five`; return the index behind it, and the number; or None."""
     first = NUMBER_WORDS.get(tokens[at]) if at < len(tokens) else None
     if first is None:
         return None
@@ -109,14 +109,14 @@ def _below_hundred(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
 
 
 def _says(tokens: Sequence[str], at: int, *words: str) -> bool:
-    """Whether words are said from a place on."""
+    """Check whether the tokens from an index on are some words."""
     end = at + len(words)
     return tuple(tokens[at:end]) == words
 
 
 def jsgf_of(number: str, unit: str) -> str:
     """
-    Return the rule of a number with its unit for a speech recogniser.
+    Build the JSGF rule of a number with its unit.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def jsgf_of(number: str, unit: str) -> str:
 
 
 def jsgf_digits() -> str:
-    """Return the rule `<digits>`, which the rules of numbers refer to, and its own."""
+    """Build the JSGF rule `<digits>`, to which the rules of numbers refer, and its subrules."""
     ones, tens = ' | '.join(_ONES[1:]), ' | '.join(_TENS)
     units = ' | '.join(_ONES[1:10])
     return (

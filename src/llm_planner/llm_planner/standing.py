@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the robot can stand to reach or see a place, in the plane of the map."""
+"""Candidate poses at which the robot can stand to reach or see a place, in the map plane."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ['Pose', 'stands_at_object', 'stands_at_surface', 'stands_in_room']
 Pose = tuple[float, float, float]
 """x and y in m, yaw in rad, in the map."""
 _APART_M = 0.5
-"""From the edge of a piece of furniture to the middle of the robot."""
+"""Distance from the edge of a piece of furniture to the centre of the robot."""
 _CLEAR_M = 0.4
 _GRID_M = 0.25
 _AROUND = 12
@@ -25,16 +25,16 @@ def stands_at_surface(
     surface: Surface, places: Places, towards: Point | None = None
 ) -> list[Pose]:
     """
-    Return where to stand before a surface, facing it, the best first.
+    Compute the poses to stand in front of a surface, facing it, best first.
 
     Parameters
     ----------
     surface
         The surface.
     places
-        All places: other furniture is in the way, and so is what is outside of the room.
+        All places: poses close to other furniture, or outside the room, are excluded.
     towards
-        What on the surface is to be near, in the map (m); without it, its middle.
+        The point on the surface to be close to, in the map (m); by default its centre.
 
     """
     goal = towards or surface.middle_m
@@ -55,16 +55,16 @@ def stands_at_surface(
 
 def stands_at_object(position_m: Point, places: Places, distance_m: float = 0.6) -> list[Pose]:
     """
-    Return where to stand beside an object on the floor, facing it, on a circle around it.
+    Compute the poses to stand on a circle around an object on the floor, facing it.
 
     Parameters
     ----------
     position_m
-        Where it is in the map.
+        The position of the object in the map.
     places
         Furniture and rooms.
     distance_m
-        How far away to stand.
+        The distance from the object.
 
     """
     x, y = position_m
@@ -83,14 +83,14 @@ def stands_at_object(position_m: Point, places: Places, distance_m: float = 0.6)
 
 def stands_in_room(room: Room, places: Places, at_most: int = 8) -> list[Pose]:
     """
-    Return where to stand in a room, the places nearest to its middle first, facing the middle.
+    Compute the poses to stand in a room, facing its centre, closest to the centre first.
 
     Parameters
     ----------
     room, places
         The room, and the furniture that may be in it.
     at_most
-        How many are wanted.
+        The maximum number of poses.
 
     """
     middle = room.middle_m
@@ -106,7 +106,7 @@ def stands_in_room(room: Room, places: Places, at_most: int = 8) -> list[Pose]:
 def _sorted_free(
     poses: Iterable[Pose], goal: Point, places: Places, room: str, own: str
 ) -> list[Pose]:
-    """Return the poses in the room that are clear of furniture, the nearest to a goal first."""
+    """Return the poses in the room that are clear of furniture, closest to a goal first."""
     others = [each for each in places.surfaces if base_name(each.name) != base_name(own)]
     free = [
         pose
@@ -118,7 +118,7 @@ def _sorted_free(
 
 
 def _outward(a: Point, b: Point, middle: Point) -> Point:
-    """Return the unit normal of a side that leads away from the middle of the outline."""
+    """Compute the unit normal of a side that points away from the centre of the outline."""
     length_m = math.dist(a, b)
     normal = ((b[1] - a[1]) / length_m, (a[0] - b[0]) / length_m)
     is_inward = (middle[0] - a[0]) * normal[0] + (middle[1] - a[1]) * normal[1] > 0.0
@@ -126,7 +126,7 @@ def _outward(a: Point, b: Point, middle: Point) -> Point:
 
 
 def _shares(a: Point, b: Point, goal: Point) -> list[float]:
-    """Return where along a side to stand: nearest to a goal, then in its middle and quarters."""
+    """Return the fractions of a side to stand at: closest to a goal, the middle, the quarters."""
     length2 = math.dist(a, b) ** 2
     nearest = ((goal[0] - a[0]) * (b[0] - a[0]) + (goal[1] - a[1]) * (b[1] - a[1])) / length2
     return [max(0.1, min(0.9, nearest)), 0.5, 0.25, 0.75][: _SIDES + 1]

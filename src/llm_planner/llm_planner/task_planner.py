@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn what somebody says into a plan, and have it done: the node `task_planner`."""
+"""Turn commands into plans, and have them executed: the node `task_planner`."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ from std_msgs.msg import String
 __all__ = ['PlannerParameters', 'TaskPlanner', 'main']
 
 _ANSWER_S = 60.0
-"""How long a question waits for its answer."""
+"""How long an answer to a question is accepted."""
 _ACCEPT_S, _SENDINGS = 3.0, 3
-"""How long the answer to a goal is waited for, and how often it is sent."""
+"""How long to wait for the response to a goal, and how often the goal is sent."""
 _LOOK_S = 1.0
-"""How often the node looks whether the executor is still there."""
+"""Period of the check whether the executor is still running."""
 
 
 @dataclass(frozen=True)
@@ -96,16 +96,17 @@ class PlannerParameters(KnowledgeParameters):
 
 
 class _ExecutorLostError(Exception):
-    """The executor of a plan has ended before the plan."""
+    """The executor ended before its plan was completed."""
 
 
 class TaskPlanner(Node):
     """
-    Takes commands from `user_command` and `speech/transcript`, and sends plans to `execute_plan`.
+    Node that turns commands into plans, and sends these to the action `execute_plan`.
 
-    When a step fails, it may plan anew; all plans for a command have the stamp of the first.
+    Commands arrive on `user_command` and `speech/transcript`. After a failed step it may replan;
+    all plans for a command have the stamp of the first.
 
-    The key for a server of language models is the variable OPENAI_API_KEY of the environment.
+    The API key of a language model server is read from the environment variable OPENAI_API_KEY.
 
     Parameters
     ----------
@@ -120,7 +121,7 @@ class TaskPlanner(Node):
         self._planner, self._watch = begin_watch(self, told)
         self._model: ModelPlanner | None = None
         if told.backend == 'openai':
-            # Its HTTP library takes a while to import; the rules do without.
+            # Imported only if needed: its HTTP library takes a while to import.
             from llm_planner.model_server import ModelServer
 
             key = os.environ.get('OPENAI_API_KEY', '')
@@ -129,7 +130,7 @@ class TaskPlanner(Node):
         self._dialogue = Dialogue()
         self._sent: Any = None
         self._unanswered: dict[Future[Any], int] = {}
-        """Whether goals were answered, and how often the executor is looked for until then."""
+        """Futures of whether goals were answered, with the number of checks left to wait."""
         self._ends: set[Future[Any]] = set()
         self._run = ''
         self._newest = 0
@@ -147,13 +148,13 @@ class TaskPlanner(Node):
         self._diagnostics = Diagnostics(self, self._status)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._lookout = self.create_timer(_LOOK_S, self._look_for_executor, clock=steady)
-        # A recogniser takes seconds to read it, so that it has the answers from the beginning.
+        # A recogniser takes seconds to load a grammar, so this one has the answers from the start.
         commands = self._planner.to_jsgf(self._watch.world())
         grammar = with_answers(commands, asks_to_confirm=told.confirm != 'never')
         self._grammar.publish(String(data=grammar))
 
     def _take(self, message: String) -> None:
-        """Do what somebody says: stop at once, or plan and act, or ask, or refuse."""
+        """Handle a command: stop immediately, or plan and then execute, ask or reject."""
         self._newest += 1
         if self._planner.is_stop(message.data):
             self.get_logger().info(f'Told to stop: {message.data!r}')
@@ -164,7 +165,7 @@ class TaskPlanner(Node):
             self.executor.create_task(self._obey, message.data, self._newest)
 
     async def _obey(self, text: str, number: int) -> None:
-        """Plan and act, unless something newer was said meanwhile."""
+        """Plan and execute a command, unless a newer one arrives meanwhile."""
         if time.monotonic() - self._asked_s > _ANSWER_S:
             self._dialogue.question = None
         asked = self._dialogue.question
@@ -181,12 +182,12 @@ class TaskPlanner(Node):
         self._say(outcome.text)
 
     def _expect(self, question: Question | None) -> None:
-        """Wait for the answer to a question, or for none."""
+        """Set the question whose answer is expected, or none."""
         self._dialogue.question = question
         self._asked_s = time.monotonic()
 
     async def _have_done(self, plan: Plan, number: int) -> None:
-        """Have a plan done, and another one if it fails and something else makes sense."""
+        """Execute a plan, and replan after a failure if something else makes sense."""
         stamp = self.get_clock().now().to_msg()
         recovery = Recovery(plan, self._planner.skills)
         self._health.command = plan.command
@@ -208,7 +209,7 @@ class TaskPlanner(Node):
             self._health.command = ''
 
     async def _failure(self, plan: Plan, stamp: Any) -> Failure | None:
-        """Have a plan done; return how it failed, unless it succeeded or was given up."""
+        """Execute a plan; return its failure, or None if it succeeded or was given up."""
         made = plan_message(plan, self._planner)
         made.header.stamp = stamp
         steps = '; '.join(each.text for each in made.steps)
@@ -232,10 +233,10 @@ class TaskPlanner(Node):
 
     async def _sent_goal(self, goal: ExecutePlan.Goal) -> Any:
         """
-        Return the future of the answer to a goal, when it is there; None if it is not to be done.
+        Send a goal; return the completed future of its response, or None if it was given up.
 
-        A goal to which nothing is answered is sent again: an executor that has only just been
-        found may not have found this node yet.
+        A goal without a response is sent again: an executor that was discovered only just now may
+        not have discovered this node yet.
         """
         for _ in range(_SENDINGS):
             sent = self._sent = self._client.send_goal_async(goal)
@@ -244,7 +245,7 @@ class TaskPlanner(Node):
             sent.add_done_callback(lambda _, told=answered: told.done() or told.set_result(True))
             is_answered = await answered
             self._unanswered.pop(answered, None)
-            if self._sent is not sent:  # told to stop, or something newer to do
+            if self._sent is not sent:  # stopped, or superseded by a newer command
                 return None
             if is_answered:
                 return sent
@@ -254,12 +255,12 @@ class TaskPlanner(Node):
 
     async def _end_of(self, sent: Any) -> Any:
         """
-        Return the end of a goal that was sent, None if it was not accepted.
+        Wait for the result of a goal that was sent; None if it was not accepted.
 
         Raises
         ------
         _ExecutorLostError
-            The executor has ended, and can answer no more.
+            The executor has ended, and can no longer respond.
 
         """
         end: Future[Any] = Future(executor=self.executor)
@@ -283,17 +284,17 @@ class TaskPlanner(Node):
             self._ends.discard(end)
 
     def _follow(self, message: String) -> None:
-        """Notice that another executor runs."""
+        """Detect that another executor is running."""
         try:
             run = json.loads(message.data)['run']
         except (ValueError, TypeError, KeyError):
             return
         before, self._run = self._run, run
-        if before and before != run:  # which says that it has stopped
+        if before and before != run:  # the new one announces the interruption
             self._lose('The skill executor was started anew.')
 
     def _look_for_executor(self) -> None:
-        """Notice that the executor has ended, or does not answer."""
+        """Detect that the executor has ended, or does not respond."""
         for answered in list(self._unanswered):
             self._unanswered[answered] -= 1
             if self._unanswered[answered] < 0 and not answered.done():
@@ -302,14 +303,14 @@ class TaskPlanner(Node):
             self._say('I cannot go on, as the skill executor has ended.')
 
     def _lose(self, reason: str) -> bool:
-        """Wait no longer for what an executor that has ended was doing; return if it did."""
+        """Fail all waits for an executor that has ended; return whether there were any."""
         lost = [each for each in self._ends if not each.done()]
         for end in lost:
             end.set_exception(_ExecutorLostError(reason))
         return bool(lost)
 
     async def _remedy(self, command: str, recovery: Recovery) -> Remedy | None:
-        """Return what to try after a failure: by the model if there is one, or the rules."""
+        """Find a remedy after a failure, with the model if there is one, or with the rules."""
         world = self._watch.world()
         if not recovery.may_go_on(world):
             return None
@@ -324,11 +325,11 @@ class TaskPlanner(Node):
         return recovery.by_rules(world)
 
     async def _outcome(self, text: str, dialogue: Dialogue) -> Plan | Question | Refusal:
-        """Return what to do about a sentence, by the model if there is one, else by the rules."""
+        """Plan a command with the model if there is one and it answers, else with the rules."""
         world, question = self._watch.world(), dialogue.question
         is_answer = question is not None and answer_to(tokenized(text), question) is not None
         if self._model is not None and not is_answer:
-            dialogue.question = None  # what is said while the model thinks does not answer it
+            dialogue.question = None  # commands that arrive meanwhile do not answer it
             outcome = await self._asked(text, world)
             if not isinstance(outcome, ModelError):
                 return outcome
@@ -337,7 +338,7 @@ class TaskPlanner(Node):
     async def _asked(
         self, text: str, world: World, account: Account | None = None
     ) -> Plan | Refusal | ModelError:
-        """Return what the model makes of a sentence, or how it failed."""
+        """Query the model for a plan; return its failure as a ModelError."""
         told: Future[Any] = Future(executor=self.executor)
         thread = threading.Thread(target=self._ask, args=(text, world, account, told), daemon=True)
         thread.start()
@@ -348,14 +349,14 @@ class TaskPlanner(Node):
         return outcome
 
     def _ask(self, text: str, world: World, account: Account | None, told: Future[Any]) -> None:
-        """Ask the model, in a thread of its own, and hand over what came of it."""
+        """Query the model in a separate thread, and pass the outcome to the executor."""
         assert self._model is not None
         outcome: Any
         try:
             outcome = self._model.plan(text, world, account)
         except ModelError as error:
             outcome = error
-        except Exception:  # whatever a server sends, the rules go on
+        except Exception:  # whatever a server sends, the rules take over
             self.get_logger().error(traceback.format_exc())
             outcome = ModelError('The model could not be asked.')
         executor = self.executor
@@ -363,21 +364,21 @@ class TaskPlanner(Node):
             executor.create_task(told.set_result, outcome)
 
     def _stop(self) -> None:
-        """Cancel what is being done, even if it has only just been sent."""
+        """Cancel the current goal, even if it has only just been sent."""
         self._health.command = ''
         sent, self._sent = self._sent, None
         if sent is not None:
             cancel_goal(sent)
 
     def _status(self) -> list[PartStatus]:
-        """Return how the node is, for diagnostics."""
+        """Return the diagnostic status of the node."""
         question = self._dialogue.question
         self._health.question = question.text if question is not None else ''
         has_executor = self._client.server_is_ready()
         return [self._health.status(time.monotonic(), has_executor=has_executor)]
 
     async def _answer(self, request: MakePlan.Request, response: MakePlan.Response) -> Any:
-        """Plan without doing it, in a dialogue of its own."""
+        """Plan a command without executing it, in a dialogue of its own."""
         outcome = await self._outcome(request.command, Dialogue())
         if isinstance(outcome, Plan):
             response.success, response.plan = True, plan_message(outcome, self._planner)

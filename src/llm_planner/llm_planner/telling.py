@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the robot tells what it remembers."""
+"""Skills that answer questions about remembered objects by speech."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from llm_planner.world_watch import WorldWatch
 __all__ = ['Telling']
 
 _NEAR_M = 0.6
-"""Things that are not farther from each other stand beside each other."""
+"""Objects that are at most this far apart are beside each other."""
 _CLOSE_M = 1.5
-"""What is to be described is looked at from no farther away, if the robot can walk."""
+"""If it can walk, the robot approaches a target that is farther away before describing it."""
 
 
 class Telling:
     """
-    Answers questions about things.
+    Skills that answer questions about objects by speech.
 
     Parameters
     ----------
     robot, watch, recall
-        What speaks, what is known, and what is meant.
+        The interface to the robot, the observed world, and the lookup of remembered objects.
     walking, looking
-        What looks anew before something is described.
+        The skills used to look at a target again before it is described.
 
     """
 
@@ -49,12 +49,12 @@ class Telling:
 
     def where(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
         """
-        Say where an object is.
+        Report the location of an object.
 
         Parameters
         ----------
         object
-            Which one; it may be what a hand holds.
+            The description; it may refer to the held object.
 
         Raises
         ------
@@ -72,12 +72,12 @@ class Telling:
 
     def identify(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
         """
-        Say which object is meant, and where it is.
+        Report which object is meant, and its location.
 
         Parameters
         ----------
         object
-            Which one.
+            The description.
 
         Raises
         ------
@@ -92,12 +92,12 @@ class Telling:
 
     def tell_count(self, objects: ObjectDescription) -> SkillRun:
         """
-        Say how many remembered objects fit a description.
+        Report the number of remembered objects that fit a description.
 
         Parameters
         ----------
         objects
-            Which ones.
+            The description.
 
         """
         count = len(objects.among(self._watch.things))
@@ -114,14 +114,14 @@ class Telling:
 
     def describe(self, target: Any, relation: str) -> SkillRun:
         """
-        Say what is here, at a place, or beside a thing; go and look there before.
+        Report what is here, at a place, or beside an object; go there and look first.
 
         Parameters
         ----------
         target
-            The name of a place, or the description of a thing; empty for the room around.
+            The name of a place, or the description of an object; empty for the current room.
         relation
-            `beside` or `at`; a thing is told with what is beside it, a place with what is at it.
+            `beside` or `at`; the kind of target decides: objects beside an object, or at a place.
 
         """
         things = self._watch.things

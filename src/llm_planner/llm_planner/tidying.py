@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the robot clears a place: one thing after another is carried to another place."""
+"""Skill that clears a place by carrying its objects, one after another, to another place."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ['Tidying']
 
 class Tidying:
     """
-    Carries things away.
+    Skill that tidies up.
 
     Parameters
     ----------
     robot, watch
-        What speaks, and what is known.
+        The interface to the robot, and the observed world.
     walking, looking, handling
-        What brings the robot there, sees what is there, and takes it.
+        The skills used to go there, look at the objects, and carry them.
 
     """
 
@@ -41,19 +41,19 @@ class Tidying:
 
     def tidy(self, place: str, destination: str) -> SkillRun:
         """
-        Clear a place.
+        Clear a place by carrying its objects to a destination.
 
-        What cannot be taken stays there, and the others are taken all the same.
+        Objects that cannot be picked up stay there; the others are carried all the same.
 
         Parameters
         ----------
         place, destination
-            What is cleared, and where all of it is put; names of surfaces or rooms.
+            The place to clear, and where to put the objects; names of surfaces or rooms.
 
         Raises
         ------
         SkillError
-            Nothing is there, something was left, or what the hand holds cannot be put down.
+            Nothing is there, something was left, or the held object cannot be put down.
 
         """
         if place == destination:
@@ -86,7 +86,7 @@ class Tidying:
         self._robot.say(done.strip())
 
     def _next(self, place: str, tried: set[str]) -> Thing | None:
-        """Return a thing at a place that was not tried yet; None if there is none."""
+        """Return an object at a place that was not tried yet; None if there is none."""
         everything = ObjectDescription(place=place)
         return next(
             (

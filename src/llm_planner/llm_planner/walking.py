@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the robot walks: to places and things, back, and by distances."""
+"""Walking skills: go to places and objects, come back, move and turn by a given amount."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _DRIVE_M_S = 0.2
 
 class Walking:
     """
-    Walks by the actions of Nav2.
+    Walking skills that use the actions of Nav2.
 
     Parameters
     ----------
     robot, watch, recall
-        What moves, what is known, and what is meant.
+        The interface to the robot, the observed world, and the lookup of remembered objects.
 
     """
 
@@ -49,7 +49,7 @@ class Walking:
         self._missed: list[Pose] = []
 
     def begin_plan(self) -> None:
-        """Take note of where the robot is when it is asked."""
+        """Store the current pose, to come back to."""
         self._home = self._watch.pose()
         self._missed.clear()
 
@@ -60,8 +60,8 @@ class Walking:
         Parameters
         ----------
         target
-            An `ObjectDescription`, or the name of a surface or room; in that room already, the
-            robot stays where it is.
+            An `ObjectDescription`, or the name of a surface or room; if the robot is already in
+            that room, it stays where it is.
 
         Raises
         ------
@@ -79,7 +79,7 @@ class Walking:
         yield from self._walk_to_first(stands, value_in_words(target))
 
     def come_back(self) -> SkillRun:
-        """Walk to where the robot was when the plan began."""
+        """Walk back to the pose stored by `begin_plan`."""
         if self._home is None:
             raise SkillError('I did not know where I was when you asked me, so I cannot go back.')
         yield from self._robot.act(
@@ -88,7 +88,7 @@ class Walking:
 
     def follow_path(self, places: Sequence[str]) -> SkillRun:
         """
-        Walk through several places by the action `follow_waypoints`.
+        Walk through several places with the action `follow_waypoints`.
 
         Parameters
         ----------
@@ -116,14 +116,14 @@ class Walking:
 
     def move(self, direction: str, distance: float) -> SkillRun:
         """
-        Walk as the robot faces.
+        Walk straight forward or backward.
 
         Parameters
         ----------
         direction
             `forward` or `backward`.
         distance
-            In m.
+            The distance in m.
 
         """
         is_back = direction == 'backward'
@@ -135,14 +135,14 @@ class Walking:
 
     def turn(self, direction: str, angle: float) -> SkillRun:
         """
-        Turn on the spot.
+        Turn in place to the left or the right.
 
         Parameters
         ----------
         direction
             `left` or `right`.
         angle
-            In degrees.
+            The angle in degrees.
 
         """
         sign = -1.0 if direction == 'right' else 1.0
@@ -150,12 +150,12 @@ class Walking:
 
     def spin(self, angle_rad: float) -> SkillRun:
         """
-        Turn on the spot by an angle.
+        Turn in place by an angle.
 
         Parameters
         ----------
         angle_rad
-            How far; positive turns to the left.
+            The angle; positive turns to the left.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class Walking:
         return stands_at_surface(surface, places)
 
     def _stands_at(self, thing: Thing) -> list[Pose]:
-        """Return where to stand to reach a thing: before its surface, or beside it."""
+        """Compute the poses to reach an object: in front of its surface, or beside it."""
         places, at = self._watch.places, thing.position_m[:2]
         surface = next((each for each in places.surfaces if each.name == thing.place), None)
         if surface is not None:
@@ -183,7 +183,7 @@ class Walking:
         return stands_at_object(at, places)
 
     def _walk_to_first(self, stands: Sequence[Pose], what: str) -> SkillRun:
-        """Walk to the first of some poses to which there is a way; last to those just missed."""
+        """Walk to the first pose to which there is a path; poses missed before are tried last."""
         reason = 'There is no free floor at it.'
         for stand in sorted(stands, key=self._missed.__contains__)[:_TRIED_STANDS]:
             goal = ComputePathToPose.Goal(goal=stamped(stand))
@@ -208,13 +208,13 @@ class Walking:
         """
         Turn the body towards a point that the head alone cannot look at.
 
-        Nothing happens if the point is less than 0.9 rad aside, the pose of the robot is unknown,
-        or it cannot turn now.
+        Nothing happens if the bearing is less than 0.9 rad, the pose of the robot is unknown, or
+        it cannot turn now.
 
         Parameters
         ----------
         position_m
-            The point in the map frame, of which x and y count.
+            The point in the map frame, of which x and y are used.
 
         Raises
         ------

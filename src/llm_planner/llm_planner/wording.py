@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How people speak of things."""
+"""Natural-language wording of objects."""
 
 from __future__ import annotations
 

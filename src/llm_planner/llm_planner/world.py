@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the planner knows of the world: places, remembered things, and what the robot can do."""
+"""World model of the planner: places, remembered objects, and what the robot can do."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ __all__ = [
 ]  # fmt: skip
 
 ANYTHING = 'thing'
-"""The class that all things have."""
+"""The most general class: any object."""
 _PLURALS = {'box': 'boxes', 'person': 'people'}
 
 
 @dataclass(frozen=True)
 class Thing:
     """
-    A thing that the robot remembers.
+    A remembered object.
 
     Attributes
     ----------
     object_id, class_id, colour
-        Its id, what it is, and its colour; the colour may be empty.
+        Its id, class and colour; the colour may be empty.
     place, room
         The surface and the room where it is; may be empty.
     position_m, size_m
-        Its middle in the map, and the length, width and height of its box; m.
+        Its centre in the map, and the length, width and height of its bounding box; m.
 
     """
 
@@ -43,7 +43,7 @@ class Thing:
 
     @property
     def name(self) -> str:
-        """Return what people call it: red mug."""
+        """Return the name in natural language: red mug."""
         colour = self.colour if self.colour != self.class_id else ''
         return f'{colour} {self.class_id}'.strip()
 
@@ -51,16 +51,16 @@ class Thing:
 @dataclass(frozen=True)
 class ObjectDescription:
     """
-    An object as somebody describes it; what is empty is not said.
+    An object as described by a user; fields that were not mentioned are empty.
 
     Attributes
     ----------
     class_id, colour, which, place
         `mug`, `red`, `biggest`, `kitchen_table`.
     object_id
-        The id of a single remembered thing, when it is known which one is meant.
+        The id of a single remembered object, when it is known which one is meant.
     is_definite
-        Whether a certain one is meant (the mug), not any (a mug).
+        Whether a particular one is meant (the mug), not any (a mug).
 
     """
 
@@ -70,18 +70,18 @@ class ObjectDescription:
     place: str = ''
     object_id: str = ''
     is_inside: bool = False
-    """Whether the place is a room or a container, which has things in it, not on it."""
+    """Whether the place is a room or a container, which has objects in it, not on it."""
     is_definite: bool = True
 
     @property
     def text(self) -> str:
-        """Return the description as text that is understood again: `the red mug on the desk`."""
+        """Return the description as text that can be parsed again: `the red mug on the desk`."""
         article = 'the' if self.is_definite else 'a'
         return self._worded(article, in_words(self.class_id))
 
     @property
     def plural_text(self) -> str:
-        """Return the description of all that it fits: `red mugs on the desk`."""
+        """Return the description in the plural: `red mugs on the desk`."""
         return self._worded('', _PLURALS.get(self.class_id, f'{self.class_id}s'))
 
     def _worded(self, article: str, noun: str) -> str:
@@ -91,7 +91,7 @@ class ObjectDescription:
 
     def names(self, name: str) -> bool:
         """
-        Check whether an object with a name can be meant, wherever it is.
+        Check whether the description can mean an object with a name, wherever it is.
 
         Parameters
         ----------
@@ -106,12 +106,12 @@ class ObjectDescription:
 
     def fits(self, thing: Thing) -> bool:
         """
-        Check whether an object can be meant, whatever `which` says.
+        Check whether the description fits an object, regardless of `which`.
 
         Parameters
         ----------
         thing
-            A remembered object. If the description has an `object_id`, nothing else counts.
+            A remembered object. If the description has an `object_id`, only that is compared.
 
         """
         if self.object_id:
@@ -127,15 +127,15 @@ class ObjectDescription:
         self, things: Iterable[Thing], robot: tuple[float, float, float] | None = None
     ) -> list[Thing]:
         """
-        Return the things that are meant, the best first.
+        Return the objects that the description fits, best first.
 
         Parameters
         ----------
         things
-            All that are remembered.
+            All remembered objects.
         robot
-            Where the robot is in the map (x and y in m, yaw in rad): `leftmost` and `nearest` are
-            seen from there.
+            The pose of the robot in the map (x and y in m, yaw in rad), from which `leftmost` and
+            `nearest` are judged.
 
         """
         found = [each for each in things if self.fits(each)]
@@ -148,7 +148,7 @@ class ObjectDescription:
 @dataclass(frozen=True)
 class World:
     """
-    What is known when a plan is made.
+    Snapshot of what is known when a plan is made.
 
     Attributes
     ----------
@@ -157,17 +157,17 @@ class World:
     rooms
         The named rooms.
     things
-        What is remembered.
+        The remembered objects.
     missing
-        Why skills cannot be done now, by their names; the others can.
+        The reasons why skills are unavailable now, by name; the others are available.
     inhibition
         Why the robot cannot walk now; empty if it can.
     holding
-        The name of what the hand holds; empty if nothing.
+        The name of the held object; empty if there is none.
     robot
-        Where the robot is in the map: x and y in m, yaw in rad; None if that is not known.
+        The pose of the robot in the map: x and y in m, yaw in rad; None if it is unknown.
     containers
-        The named surfaces that things are put into, not on.
+        The named surfaces that objects are put into, not onto.
 
     """
 
@@ -188,7 +188,7 @@ class World:
 
 def base_name(place: str) -> str:
     """
-    Strip the board from the name of a surface: `shelf` of `shelf/1`.
+    Strip the board from the name of a surface: `shelf` from `shelf/1`.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ def base_name(place: str) -> str:
     Returns
     -------
     str
-        The name of the piece of furniture; a name without a board as it is.
+        The name of the piece of furniture; a name without a board is unchanged.
 
     """
     return place.partition('/')[0]
@@ -206,7 +206,7 @@ def base_name(place: str) -> str:
 
 def in_words(name: str) -> str:
     """
-    Spell a name as it is said: `kitchen_table` as kitchen table, `shelf/1` as shelf.
+    Convert a name to spoken words: `kitchen_table` to kitchen table, `shelf/1` to shelf.
 
     Parameters
     ----------
@@ -219,7 +219,7 @@ def in_words(name: str) -> str:
 
 def listed(names: Sequence[str], last: str = 'and') -> str:
     """
-    Return names as people list them: a, b and c; nothing for none.
+    Join names to a list in natural language: a, b and c; empty for none.
 
     Parameters
     ----------
@@ -234,17 +234,17 @@ def listed(names: Sequence[str], last: str = 'and') -> str:
 
 def spoken_places(world: World, more: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
     """
-    Return what can be said for places, and which ones it can mean.
+    Map the spoken names of places to the places that each of them can mean.
 
-    The name of a place stands for it, and so does its last word: `counter`, and `table` for each
-    of several tables.
+    A place is called by its name, and by its last word: `counter`, and `table` for each of several
+    tables.
 
     Parameters
     ----------
     world
-        Where the places are from.
+        The state of the world, which has the places.
     more
-        Further words by the names of places; those of places that there are not are left out.
+        Further words by the names of places; those of unknown places are ignored.
 
     """
     meant: dict[str, list[str]] = {}
@@ -259,7 +259,7 @@ def spoken_places(world: World, more: Mapping[str, Iterable[str]]) -> dict[str, 
 
 
 def _orders(robot: tuple[float, float, float]) -> Mapping[str, Callable[[Thing], float]]:
-    """Return by what things are sorted for each word that picks one of them."""
+    """Return the sort key of objects for each word that selects one of them."""
     x, y, yaw = robot
 
     def distance(thing: Thing) -> float:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a node hears of the world: remembered objects, what runs, and where the robot is."""
+"""Observation of the world: remembered objects, running servers, and the pose of the robot."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ __all__ = ['WorldWatch']
 _MAP, _BASE = 'map', 'base_footprint'
 _ARM = ('shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow')
 _WRIST = ('wrist_yaw', 'wrist_pitch')
-"""What an arm with a hand has besides."""
+"""Further joints of an arm with a hand."""
 
 
 class WorldWatch:
     """
-    Follows what the planner has to know.
+    Observer of the world for the planner.
 
     Parameters
     ----------
     node
-        The node that listens.
+        The node that subscribes.
     skills, places
-        What the robot can be asked for, and the named places.
+        The skills, and the named places.
     implemented
-        The names of the skills that can be done at all.
+        The names of the implemented skills.
 
     """
 
@@ -71,17 +71,17 @@ class WorldWatch:
 
     @property
     def things(self) -> tuple[Thing, ...]:
-        """Return what is remembered."""
+        """Return the remembered objects."""
         return self._things
 
     @property
     def holding(self) -> str:
-        """Return the name of what a hand holds; empty if nothing."""
+        """Return the name of the held object; empty if there is none."""
         return next(iter(self._held.values()), '')
 
     def held_by(self, side: str) -> str:
         """
-        Look up what a hand holds.
+        Look up the object that a hand holds.
 
         Parameters
         ----------
@@ -98,12 +98,12 @@ class WorldWatch:
 
     @property
     def inhibition(self) -> str:
-        """Return why the robot cannot walk now; empty if it can."""
+        """Return the reason why the robot cannot walk now; empty if it can."""
         return self._inhibition.reason
 
     def arm_joints(self, side: str) -> list[str]:
         """
-        List the joints of an arm that a goal of its trajectory controller names.
+        List the joints of an arm for a goal of its trajectory controller.
 
         Parameters
         ----------
@@ -121,11 +121,11 @@ class WorldWatch:
 
     @property
     def has_hands(self) -> bool:
-        """Whether the robot is one with hands, as far as its description has come."""
+        """Whether the robot has hands, according to the description received so far."""
         return any(f'_{joint}"' in self._model for joint in _WRIST)
 
     def world(self) -> World:
-        """Return all that is known now; it asks the graph for each server."""
+        """Return a snapshot of the world; this queries the ROS graph for each server."""
         lacks = {each.name: self.lack(each) for each in self._skills}
         return World(
             self._surfaces,
@@ -140,17 +140,17 @@ class WorldWatch:
 
     def lack(self, skill: Skill) -> str:
         """
-        Explain why a skill cannot be done now.
+        Explain why a skill is unavailable now.
 
         Parameters
         ----------
         skill
-            The skill. One that consists of others lacks nothing itself.
+            The skill. A compound skill lacks nothing itself.
 
         Returns
         -------
         str
-            The reason, as a sentence; empty if the skill can be done.
+            The reason, as a message; empty if the skill is available.
 
         """
         if skill.steps:
@@ -166,7 +166,7 @@ class WorldWatch:
 
     def lacks(self, name: str) -> bool:
         """
-        Check whether a skill cannot be done now.
+        Check whether a skill is unavailable now.
 
         Parameters
         ----------
@@ -212,7 +212,7 @@ class WorldWatch:
         return next((each for each in self.places.rooms if each.name == name), None)
 
     def pose(self) -> tuple[float, float, float] | None:
-        """Return where the robot is in the map: x and y in m, yaw in rad; None if unknown."""
+        """Return the pose of the robot in the map: x and y in m, yaw in rad; None if unknown."""
         try:
             transform = self._buffer.lookup_transform(_MAP, _BASE, Time()).transform
         except TransformException:
@@ -223,17 +223,17 @@ class WorldWatch:
         self, point_m: tuple[float, float, float]
     ) -> tuple[float, float, float] | None:
         """
-        Return a point of the map as seen from the robot, whose base is on the floor.
+        Transform a point from the map frame to the base frame of the robot, on the floor.
 
         Parameters
         ----------
         point_m
-            In the map.
+            The point in the map frame.
 
         Returns
         -------
         tuple or None
-            In the robot's base frame (m); None if it is not known where the robot is.
+            The point in the base frame (m); None if the pose of the robot is unknown.
 
         """
         try:
@@ -261,12 +261,12 @@ class WorldWatch:
 
 
 def _side_of(gripper_frame: str) -> str:
-    """Return whose gripper has a frame, such as `l_gripper` or `robot2/l_gripper`."""
+    """Return the side of a gripper frame, such as `l_gripper` or `robot2/l_gripper`."""
     return 'left' if gripper_frame.rpartition('/')[2].startswith('l_') else 'right'
 
 
 def _thing(detection: Any, places: Places) -> Thing:
-    """Return a remembered object."""
+    """Convert a detection to a remembered object."""
     centre, size = detection.bbox.center.position, detection.bbox.size
     covariance_m2 = np.reshape(detection.results[0].pose.covariance, (6, 6))[:3, :3]
     sigma_m = greatest_sigma_m(covariance_m2)
@@ -282,7 +282,7 @@ def _thing(detection: Any, places: Places) -> Thing:
 
 
 def _class_and_colour(detection: Any) -> tuple[str, str]:
-    """Return what a thing is, and its colour: that of a second name, such as `red mug`."""
+    """Return the class of a detection, and the colour from a further name such as `red mug`."""
     class_id = detection.results[0].hypothesis.class_id
     names = [each.hypothesis.class_id for each in detection.results[1:]]
     colour = next(

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let assistants that speak the Model Context Protocol look at the robot and drive it."""
+"""Model Context Protocol (MCP) server through which assistants observe and command the robot."""

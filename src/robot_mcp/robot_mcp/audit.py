@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who asked the robot for what, and what came of it: a JSON object a line, only ever appended."""
+"""Append-only audit log of who asked the robot for what, and the outcome, in JSON Lines."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _LONGEST = 2000
 
 def default_path(environment: Mapping[str, str]) -> Path:
     """
-    Locate the log if nobody says otherwise: below ROS_HOME, or ~/.ros.
+    Locate the default audit log: below ROS_HOME, or ~/.ros.
 
     Parameters
     ----------
     environment
-        The variables of the process, of which ROS_HOME counts.
+        The environment variables, of which ROS_HOME is used.
 
     """
     home = environment.get('ROS_HOME') or str(Path('~').expanduser() / '.ros')
@@ -31,16 +31,16 @@ def default_path(environment: Mapping[str, str]) -> Path:
 
 class AuditLog:
     """
-    Appends to a file. Whatever happens to that file, no call fails because of it.
+    Append-only log file. A failure to write to it never makes a call fail.
 
     Parameters
     ----------
     path
-        The file; its folder is made.
+        The file; its folder is created.
     warn
-        Is told once, as a sentence, when something cannot be written, until it can be again.
+        Called with a message when writing fails, only once until it succeeds again.
     now
-        Returns the time.
+        Returns the current time.
 
     """
 
@@ -55,16 +55,16 @@ class AuditLog:
 
     def write(self, client: str, tool: str, arguments: Any, outcome: str) -> None:
         """
-        Append a line.
+        Append a record.
 
         Parameters
         ----------
         client, tool
-            Who called what.
+            The names of the client, and of the tool that it called.
         arguments : Any
-            What was sent; the beginning of it, if it is endless.
+            The arguments as sent; truncated if they are too long.
         outcome
-            `begun`, or what came of it.
+            `begun`, or the outcome of the call.
 
         """
         line = json.dumps(
@@ -86,7 +86,7 @@ class AuditLog:
             self._is_broken = False
 
     def _append(self, line: bytes) -> None:
-        """Write a line as a whole; mend a torn one before it by a new line."""
+        """Write a line as a whole; terminate a torn line before it with a newline."""
         self._path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK | os.O_NOFOLLOW
         file = os.open(self._path, flags, 0o600)
@@ -101,7 +101,7 @@ class AuditLog:
 
 
 def _short(arguments: Any) -> Any:
-    """Return arguments as they are, or the beginning of their text."""
+    """Return arguments unchanged, or as truncated text if they are too long."""
     try:
         text = json.dumps(arguments)
     except (TypeError, ValueError, RecursionError):

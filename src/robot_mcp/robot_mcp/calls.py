@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What becomes of a call of a tool: an answer, whatever was sent.
+Handling of tool calls: every call gets an answer, whatever was sent.
 
-Looks are answered. What acts is a plan: it needs `allow_motion`, has to pass `llm_planner`'s
-check, may have to be confirmed by a person, and is done by the action `execute_plan`, one call at
-a time. `stop` is obeyed always, and at once.
+Read-only tools are answered directly. A tool that acts becomes a plan: it needs `allow_motion`,
+has to pass the validation of `llm_planner`, may have to be confirmed by a person, and is executed
+with the action `execute_plan`, one call at a time. `stop` is always obeyed, immediately.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ READ_ONLY = (
 _LONGEST_SENTENCE = 500
 _REPORT_S = 2.0
 _HEARTBEAT_S = 5.0
-"""After how long a client hears again that something goes on."""
+"""Period without feedback after which progress is reported to a client again."""
 _STOPPED = 'Somebody said stop meanwhile.'
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What a client gets: a text, PNG pictures, and whether it is an error."""
+    """The answer to a client: a text, PNG images, and whether it is an error."""
 
     text: str
     pictures: tuple[bytes, ...] = ()
@@ -56,7 +56,7 @@ class Answer:
 
 
 class NeedsInputError(Exception):
-    """The client has to ask its person, and to call again with what that says."""
+    """The client has to ask its user, and to call again with the answer."""
 
     def __init__(self, question: str, code: str) -> None:
         super().__init__(question)
@@ -64,22 +64,22 @@ class NeedsInputError(Exception):
 
 
 class Client(Protocol):
-    """Who calls."""
+    """Interface to the calling client."""
 
     name: str
     gone: asyncio.Event | None
-    """Is set when it has gone; None if that cancels the call anyway."""
+    """Set when the client has disconnected; None if that cancels the call anyway."""
 
     async def asks(self, question: str, request: str) -> bool | None:
         """
-        Ask the person at the client for agreement.
+        Request confirmation from the person at the client.
 
         Parameters
         ----------
         question
-            What the person is shown.
+            The text shown to the person.
         request
-            What an agreement is good for, beginning with `request_of`.
+            The request that a confirmation is valid for, beginning with `request_of`.
 
         Returns
         -------
@@ -100,27 +100,27 @@ class Client(Protocol):
         Parameters
         ----------
         progress, total
-            How many steps are done, parts of one included, and how many there are.
+            The number of completed steps, including fractions, and the total number.
         text
-            What is being done, or came of it.
+            The current step, or its result.
 
         """
 
 
 class Calls:
     """
-    Answers calls.
+    Handler of tool calls.
 
     Parameters
     ----------
     link, planner, watch
-        The robot, what understands plans, and what is known.
+        The link to the robot, the rule planner, and the observed world.
     audit
-        Where each call is noted.
+        The log in which each call is recorded.
     allow_motion, confirm
-        Whether calls may move the robot, and whether a person has to agree to each.
+        Whether calls may move the robot, and whether a person has to confirm each of them.
     log
-        Shows a sentence to the people at the robot, not to clients.
+        Shows a message to the people at the robot, not to clients.
 
     """
 
@@ -139,28 +139,28 @@ class Calls:
         self._audit, self._log = audit, log
         self._allow_motion, self._confirm = allow_motion, confirm
         self.asked = Confirmations()
-        """What clients have asked their people and not answered yet."""
+        """Pending questions of clients to their users."""
         self._codes = Confirmations()
         self._looking = Looking(link, planner.skills, watch, may_move=allow_motion)
         self._busy = ''
         self._stops = 0
 
     async def tools(self) -> list[Tool]:
-        """Return the tools, with what is known now."""
+        """List the tools for the current state of the world."""
         confirm = self._confirm and self._allow_motion
         world = await self._link.thread.do(self._watch.world)
         return tools_of(self._planner.skills, world, confirm=confirm)
 
     async def answer(self, client: Client, name: str, arguments: Mapping[str, Any]) -> Answer:
         """
-        Do what is called, and note it.
+        Execute a tool call, and record it in the audit log.
 
         Parameters
         ----------
         client
-            Who calls.
+            The calling client.
         name, arguments
-            What was sent.
+            The name of the tool, and the arguments as sent.
 
         """
         acts = name != STOP and name not in LOOKS
@@ -205,7 +205,7 @@ class Calls:
         return await self._act(client, plan, request_of(name, given), code, stops)
 
     async def _stop(self) -> Answer:
-        """End everything, and what waits for a confirmation."""
+        """Cancel all plans, and invalidate all pending confirmations."""
         self._stops += 1
         self.asked.forget()
         self._codes.forget()
@@ -215,7 +215,7 @@ class Calls:
     async def _tell(
         self, client: Client, given: Mapping[str, Any], code: Any, stops: int
     ) -> Answer:
-        """Have the planner make a plan of a sentence, and do it."""
+        """Plan a natural-language command with the task planner, and execute it."""
         sentence = given.get('sentence')
         if not isinstance(sentence, str) or not sentence.strip() or len(given) > 1:
             raise PlanError("tell needs 'sentence', a text, and nothing else.")
@@ -236,19 +236,19 @@ class Calls:
     async def _act(
         self, client: Client, plan: Plan, request: str, code: Any, stops: int
     ) -> Answer:
-        """Check a plan, have it confirmed if need be, and do it, unless a stop came meanwhile."""
+        """Validate a plan, have it confirmed if required, and execute it unless stopped."""
         await self._check(plan)
         skills = self._planner.skills
         words = _on_a_line(
             listed([words_for(each, skills[each.skill]) for each in plan.steps], 'and then')
         )
         if self._confirm:
-            # What a person agrees to is what they have read, whatever a planner makes next time.
+            # A confirmation covers the plan that was shown, not what a planner makes next time.
             request = f'{request} {words}'
             refusal = await self._unconfirmed(client, words, request, code)
             if refusal is not None:
                 return refusal
-            await self._check(plan)  # the world has gone on while somebody thought about it
+            await self._check(plan)  # the world may have changed meanwhile
         if stops != self._stops:
             raise RobotError(_STOPPED)
         if self._busy:
@@ -263,7 +263,7 @@ class Calls:
             self._busy = ''
 
     async def _check(self, plan: Plan) -> None:
-        """Refuse what may not be done; what may still be starting is waited for."""
+        """Validate a plan; wait for servers that may still be starting."""
 
         def is_available() -> bool:
             try:
@@ -278,7 +278,7 @@ class Calls:
     async def _unconfirmed(
         self, client: Client, words: str, request: str, code: Any
     ) -> Answer | None:
-        """Return what to answer until a person has agreed; None if one has."""
+        """Return the answer while a confirmation is missing; None if a person has confirmed."""
         if isinstance(code, str):
             if self._codes.redeem(code, request):
                 return None
@@ -299,7 +299,7 @@ class Calls:
         )
 
     async def _do(self, client: Client, plan: Plan) -> Answer:
-        """Have the executor do a plan, and tell the client how far it is."""
+        """Execute a plan, and report progress to the client."""
         run, total = PlanRun(), float(len(plan.steps))
         progress = ceiling = told_s = 0.0
         text = ''
@@ -331,12 +331,12 @@ class Calls:
 
 
 def _on_a_line(text: str) -> str:
-    """Return a text as people can be shown it: nothing in it looks like what is around it."""
+    """Replace non-printable characters, so that the text cannot imitate its surroundings."""
     return ''.join(each if each.isprintable() else ' ' for each in text)
 
 
 async def _reported(client: Client, progress: float, total: float, text: str) -> None:
-    """Tell a client how far it is; one that does not listen does not hold anything up."""
+    """Report progress to a client; one that does not read it does not block anything."""
     try:
         await in_time(client.report(progress, total, text), _REPORT_S)
     except asyncio.TimeoutError:
@@ -344,7 +344,7 @@ async def _reported(client: Client, progress: float, total: float, text: str) ->
 
 
 def _told(end: PlanEnd) -> Answer:
-    """Return what came of a plan, in words."""
+    """Convert the result of a plan to an answer."""
     said = ' '.join(end.result.said)
     if end.status == GoalStatus.STATUS_SUCCEEDED:
         return Answer(said or 'Done.')

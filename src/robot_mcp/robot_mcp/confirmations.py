@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Codes by which a person lets a single call of an assistant happen."""
+"""One-time codes by which a person confirms a single call of an assistant."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _LIFETIME_S = 180.0
 _MOST = 8
 _MOST_WRONG = 3
 _LETTERS = 'ABCDEFGHJKLMNPQRSTUVWXYZ23456789'
-"""Those that nobody mistakes for another one."""
+"""Characters that are not mistaken for one another."""
 _LENGTH = 6
 
 
 @dataclass
 class _Pending:
-    """A code, what it allows, and until when."""
+    """A pending code, its expiry time, and the number of wrong attempts."""
 
     code: str
     until_s: float
@@ -31,12 +31,12 @@ class _Pending:
 
 def request_of(tool: str, arguments: Mapping[str, Any]) -> str:
     """
-    Serialise a call, as what a code is good for: exactly this tool with these arguments.
+    Serialise a call, to which a code is bound: exactly this tool with these arguments.
 
     Parameters
     ----------
     tool, arguments
-        The name of the tool, and what was sent to it.
+        The name of the tool, and the arguments as sent.
 
     Returns
     -------
@@ -53,14 +53,14 @@ def _random_code() -> str:
 
 class Confirmations:
     """
-    Gives codes, each good once, for one request, for some minutes, against few guesses.
+    Issuer of one-time codes, each for one request, with a lifetime and a limit of attempts.
 
     Parameters
     ----------
     now_s
-        A clock that nobody sets (s).
+        Returns the time of a steady clock (s).
     make
-        Makes a code.
+        Generates a code.
 
     """
 
@@ -74,17 +74,17 @@ class Confirmations:
 
     def ask(self, request: str) -> str:
         """
-        Issue a code for a request; an earlier one for the same request is void then.
+        Issue a code for a request; it invalidates an earlier one for the same request.
 
         Parameters
         ----------
         request
-            What the code is to allow.
+            The request that the code allows.
 
         Returns
         -------
         str
-            A code that is valid for 180 s; of more than eight, the oldest are void.
+            A code that is valid for 180 s; beyond eight codes, the oldest are invalidated.
 
         """
         self._pending.pop(request, None)
@@ -96,14 +96,14 @@ class Confirmations:
 
     def redeem(self, code: str, request: str) -> bool:
         """
-        Check a code for a request. A right code works once, and three wrong ones make it void.
+        Validate a code for a request. The right code works once; three wrong ones invalidate it.
 
         Parameters
         ----------
         code
-            What was typed; small letters and spaces around it do not matter.
+            The code as typed; case and surrounding spaces do not matter.
         request
-            What it is to allow.
+            The request to allow.
 
         Returns
         -------
@@ -122,5 +122,5 @@ class Confirmations:
         return is_right and not is_over
 
     def forget(self) -> None:
-        """Make all codes worthless."""
+        """Invalidate all codes."""
         self._pending.clear()

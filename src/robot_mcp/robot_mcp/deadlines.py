@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long something may take in the loop of the server."""
+"""Timeouts in the event loop of the server."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ Value = TypeVar('Value')
 
 async def in_time(awaitable: Awaitable[Value], timeout_s: float) -> Value:
     """
-    Return what comes of something, and cancel it if it takes too long.
+    Await something with a timeout, and cancel it when the timeout expires.
 
-    `asyncio.wait_for` of Python before 3.12 loses a cancellation that comes when the other thing
-    is just done: a robot would go on with what its client has canceled.
+    `asyncio.wait_for` before Python 3.12 loses a cancellation that arrives just when the awaitable
+    is done: a robot would continue with what its client has canceled.
 
     Parameters
     ----------
     awaitable, timeout_s
-        What to wait for, and how long in s.
+        What to await, and the timeout in s.
 
     Raises
     ------
     asyncio.TimeoutError
-        It takes too long.
+        The timeout expired.
 
     """
     task = asyncio.ensure_future(awaitable)

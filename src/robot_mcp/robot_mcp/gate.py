@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Who may speak to the server over HTTP: whoever brings its token, and no page of another site.
+Access control for HTTP: requests need the bearer token, and cross-site requests are rejected.
 
-The server listens on this machine only. Against web pages, which the browser of this machine may
-show, that does not help: they are kept out by the header Origin, and those whose name leads to
-127.0.0.1 by the header Host (DNS rebinding). Against others on this machine there is the token.
+The server listens on the loopback interface only. That does not keep out web pages in a browser on
+this machine: they are rejected by the Origin header, and those whose name resolves to 127.0.0.1
+(DNS rebinding) by the Host header. The token keeps out other users of this machine.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from robot_mcp.deadlines import in_time
 __all__ = ['GONE', 'LONGEST_BODY', 'Gate', 'refusal']
 
 GONE = 'robot_mcp.gone'
-"""The key in an ASGI scope of what is set when the client of a request has gone."""
+"""The key in an ASGI scope of the event that is set when the client has disconnected."""
 LONGEST_BODY = 64 * 1024
 _READ_OF_REFUSED = 1024 * 1024
-"""Of the body of what is refused so much is read, and thrown away, before it is answered."""
+"""How much of the body of a rejected request is read, and discarded, before the response."""
 _PATIENCE_S = 2.0
 """How long that may take."""
 _ONCE = (b'host', b'origin', b'authorization', b'content-length', b'sec-fetch-site')
@@ -35,16 +35,16 @@ Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 
 def refusal(headers: Iterable[tuple[bytes, bytes]], token: str, port: int) -> tuple[int, str]:
     """
-    Return why a request is refused: its status in HTTP and a sentence; 0 and nothing if it is not.
+    Check a request; return the HTTP status and message of its rejection, 0 and '' to accept it.
 
     Parameters
     ----------
     headers
-        Names, in small letters, and values, as ASGI has them.
+        Names, in lower case, and values, as in ASGI.
     token
-        What a request has to bring.
+        The required token.
     port
-        Where the server listens.
+        The port on which the server listens.
 
     """
     given: dict[bytes, bytes] = {}
@@ -74,12 +74,12 @@ def refusal(headers: Iterable[tuple[bytes, bytes]], token: str, port: int) -> tu
 
 class Gate:
     """
-    An ASGI application in front of another one.
+    ASGI middleware that rejects unauthorized requests.
 
     Parameters
     ----------
     app
-        What is behind the gate; the scope that it gets has an event under `GONE`.
+        The protected application; the scope that it gets has an event under `GONE`.
     token, port
         As for `refusal`.
 
@@ -89,7 +89,7 @@ class Gate:
         self._app, self._token, self._port = app, token, port
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a request through, or answer it."""
+        """Forward a request to the application, or reject it."""
         if scope['type'] == 'lifespan':
             await self._app(scope, receive, send)
             return
@@ -113,10 +113,10 @@ class Gate:
 
 async def _refuse(receive: Receive, send: Send, status: int, reason: str) -> None:
     """
-    Answer with a sentence.
+    Reject a request with a message.
 
-    To close a connection with something unread in it resets it, and the client, which is still
-    sending, may never see the answer.
+    Closing a connection with unread data resets it, and a client that is still sending may never
+    see the response.
     """
     with suppress(asyncio.TimeoutError):
         await in_time(_throw_away(receive), _PATIENCE_S)
@@ -128,7 +128,7 @@ async def _refuse(receive: Receive, send: Send, status: int, reason: str) -> Non
 
 
 async def _throw_away(receive: Receive) -> None:
-    """Read the body of a request to its end, or as much of it as is reasonable."""
+    """Read and discard the body of a request, up to a limit."""
     size = 0
     while size < _READ_OF_REFUSED:
         message = await receive()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the robot is looked at: what is known, and pictures as they come."""
+"""Read-only tools: the state of the world, and images of the camera and the map."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ __all__ = ['Looking']
 
 class Looking:
     """
-    Answers the looks; nothing moves because of them.
+    Handler of the read-only tools, which never move the robot.
 
     Parameters
     ----------
     link, skills, watch
-        The robot, what it can be asked for, and what is known.
+        The link to the robot, its skills, and the observed world.
     may_move
-        Whether assistants may make it move, which is part of its state.
+        Whether assistants may move the robot, which is reported as part of its state.
 
     """
 
@@ -43,7 +43,7 @@ class Looking:
 
     async def look(self, name: str) -> tuple[str, tuple[bytes, ...]]:
         """
-        Return what a look tells, and its pictures.
+        Execute a read-only tool; return its text and its images.
 
         Parameters
         ----------
@@ -53,7 +53,7 @@ class Looking:
         Raises
         ------
         RobotError, ImageError
-            There is nothing to see.
+            No data is available.
 
         """
         await self._link.thread.settle()

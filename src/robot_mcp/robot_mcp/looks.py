@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the looks tell of the world, as JSON."""
+"""Content of the read-only tools, as data for JSON."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ def robot_state(
     may_move: bool,
 ) -> dict[str, Any]:
     """
-    Return where the robot is, and what it can do.
+    Report the state of the robot: its pose, and what it can do.
 
     Parameters
     ----------
     skills, world
-        What can be asked for, and what is known.
+        The skills, and the state of the world.
     room
-        Where the robot is, if that is known.
+        The room of the robot; empty if it is unknown.
     walking
-        What the walk says of itself: `standing`, `walking`, `fallen`, ...
+        The state reported by the walking controller: `standing`, `walking`, `fallen`, ...
     plan
-        The plan that was done last, or is being done, as the executor tells it: JSON.
+        The current or last plan, as reported by the executor: JSON.
     lack
         Why the robot can do nothing at all; empty if it can.
     may_move
-        Whether assistants may make the robot move.
+        Whether assistants may move the robot.
 
     """
     missing = world.missing
@@ -66,12 +66,12 @@ def robot_state(
 
 def remembered_objects(world: World) -> list[dict[str, Any]]:
     """
-    List the remembered objects, in the words in which they can be asked for.
+    List the remembered objects, in the words by which tools can refer to them.
 
     Parameters
     ----------
     world
-        What is known.
+        The state of the world.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def named_places(world: World) -> dict[str, Any]:
     Parameters
     ----------
     world
-        What is known.
+        The state of the world.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def named_places(world: World) -> dict[str, Any]:
 
 
 def _plan(text: str) -> Any:
-    """Return what the executor tells of a plan; None if that is nothing."""
+    """Parse the plan state that the executor reports; None if there is none."""
     try:
         return json.loads(text) if text else None
     except ValueError:

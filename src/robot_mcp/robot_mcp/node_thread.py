@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The thread of the node, as the thread of the server uses it.
+Access from the thread of the server to the thread of the node.
 
-The server runs with asyncio; whatever concerns ROS is done in the thread of the node, one piece
-after another, and what comes back is handed to the loop of the server.
+The server runs on asyncio; everything that concerns ROS runs in the thread of the node, one call
+after another, and results are passed to the event loop of the server.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from robot_mcp.deadlines import in_time
 __all__ = ['NodeThread', 'RobotError', 'in_loop']
 
 _ANSWER_S = 5.0
-"""How long anything may take that should be there at once."""
+"""Time limit for anything that should be available immediately."""
 _DISCOVERY_S = 4.0
-"""How long after its start the node may not have found others yet."""
+"""How long after its start the node may not have discovered others yet."""
 _SETTLED_S = 1.5
 
 
 class RobotError(Exception):
-    """The robot cannot do or show something now; the text says why."""
+    """The robot cannot do or show something now; the message states why."""
 
 
 class NodeThread:
     """
-    Has functions called in the thread of a node. Coroutines are for the thread of the server.
+    Caller of functions in the thread of a node. Coroutines are for the thread of the server.
 
     Parameters
     ----------
@@ -51,12 +51,12 @@ class NodeThread:
         Parameters
         ----------
         function, *arguments
-            What is called, and with which arguments; what it raises is passed on.
+            The function and its arguments; exceptions are passed on.
 
         Raises
         ------
         RobotError
-            The node does not run, or has not finished the call within 5 s.
+            The node is not running, or has not finished the call within 5 s.
 
         """
         loop = asyncio.get_running_loop()
@@ -71,7 +71,7 @@ class NodeThread:
         def call() -> None:
             try:
                 value = function(*arguments)
-            except Exception as error:  # it is for whoever waits
+            except Exception as error:  # passed on to the caller
                 in_loop(loop, settle, error, None)
             else:
                 in_loop(loop, settle, None, value)
@@ -94,7 +94,7 @@ class NodeThread:
         Parameters
         ----------
         condition
-            Is called in the thread of the node, such as whether a server is there.
+            Called in the thread of the node; for example, whether a server is available.
 
         Returns
         -------
@@ -114,24 +114,24 @@ class NodeThread:
         return True
 
     async def settle(self) -> None:
-        """Wait until what runs can have been found; only shortly after the start."""
+        """Wait until discovery can be complete; only shortly after the start."""
         await asyncio.sleep(max(0.0, self._begin_s + _SETTLED_S - time.monotonic()))
 
     async def newest(self, kind: Any, topic: str, profile: Any, missing: str) -> Any:
         """
-        Return a message of a topic.
+        Subscribe to a topic, and wait for one message.
 
         Parameters
         ----------
         kind, topic, profile
-            What to listen to.
+            The message type, the name of the topic, and the QoS profile.
         missing
-            What to say if nobody publishes it.
+            The error message if the topic has no publisher.
 
         Raises
         ------
         RobotError
-            None comes.
+            No message arrives.
 
         """
         name = self._node.resolve_topic_name(topic)
@@ -157,21 +157,21 @@ class NodeThread:
 
     async def ask(self, client: Any, request: Any, who: str, timeout_s: float = _ANSWER_S) -> Any:
         """
-        Return what a service answers.
+        Call a service, and wait for its response.
 
         Parameters
         ----------
         client, request
-            A client of the service, and what to ask.
+            A client of the service, and the request.
         who
-            What to call the service if it does not answer in time.
+            The name of the service in the error message.
         timeout_s
-            How long it may take.
+            The time limit for the response.
 
         Raises
         ------
         RobotError
-            It does not answer.
+            The service does not respond in time.
 
         """
         loop = asyncio.get_running_loop()
@@ -189,22 +189,22 @@ class NodeThread:
 
 
 def _settle(future: asyncio.Future[Any], value: Any) -> None:
-    """Set the result of a future, unless nobody waits for it any more."""
+    """Set the result of a future, unless it is already done."""
     if not future.done():
         future.set_result(value)
 
 
 def in_loop(loop: asyncio.AbstractEventLoop, function: Callable[..., Any], *told: Any) -> None:
     """
-    Call a function in the thread of a loop, which may be at its end.
+    Call a function in the thread of an event loop, which may be closed.
 
     Parameters
     ----------
     loop, function, told
-        The loop, what to call, and with which arguments.
+        The loop, the function, and its arguments.
 
     """
     try:
         loop.call_soon_threadsafe(function, *told)
-    except RuntimeError:  # the loop is closed: nobody waits any more
+    except RuntimeError:  # the loop is closed: no one waits any more
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures for assistants: PNG of what a camera sees, and of a map with the robot in it."""
+"""PNG images for assistants: the camera image, and the map with the robot in it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Pixels = npt.NDArray[np.uint8]
 
 def png_of(pixels: Pixels) -> bytes:
     """
-    Return a picture as PNG.
+    Encode an image as PNG.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def png_of(pixels: Pixels) -> bytes:
 
     """
     height, width, _ = pixels.shape
-    rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each begins with the filter none
+    rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each row starts with filter type 0 (none)
     rows[:, 1:] = pixels.reshape(height, 3 * width)
     header = struct.pack('>IIBBBBB', width, height, 8, 2, 0, 0, 0)
     return b'\x89PNG\r\n\x1a\n' + b''.join(
@@ -46,7 +46,7 @@ def png_of(pixels: Pixels) -> bytes:
 
 def camera_png(color: Pixels) -> bytes:
     """
-    Encode a camera picture as PNG, thinned out to a size that models take.
+    Encode a camera image as PNG, downsampled to a size that models accept.
 
     Parameters
     ----------
@@ -70,16 +70,21 @@ def map_png(
     robot: tuple[float, float, float] | None,
 ) -> tuple[bytes, str]:
     """
-    Return a map as PNG, with y upwards, and a sentence that says how to read it.
+    Render an occupancy grid as PNG, with y upwards, and describe how to read it.
 
     Parameters
     ----------
     cells
         (height, width), the lowest row first: -1 unknown, 0 free to 100 occupied.
     resolution_m, origin_m
-        The length of a cell, and the corner of the first one in the map.
+        The cell size, and the position of the corner of the first cell in the map frame.
     robot
-        Where the robot is: x and y in m, yaw in rad; None if unknown.
+        The pose of the robot: x and y in m, yaw in rad; None if unknown.
+
+    Returns
+    -------
+    bytes, str
+        The PNG, and its legend.
 
     """
     pixels = np.full((*cells.shape, 3), _FREE, np.uint8)
@@ -109,7 +114,7 @@ def _draw_robot(
     origin_m: tuple[float, float],
     robot: tuple[float, float, float],
 ) -> None:
-    """Draw a dot, and a line forwards."""
+    """Draw the robot as a dot with a line that points forwards."""
     height, width, _ = pixels.shape
     columns: Any = origin_m[0] + (np.arange(width) + 0.5) * pixel_m - robot[0]
     rows: Any = origin_m[1] + (np.arange(height)[:, None] + 0.5) * pixel_m - robot[1]

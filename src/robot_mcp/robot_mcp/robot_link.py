@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the server has the robot do: plans, sent to `execute_plan` and canceled there."""
+"""Link from the server to the robot: send plans to `execute_plan`, and cancel them."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ NO_PLANNER = 'I understand no sentences, as the task planner is not running (llm
 
 @dataclass
 class PlanRun:
-    """A plan that was sent, or will be; `is_canceled` may be set from any thread."""
+    """A plan that was, or will be, sent; `is_canceled` may be set from any thread."""
 
     goal_id: Any = field(default_factory=lambda: _goal_id())
     is_canceled: bool = False
@@ -45,7 +45,7 @@ class PlanRun:
 
 @dataclass(frozen=True)
 class PlanEnd:
-    """How a plan ended: a status of `action_msgs/GoalStatus`, and the result."""
+    """The end of a plan: a status of `action_msgs/GoalStatus`, and the result."""
 
     status: int
     result: ExecutePlan.Result
@@ -58,9 +58,9 @@ class RobotLink:
     Parameters
     ----------
     node
-        The node that listens and sends.
+        The node that subscribes and sends goals.
     may_move
-        Whether plans are sent. What is done of them then ends with this process.
+        Whether plans are sent. If so, those still being executed end with this process.
 
     """
 
@@ -73,7 +73,7 @@ class RobotLink:
             if self._guard is None
             else GuardedActionClient(self._guard, ExecutePlan, 'execute_plan')
         )
-        # Not with the goals of the client: it has to work when that is destroyed, and for all.
+        # Independent of the action client: it has to work after that is destroyed, for all goals.
         self._canceling = node.create_client(CancelGoal, 'execute_plan/_action/cancel_goal')
         self._planner = node.create_client(MakePlan, 'task_planner/plan')
         self._runs: dict[bytes, PlanRun] = {}
@@ -88,27 +88,27 @@ class RobotLink:
         self.plan_state = message.data
 
     async def lack(self) -> str:
-        """Return why nothing can be done now; nothing if something can."""
+        """Explain why no plan can be executed now; empty if one can."""
         return '' if await self.thread.found(self._client.server_is_ready) else NO_EXECUTOR
 
     async def plan(self, sentence: str) -> MakePlan.Response:
         """
-        Have the task planner make a plan of a sentence.
+        Request a plan for a natural-language command from the task planner.
 
         Parameters
         ----------
         sentence
-            What the robot is to do.
+            The command.
 
         Returns
         -------
         MakePlan.Response
-            The plan, or why there is none.
+            The plan, or the reason why there is none.
 
         Raises
         ------
         RobotError
-            The planner is not there, or does not answer.
+            The planner is not running, or does not respond.
 
         """
         if not await self.thread.found(self._planner.service_is_ready):
@@ -121,9 +121,9 @@ class RobotLink:
         self, plan: PlanMessage, run: PlanRun
     ) -> AsyncGenerator[ExecutePlan.Feedback | PlanEnd | None, None]:
         """
-        Execute a plan, and report what the executor tells of it.
+        Execute a plan, and yield the feedback of the executor.
 
-        Whoever leaves early has to call `leave`.
+        A caller that stops iterating early has to call `leave`.
 
         Parameters
         ----------
@@ -135,16 +135,16 @@ class RobotLink:
         Yields
         ------
         ExecutePlan.Feedback, PlanEnd or None
-            Feedback as it comes, None again and again while nothing is told, and the end last.
+            Feedback as it arrives, None periodically while there is none, and the end last.
 
         Raises
         ------
         RobotError
-            The executor is not there, refuses the plan, does not answer, or ends in the middle; or
-            the plan was canceled before it was sent.
+            The executor is not running, rejects the plan, does not respond, or ends during the
+            plan; or the plan was canceled before it was sent.
 
         """
-        # From here on a stop concerns it, although it has not been sent yet.
+        # From here on a stop applies to it, although it has not been sent yet.
         self._runs[bytes(run.goal_id.uuid)] = run
         try:
             if lack := await self.lack():
@@ -158,7 +158,7 @@ class RobotLink:
     async def _told_of(
         self, plan: PlanMessage, run: PlanRun
     ) -> AsyncGenerator[ExecutePlan.Feedback | PlanEnd | None, None]:
-        """Send a plan, and yield what is told of it."""
+        """Send a plan, and yield its feedback and its end."""
         loop = asyncio.get_running_loop()
         told: asyncio.Queue[Any] = asyncio.Queue()
         await self.thread.do(
@@ -189,12 +189,12 @@ class RobotLink:
 
     def leave(self, run: PlanRun) -> None:
         """
-        Cancel a plan, from any thread; it does not matter if it is over.
+        Cancel a plan, from any thread; without effect if it is over.
 
         Parameters
         ----------
         run
-            What `execute` was given.
+            The run that was passed to `execute`.
 
         """
         run.is_canceled = True
@@ -204,12 +204,12 @@ class RobotLink:
 
     async def stop(self) -> int:
         """
-        Cancel all plans, whoever sent them, and return how many there were.
+        Cancel all plans, whoever sent them, and return their number.
 
         Raises
         ------
         RobotError
-            The executor is not there, or does not answer.
+            The executor is not running, or does not respond.
 
         """
         for run in list(self._runs.values()):
@@ -220,7 +220,7 @@ class RobotLink:
         return len(answer.goals_canceling)
 
     def close(self) -> bool:
-        """Give up all plans of this server, at its end; return whether there were any."""
+        """Cancel all plans of this server at shutdown; return whether there were any."""
         runs = [run for run in self._runs.values() if run.is_sent and not run.is_over]
         for run in runs:
             self._cancel(run)
@@ -229,7 +229,7 @@ class RobotLink:
         return bool(runs)
 
     def _send(self, plan: PlanMessage, run: PlanRun, tell: Callable[[Any], None]) -> None:
-        """Send a plan, unless it has been given up; in the thread of the node."""
+        """Send a plan unless it was canceled; runs in the thread of the node."""
         if run.is_canceled:
             tell(RobotError('It was stopped before it began.'))
             return
@@ -261,14 +261,14 @@ class RobotLink:
         sent.add_done_callback(take_acceptance)
 
     def _cancel(self, run: PlanRun) -> None:
-        """Cancel a plan; in the thread of the node."""
+        """Cancel a plan; runs in the thread of the node."""
         run.is_canceled = True
         goal = GoalInfo(goal_id=run.goal_id)
         self._canceling.call_async(CancelGoal.Request(goal_info=goal))
 
 
 def _goal_id() -> Any:
-    """Return an id that no other goal has."""
+    """Generate a unique goal id."""
     made = GoalInfo().goal_id
     made.uuid = list(uuid.uuid4().bytes)
     return made

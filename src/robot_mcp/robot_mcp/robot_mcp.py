@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A server of the Model Context Protocol for the robot: the node `robot_mcp`."""
+"""Model Context Protocol (MCP) server for the robot: the node `robot_mcp`."""
 
 from __future__ import annotations
 
@@ -69,14 +69,15 @@ class McpParameters(KnowledgeParameters):
 
 class RobotMcp(Node):
     """
-    Serves assistants.
+    Node that serves assistants over the Model Context Protocol.
 
-    The token for HTTP is the variable ROBOT_MCP_TOKEN of the environment, or a random one.
+    The bearer token for HTTP is read from the environment variable ROBOT_MCP_TOKEN; without it, a
+    random one is generated.
 
     Parameters
     ----------
     wire
-        The descriptor for what clients, or who starts them, are to read.
+        The file descriptor of the output to clients, or to those who start them.
     options
         Keyword arguments of `rclpy.node.Node`.
 
@@ -108,7 +109,7 @@ class RobotMcp(Node):
             self._server = ServerThread(
                 lambda: serve_http(server, listener, self.token), self._end
             )
-            # Who has chosen the token knows it, and others may see what is printed.
+            # Whoever chose the token knows it, and others may see what is printed.
             shown = f'${TOKEN_VARIABLE}' if os.environ.get(TOKEN_VARIABLE) else self.token
             os.write(wire, f'{self.url}\nAuthorization: Bearer {shown}\n'.encode())
         else:
@@ -117,25 +118,25 @@ class RobotMcp(Node):
         logger.info(f'Assistants {may}; what they do is noted in {path}')
 
     def destroy_node(self) -> None:
-        """End the server, and what the robot does for its clients."""
+        """Stop the server, and cancel the plans of its clients."""
         if self._link.close():
-            time.sleep(_SENT_S)  # so that it is sent
+            time.sleep(_SENT_S)  # let the cancel requests be sent
         self._server.close()
         super().destroy_node()
 
     def _end(self, error: BaseException | None) -> None:
-        """End the node when the server has ended, as it does when its only client leaves."""
+        """Shut down when the server has ended, for example as its only client disconnects."""
         if error is not None:
             self.get_logger().error(f'The server has failed: {type(error).__name__}: {error}')
         deadline_s = time.monotonic() + _START_S
-        while self.executor is None and time.monotonic() < deadline_s:  # it has only just begun
+        while self.executor is None and time.monotonic() < deadline_s:  # still starting
             time.sleep(0.01)
         if self.executor is not None:
             self.executor.create_task(self.context.try_shutdown)
 
 
 def _token() -> str:
-    """Return the token of the environment, or a random one."""
+    """Return the token from the environment, or a random one."""
     token = os.environ.get(TOKEN_VARIABLE, '')
     if not token:
         return secrets.token_urlsafe(24)
@@ -149,12 +150,12 @@ def _token() -> str:
 
 def arguments_of(given: list[str]) -> list[str]:
     """
-    Convert `name:=value` on a command line to the parameter assignments of ROS.
+    Convert `name:=value` on a command line to ROS parameter assignments.
 
     Parameters
     ----------
     given
-        The command line. What follows `--ros-args`, if that is there, stays as it is.
+        The command line. Anything after `--ros-args` is left unchanged.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Model Context Protocol, by its official SDK: calls in, answers out."""
+"""Model Context Protocol (MCP) server based on the official SDK."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ _KEY = 'agree'
 
 def require_sdk() -> None:
     """
-    Refuse to start without the SDK.
+    Check that the SDK of the Model Context Protocol is installed.
 
     Raises
     ------
     NodeStartError
-        It is not installed, or too old.
+        The SDK is not installed, or too old.
 
     """
     reason = 'is not installed'
@@ -53,10 +53,10 @@ def require_sdk() -> None:
 
 class _SdkClient:
     """
-    Who calls, as the SDK knows it.
+    Calling client, as known to the SDK.
 
-    Newer clients are asked by an answer that is none yet, and call again with what their person
-    says; older ones by a request of the server.
+    Newer clients are asked for confirmation by an intermediate result, and call again with the
+    answer of their user; older ones are asked by a request from the server (elicitation).
     """
 
     def __init__(self, context: Any, params: Any, asked: Confirmations) -> None:
@@ -69,7 +69,7 @@ class _SdkClient:
         self.gone: asyncio.Event | None = scope.get(GONE)
 
     async def asks(self, question: str, request: str) -> bool | None:
-        """Return whether the person at the client agrees; None if it cannot ask."""
+        """Request confirmation from the person at the client; None if it cannot ask."""
         state = getattr(self._params, 'request_state', None)
         if state is not None:
             response = (getattr(self._params, 'input_responses', None) or {}).get(_KEY)
@@ -92,7 +92,7 @@ class _SdkClient:
         return bool(answer.action == 'accept')
 
     async def report(self, progress: float, total: float, text: str) -> None:
-        """Send a notification of progress, if the client wants any."""
+        """Send a progress notification, if the client wants any."""
         await self._context.session.report_progress(progress, total, text or None)
 
 
@@ -101,12 +101,12 @@ _FORM: dict[str, Any] = {'type': 'object', 'properties': {}}
 
 def make_server(calls: Calls) -> Any:
     """
-    Return a server of the SDK.
+    Create the server of the SDK.
 
     Parameters
     ----------
     calls
-        What answers.
+        The handler of tool calls.
 
     """
     from mcp import types
@@ -150,7 +150,7 @@ def make_server(calls: Calls) -> Any:
         version='0.1.0',
         title='Humanoid robot',
         instructions=INSTRUCTIONS,
-        get_tool_input_schema=lambda _: None,  # no argument travels in a header
+        get_tool_input_schema=lambda _: None,  # no argument is sent in a header
         on_list_tools=list_tools,
         on_call_tool=call_tool,
     )

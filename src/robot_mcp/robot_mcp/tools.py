@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The tools that an assistant is offered: one for each skill, and what only looks.
+The tools that are offered to assistants: one for each skill, and read-only ones.
 
-Names, arguments and limits come from the file of skills, as for every other planner. What an
-assistant sends becomes a plan here; whether that may be done is for `llm_planner.plan.check`.
+Names, arguments and limits come from the skills file, as for every other planner. Calls of
+assistants become plans here; `llm_planner.plan.check` decides whether they may be executed.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from llm_planner.world import World
 __all__ = ['CONFIRMATION', 'LOOKS', 'STOP', 'TELL', 'Tool', 'plan_of_call', 'tools_of']
 
 CONFIRMATION = 'confirmation'
-"""The argument in which a code confirms a call."""
+"""The argument for the code that confirms a call."""
 STOP, TELL = 'stop', 'tell'
 LOOKS = {
     'robot_state': 'Where the robot is, what it is doing, what it can do now and what it cannot.',
@@ -35,10 +35,10 @@ LOOKS = {
     'camera_picture': 'What the camera in the head sees now, as a picture.',
     'map_picture': 'The map of the surroundings as a picture, with the robot in it.',
 }
-"""The tools that only look, with what they return."""
+"""The read-only tools, with what they return."""
 _SOURCE = 'mcp'
 _LONGEST = 8000
-"""No call of a skill needs more letters than these."""
+"""No call of a skill needs more characters than this."""
 _NOTES = {
     'object': 'An object: its class, and what else tells it from others.',
     'objects': 'Objects: their class, and what else tells them from others.',
@@ -56,11 +56,11 @@ class Tool:
     Attributes
     ----------
     name, description
-        What it is called, and what it does, for the model.
+        The name, and the description for the model.
     schema
         The JSON schema of its arguments.
     acts
-        Whether the robot does something, beyond stopping.
+        Whether the robot does anything other than stop.
 
     """
 
@@ -72,15 +72,16 @@ class Tool:
 
 def tools_of(skills: Skills, world: World, *, confirm: bool = False) -> list[Tool]:
     """
-    Return all tools.
+    List all tools.
 
     Parameters
     ----------
     skills, world
-        What can be asked for, and what is known: places become choices. What cannot be done now
-        is a tool nevertheless: clients ask for the tools once, and the robot may be starting.
+        The skills, and the state of the world, whose places become enums. Skills that are
+        unavailable now are listed as well: clients list the tools once, and the robot may still be
+        starting.
     confirm
-        Whether a code may have to confirm a call.
+        Whether calls may need a confirmation code.
 
     """
     more = (
@@ -108,26 +109,26 @@ def tools_of(skills: Skills, world: World, *, confirm: bool = False) -> list[Too
 
 def plan_of_call(name: str, arguments: Mapping[str, Any], skills: Skills, world: World) -> Plan:
     """
-    Return the plan that a call of a skill asks for; whether it may be done is not checked.
+    Convert a call of a skill to a plan, without validating it.
 
     Parameters
     ----------
     name, arguments
-        What was called: anything that an assistant may have sent.
+        The call: anything that an assistant may have sent.
     skills, world
-        What there is.
+        The skills, and the state of the world.
 
     Raises
     ------
     PlanError
-        It is no plan; the text says why.
+        The call is no plan; the message states why.
 
     """
     skill = skills.skills.get(name)
     if skill is None:
         raise PlanError(f"I have no skill '{name[:80]}'.")
     try:
-        # A model may have written anything: no part of it may look like a thought or a new plan.
+        # A model may have written anything: no part may look like a <think> tag or another plan.
         told = json.dumps({'steps': [{'skill': name, 'arguments': dict(arguments)}]})
     except (TypeError, ValueError, RecursionError):
         raise PlanError('The arguments are no JSON.') from None
@@ -149,7 +150,7 @@ def plan_of_call(name: str, arguments: Mapping[str, Any], skills: Skills, world:
 
 
 def _schema(skill: Skill, skills: Skills, world: World, more: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the schema of the arguments of a skill, from that of plans."""
+    """Build the JSON schema of the arguments of a skill from that of plans."""
     alone = Skills({skill.name: replace(skill, steps=())}, skills.rules, skills.vocabulary)
     plan = plan_schema(alone, world)
     step = plan['properties']['steps']['items']['anyOf'][0]
@@ -164,7 +165,7 @@ def _schema(skill: Skill, skills: Skills, world: World, more: Mapping[str, Any])
 
 
 def _relaxed(schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a schema in which what may be null may be left out instead."""
+    """Make the nullable properties of a schema optional instead."""
     if 'anyOf' in schema:
         options = [_relaxed(each) for each in schema['anyOf'] if each != {'type': 'null'}]
         return options[0] if len(options) == 1 else {'anyOf': options}
@@ -185,7 +186,7 @@ def _can_be_null(schema: Mapping[str, Any]) -> bool:
 
 
 def _limits(argument: Argument) -> dict[str, Any]:
-    """Return what the schema of plans does not say of an argument."""
+    """Return the keywords for an argument that the schema of plans lacks."""
     told: dict[str, Any] = {}
     if argument.kind in _NOTES:
         told['description'] = _NOTES[argument.kind]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How clients reach the server: by its stdin and stdout, or by HTTP on this machine."""
+"""Transports of the server: stdin and stdout, or HTTP on this machine."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _JOIN_S = 3.0
 
 
 def take_stdout() -> int:
-    """Return a descriptor of stdout, and lead all else that is written there to stderr."""
+    """Return a duplicate of stdout for the protocol; redirect all other output to stderr."""
     wire = os.dup(1)
     os.dup2(2, 1)
     return wire
@@ -48,7 +48,7 @@ def listen(port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind(('127.0.0.1', port))
-        listener.listen(_MOST_CONNECTIONS)  # whoever comes before the server runs may wait
+        listener.listen(_MOST_CONNECTIONS)  # early clients are queued until the server runs
     except OSError as error:
         listener.close()
         raise NodeStartError(
@@ -60,14 +60,14 @@ def listen(port: int) -> socket.socket:
 
 async def serve_stdio(server: Any, stdin: int, stdout: int) -> None:
     """
-    Serve the one client at two descriptors, until it closes the first one.
+    Serve a single client over two file descriptors, until it closes the first one.
 
     Parameters
     ----------
     server
         A server of the SDK.
     stdin, stdout
-        Where its messages come from, and go to, one a line.
+        The descriptors of incoming and outgoing messages, one per line.
 
     """
     from mcp.server.stdio import stdio_server
@@ -79,16 +79,16 @@ async def serve_stdio(server: Any, stdin: int, stdout: int) -> None:
 
 async def serve_http(server: Any, listener: socket.socket, token: str) -> None:
     """
-    Serve clients that bring the token, until the task is canceled.
+    Serve HTTP clients that send the token, until the task is canceled.
 
     Parameters
     ----------
     server
         A server of the SDK.
     listener
-        Where to listen.
+        The listening socket.
     token
-        What clients have to bring.
+        The bearer token that clients have to send.
 
     """
     import uvicorn
@@ -113,14 +113,14 @@ async def serve_http(server: Any, listener: socket.socket, token: str) -> None:
 
 class ServerThread:
     """
-    Runs a server in a thread of its own.
+    Server that runs in a thread of its own.
 
     Parameters
     ----------
     serve
-        Serves until its end, or until it is canceled.
+        Serves until it ends, or until it is canceled.
     at_end
-        Is called when it has ended by itself, with the error if there was one.
+        Called when the server has ended by itself, with the error if there was one.
 
     """
 
@@ -133,12 +133,12 @@ class ServerThread:
         self._loop = asyncio.new_event_loop()
         self._task: asyncio.Task[None] | None = None
         self._is_closing = False
-        # A daemon: a client that does not read what it is told must not keep the process alive.
+        # A daemon: a client that does not read its messages must not keep the process alive.
         self._thread = threading.Thread(target=self._run, name='mcp', daemon=True)
         self._thread.start()
 
     def close(self) -> None:
-        """End the server, and what it is doing."""
+        """Stop the server, and cancel what it is doing."""
         self._is_closing = True
         try:
             self._loop.call_soon_threadsafe(self._cancel)
@@ -151,14 +151,14 @@ class ServerThread:
             self._task.cancel()
 
     def _run(self) -> None:
-        """Run the server, and say when it has ended."""
+        """Run the server, and report its end."""
         asyncio.set_event_loop(self._loop)
         error: BaseException | None = None
         try:
             self._loop.run_until_complete(self._main())
         except asyncio.CancelledError:
             error = None
-        except BaseException as raised:  # whatever it is, the node ends because of it
+        except BaseException as raised:  # any error ends the node
             error = raised
         finally:
             self._loop.close()
@@ -173,10 +173,10 @@ class ServerThread:
 
 class _Lines:
     """
-    The lines that come from a descriptor, read by a thread that nobody waits for.
+    Lines from a file descriptor, read by a daemon thread.
 
-    Line by line, so that a client that sends too much has to wait; what is too long for a line
-    is not kept, and what is left of it is no message.
+    The queue is bounded, so that a client that sends too much has to wait. A line that is too long
+    is discarded, and replaced by an invalid message.
     """
 
     def __init__(self, descriptor: int) -> None:
@@ -190,7 +190,7 @@ class _Lines:
             yield line
 
     def _read(self) -> None:
-        """Hand over line after line, then nothing."""
+        """Queue one line after another, then None."""
         line: bytes | None = b''
         while line is not None:
             line = self._line()
@@ -201,7 +201,7 @@ class _Lines:
                 return
 
     def _line(self) -> bytes | None:
-        """Return a line; None at the end."""
+        """Read a line; None at the end of the stream."""
         line = self._file.readline(_LONGEST_LINE)
         if len(line) < _LONGEST_LINE or line.endswith(b'\n'):
             return line or None
@@ -211,7 +211,7 @@ class _Lines:
 
 
 class _Writer:
-    """Writes texts to a descriptor, in a thread, as whoever reads may take its time."""
+    """Writer of texts to a file descriptor, in a thread, since the reader may be slow."""
 
     def __init__(self, descriptor: int) -> None:
         self._file = os.fdopen(descriptor, 'wb', closefd=False)
@@ -221,11 +221,11 @@ class _Writer:
         await asyncio.to_thread(self._write, text.encode())
 
     async def flush(self) -> None:
-        """Do nothing: what is written is on its way."""
+        """Return immediately: `write` already flushes."""
 
     def _write(self, data: bytes) -> None:
         try:
             self._file.write(data)
             self._file.flush()
-        except BrokenPipeError:  # who is not there any more has closed stdin as well
+        except BrokenPipeError:  # a client that has gone has closed stdin as well
             return

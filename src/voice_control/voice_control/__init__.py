@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From a microphone to words, and from words to a loudspeaker."""
+"""Speech recognition from a microphone, and speech output to a loudspeaker."""

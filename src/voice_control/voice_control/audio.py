@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sound as this package handles it: S16LE, that is signed 16-bit samples, 16 kHz and mono."""
+"""Audio as this package handles it: S16LE (signed 16-bit samples), 16 kHz, mono."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _LONGEST_S = 3600.0
 
 
 class AudioError(Exception):
-    """Sound that cannot be had or used; the text is a sentence with a way out."""
+    """Audio is unavailable or cannot be used; the message suggests a remedy."""
 
 
 def duration_s(sound: bytes) -> float:
@@ -47,14 +47,14 @@ def duration_s(sound: bytes) -> float:
 
 def chunks(sound: bytes, length_s: float) -> Iterator[bytes]:
     """
-    Split a sound into pieces of the same length.
+    Split a sound into chunks of the same length.
 
     Parameters
     ----------
     sound
         Samples in S16LE.
     length_s
-        The length of a piece; the last one is filled up with zeros.
+        The length of a chunk; the last one is padded with zeros.
 
     Yields
     ------
@@ -70,7 +70,7 @@ def chunks(sound: bytes, length_s: float) -> Iterator[bytes]:
 
 def read_wav(path: Path) -> bytes:
     """
-    Read a WAV file of any rate and number of channels, and convert it.
+    Read a WAV file of any sample rate and number of channels, and convert it.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def wav_of(sound: bytes) -> bytes:
 
 
 def _as_floats(data: bytes, width: int) -> NDArray[np.float64]:
-    """Convert integer samples of a width in bytes to numbers between -1 and 1."""
+    """Convert integer samples of a width in bytes to floats between -1 and 1."""
     if width == 1:
         return (np.frombuffer(data, np.uint8).astype(np.float64) - 128.0) / 128.0
     if width == 3:

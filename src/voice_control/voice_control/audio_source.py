@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish sound from a microphone or a file: the node `audio_source`."""
+"""Publish audio from a microphone or a file: the node `audio_source`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ['AudioSource', 'AudioSourceParameters', 'main']
 AUTO, MICROPHONE, FILE, NONE = 'auto', 'microphone', 'file', 'none'
 _RETRY_S = 5.0
 _SILENCE_S = 1.0
-"""How long it is silent before and behind a file."""
+"""Length of the silence before and after a file."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class AudioSourceParameters:
 
 class AudioSource(Node):
     """
-    Publishes sound on `audio`, 16 kHz, mono, S16LE.
+    Node that publishes audio on `audio`: 16 kHz, mono, S16LE.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class AudioSource(Node):
             self._listen()
 
     def destroy_node(self) -> None:
-        """Close the microphone, too."""
+        """Also close the microphone."""
         if self._microphone is not None:
             self._microphone.close()
         super().destroy_node()
@@ -107,7 +107,7 @@ class AudioSource(Node):
         return chunks(silence + sound + silence, self._told.chunk_s)
 
     def _play(self) -> None:
-        """Publish the next piece, once somebody listens."""
+        """Publish the next chunk, once there is a subscriber."""
         if not self._sound.get_subscription_count():
             return
         piece = next(self._pieces, None)
@@ -123,7 +123,7 @@ class AudioSource(Node):
     # A microphone
 
     def _listen(self) -> None:
-        """Open the microphone, if it is not; it may be plugged in later."""
+        """Open the microphone unless it is open; it may be plugged in later."""
         if self._microphone is not None:
             if self._microphone.is_active:
                 return
@@ -139,13 +139,13 @@ class AudioSource(Node):
             self.get_logger().info('The microphone records.')
 
     def _hand_over(self, sound: bytes) -> None:
-        """Publish a piece in the thread of the executor."""
+        """Publish a chunk in the thread of the executor."""
         executor = self.executor
         if executor is not None:
             executor.create_task(self._publish, sound)
 
     def _complain(self, sentence: str) -> None:
-        """Say once why nothing is heard; what is typed is obeyed all the same."""
+        """Log once why there is no audio; typed commands still work."""
         if sentence == self._complaint:
             return
         self._complaint = sentence

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recognize the commands of a grammar, offline, with pocketsphinx."""
+"""Recognize the commands of a grammar offline, with pocketsphinx."""
 
 from __future__ import annotations
 
@@ -16,54 +16,57 @@ __all__ = ['STOP_GRAMMAR', 'THRESHOLD', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
 THRESHOLD = -3.2
-"""The least log-likelihood ratio per frame of a command, if nothing else is said."""
+"""The default minimum log-likelihood ratio per frame of a command."""
 STOP_THRESHOLD = -2.25
-"""The least log-likelihood ratio per frame of a phrase that stops the robot."""
+"""The minimum log-likelihood ratio per frame of a phrase that stops the robot."""
 STOP_MARGIN = 0.8
-"""By how much such a phrase must fit better than the closest command, if that is another."""
+"""The margin by which such a phrase must fit better than the closest command."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
 <stop_phrase> = <stop> [(it | that | now | right now | moving | <stop>)] | emergency stop;
 <stop> = stop | halt | freeze;
 """
-"""What is listened for at all times, whatever the grammar of commands is."""
+"""Phrases that are recognized at all times, whatever the grammar of commands is."""
 
 _COMMANDS, _PHONES, _STOPS = 'commands', 'phones', 'stops'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
-"""Among how many words at the beginning a word to stop counts: "please stop", "emergency stop"."""
+"""Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
 _GRAMMAR_WEIGHT = 3.0
-"""How much it counts, against the sound, that a place in the grammar has many words to choose."""
+"""Language weight: how much the word probabilities of the grammar count against the sound."""
 _SHORT_STOP = 4
-"""Words of a sentence that stops the robot however badly it fits; longer ones may be chance."""
+"""
+Maximum number of words of a sentence that stops the robot however badly it fits; a longer one may
+match by chance.
+"""
 _SCORE_SCALE = 1024.0
-"""pocketsphinx keeps log-likelihoods divided by this."""
+"""The factor by which pocketsphinx scales down its log-likelihoods."""
 _SHORTEST_HALF = 3
-"""Letters that a half of a compound word has at least."""
+"""Minimum number of letters of each half of a compound word."""
 _FIRST_PASSES = 3
-"""How often the mean of the cepstra is learnt from the first utterance, by which it is unknown."""
+"""Number of passes over the first utterance that estimate the still unknown cepstral mean."""
 _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
 
 
 def read_dictionary(lines: Iterable[str]) -> dict[str, str]:
     """
-    Parse a pronunciation dictionary, as CMUdict is: `kitchenette K IH CH AH N EH T`.
+    Parse a pronunciation dictionary in the format of CMUdict: `kitchenette K IH CH AH N EH T`.
 
     Parameters
     ----------
     lines
-        A word and its phones each; what follows `#` is a comment.
+        Lines of a word and its phones; text after `#` is a comment.
 
     Returns
     -------
     dict
-        The phones, parted by spaces, by the word in lower case.
+        The phones, separated by spaces, by the word in lower case.
 
     Raises
     ------
     RecognizerError
-        If a line is none of that kind.
+        If a line has another format.
 
     """
     words = {}
@@ -92,7 +95,7 @@ class _Segment:
 
 @dataclass(frozen=True)
 class _Fit:
-    """What a grammar makes of an utterance, and how well that fits (log-likelihood a frame)."""
+    """The best match of an utterance in a grammar, and its log-likelihood ratio per frame."""
 
     text: str
     ratio: float
@@ -100,28 +103,28 @@ class _Fit:
 
 class GrammarRecognizer:
     """
-    Recognizes what a grammar allows, and rejects what is something else.
+    Recogniser of the commands of a grammar, which rejects everything else.
 
-    A grammar forces any sound into its words. So an utterance is recognized a second time as a
-    loop of phones, which may follow in any order: the mean, over the frames of the words, of the
-    log-likelihood ratio of the two tells commands (mostly -1 to -3) from other sentences (mostly
-    below -3.5); measured with synthetic voices. Words to stop have a small grammar of their own
-    besides, since a short "stop" is easily taken for another of some hundred words.
+    A grammar forces any sound into its words. An utterance is therefore decoded a second time by a
+    phone loop, in which phones follow in any order: the log-likelihood ratio of the two, averaged
+    over the frames of the words, separates commands (mostly -1 to -3) from other sentences (mostly
+    below -3.5), as measured with synthetic voices. Stop words have a small grammar of their own in
+    addition, since a short "stop" is easily confused with another of some hundred words.
 
     Parameters
     ----------
     threshold
-        The least log-likelihood ratio per frame of what is accepted; a short sentence with a word
-        to stop always is.
+        The minimum log-likelihood ratio per frame for acceptance; a short sentence with a stop
+        word is always accepted.
     dictionary
-        Words with their phones, besides the 135,000 of CMUdict.
+        Words with their phones, in addition to the 135,000 of CMUdict.
 
     """
 
     def __init__(self, threshold: float = THRESHOLD, dictionary: Mapping[str, str] = {}) -> None:
         self.threshold = threshold
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
-        # A search for the best path through the lattice would end anywhere in the grammar.
+        # A best-path search through the lattice could end anywhere in the grammar.
         self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_GRAMMAR_WEIGHT)
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
@@ -137,18 +140,18 @@ class GrammarRecognizer:
         Parameters
         ----------
         jsgf
-            A grammar in JSGF 1.0. A compound such as "sideboard" is pronounced as its halves are.
-            What it allows only with a word of unknown pronunciation cannot be said.
+            A grammar in JSGF 1.0. A compound such as "sideboard" is pronounced like its halves.
+            Sentences that need a word of unknown pronunciation are left out.
 
         Returns
         -------
         list[str]
-            The words whose pronunciation is not known.
+            The words whose pronunciation is unknown.
 
         Raises
         ------
         RecognizerError
-            If it is no grammar; the one of before stays.
+            If the grammar is invalid; the previous one stays.
 
         """
         try:
@@ -166,7 +169,7 @@ class GrammarRecognizer:
         Parameters
         ----------
         text
-            Words in lower case, parted by spaces.
+            Words in lower case, separated by spaces.
 
         """
         return self._commands.accepts(text)
@@ -188,7 +191,7 @@ class GrammarRecognizer:
         Returns
         -------
         Recognition
-            The closest command, with a reason if it does not count. Its confidence is the
+            The closest command, with a reason if it is rejected. Its confidence is the
             log-likelihood ratio per frame.
 
         """
@@ -210,9 +213,9 @@ class GrammarRecognizer:
         return Recognition(command.text, command.ratio, BACKEND, '' if is_like else closest)
 
     def _add(self, search: str, network: WordNetwork) -> None:
-        """Make a search of a network of words, in place of one with the same name."""
+        """Create a decoder search from a word network; it replaces one of the same name."""
         last = len(network.arcs)
-        # All words at a place are equally likely; so is the end of the sentence.
+        # All words at a state are equally likely, and so is the end of the sentence.
         shares = [
             1.0 / (len(words) + (state in network.finals))
             for state, words in enumerate(network.arcs)
@@ -228,7 +231,7 @@ class GrammarRecognizer:
         self._decoder.activate_search(search)
 
     def _knows(self, word: str) -> bool:
-        """Return whether a word has a pronunciation, or a compound one from its two halves."""
+        """Check whether a word has a pronunciation; add that of a compound from its halves."""
         if self._decoder.lookup_word(word) is not None:
             return True
         for middle in range(_SHORTEST_HALF, len(word) - _SHORTEST_HALF + 1):
@@ -240,13 +243,13 @@ class GrammarRecognizer:
 
     def _learn_mean(self, sound: bytes) -> None:
         """
-        Let an utterance change the mean of the cepstra, by which all searches normalize it.
+        Update the cepstral mean, by which all searches normalize audio, with an utterance.
 
-        pocketsphinx would change it after each search, so that one search had another mean than
-        the next one.
+        pocketsphinx would update it after each search, so that successive searches would have
+        different means.
         """
         for _ in range(1 if self._mean else _FIRST_PASSES):
-            self._decoded(_STOPS, sound)  # the quickest one
+            self._decoded(_STOPS, sound)  # the fastest search
             self._mean = self._decoder.get_cmn()
 
     def _decoded(self, search: str, sound: bytes) -> list[_Segment]:
@@ -265,7 +268,7 @@ class GrammarRecognizer:
         ]
 
     def _fit(self, search: str, sound: bytes, phones: Sequence[_Segment]) -> _Fit:
-        """Return what a search finds, and its log-likelihood ratio to the phones, per frame."""
+        """Decode an utterance; compute its log-likelihood ratio to the phone loop, per frame."""
         segments = self._decoded(search, sound)
         words = [segment for segment in segments if segment.name[0] not in '<([']
         if not words:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record from a sound card."""
+"""Record audio from a sound card."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ __all__ = ['Microphone']
 
 class Microphone:
     """
-    A microphone that records until it is closed.
+    Microphone that records until it is closed.
 
     Parameters
     ----------
     device
         A part of the name of the device, or its number; empty for the default one.
     chunk_s
-        The length of the pieces.
+        The length of the chunks.
     take
-        Gets each piece, in S16LE, 16 kHz, mono, in a thread of the sound library.
+        Called with each chunk, in S16LE, 16 kHz, mono, in a thread of the sound library.
 
     Raises
     ------
     AudioError
-        If there is no library, no sound card, or no such device.
+        If the library, a sound card or the device is missing.
 
     """
 
@@ -51,12 +51,12 @@ class Microphone:
             ) from error
 
     def close(self) -> None:
-        """Record no longer."""
+        """Stop recording."""
         self._stream.close(ignore_errors=True)
 
     @property
     def is_active(self) -> bool:
-        """Whether it still records: the device may have been unplugged."""
+        """Whether it is still recording; the device may have been unplugged."""
         return bool(self._stream.active)
 
     def _record(self, data: Any, *_: Any) -> None:
@@ -64,7 +64,7 @@ class Microphone:
 
 
 def _library() -> Any:
-    """Import the library, which looks for PortAudio at once."""
+    """Import the sound library, which loads PortAudio on import."""
     try:
         import sounddevice
     except ImportError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a recogniser is, and how several of them make one that always hears "stop"."""
+"""Interfaces of recognisers, and a listener that combines them and always hears "stop"."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ __all__ = [
 ]
 
 _SAME = 0.7
-"""How similar two texts are, from 0 to 1, that are taken for the same words."""
+"""Similarity, from 0 to 1, above which two texts are taken for the same words."""
 
 
 class RecognizerError(Exception):
-    """A recogniser that cannot be used; the text is a sentence with a way out."""
+    """A recogniser cannot be used; the message suggests a remedy."""
 
 
 @dataclass(frozen=True)
 class Recognition:
     """
-    What a recogniser made of an utterance.
+    Result of the recognition of an utterance.
 
     Attributes
     ----------
     text
         The words, in lower case; empty if there are none.
     confidence
-        How sure it is; what the number means depends on the recogniser.
+        The confidence; its scale depends on the recogniser.
     backend
-        Its name.
+        The name of the recogniser.
     reason
-        Why the words do not count, as a sentence; empty if they do.
+        Why the words are rejected, as a message; empty if they are accepted.
     is_stop
         Whether they tell the robot to stop.
 
@@ -57,13 +57,13 @@ class Recognition:
 
     @property
     def is_accepted(self) -> bool:
-        """Whether the words count."""
+        """Whether the words are accepted."""
         return not self.reason
 
 
 @dataclass(frozen=True)
 class Heard:
-    """A recognition, the length of its utterance, and how long recognising it took (s)."""
+    """A recognition, the duration of its utterance, and the processing time (s)."""
 
     recognition: Recognition
     speech_s: float
@@ -71,10 +71,10 @@ class Heard:
 
 
 class Recognizer(Protocol):
-    """Turns utterances into words."""
+    """Recogniser that turns utterances into words."""
 
     title: str
-    """What it is, for the log."""
+    """The description of the recogniser, for the log."""
 
     def recognize(self, sound: bytes) -> Recognition:
         """
@@ -88,13 +88,13 @@ class Recognizer(Protocol):
         Raises
         ------
         RecognizerError
-            If it cannot be used for the moment.
+            If the recogniser is temporarily unavailable.
 
         """
 
 
 class CommandRecognizer(Recognizer, Protocol):
-    """Turns utterances into the commands of a grammar; knows which of them stop the robot."""
+    """Recogniser of the commands of a grammar that knows which of them stop the robot."""
 
     def set_grammar(self, jsgf: str) -> list[str]:
         """
@@ -108,12 +108,12 @@ class CommandRecognizer(Recognizer, Protocol):
         Returns
         -------
         list[str]
-            The words that cannot be heard.
+            The words that cannot be recognized.
 
         Raises
         ------
         RecognizerError
-            If it is no grammar; the one of before stays.
+            If the grammar is invalid; the previous one stays.
 
         """
 
@@ -124,7 +124,7 @@ class CommandRecognizer(Recognizer, Protocol):
         Parameters
         ----------
         text
-            Words in lower case, parted by spaces.
+            Words in lower case, separated by spaces.
 
         """
 
@@ -134,38 +134,37 @@ class CommandRecognizer(Recognizer, Protocol):
 
 
 class FreeRecognizer(Recognizer, Protocol):
-    """Turns utterances into words of all kinds."""
+    """Recogniser of free speech."""
 
     def expect(self, examples: Sequence[str]) -> None:
         """
-        Prime the recogniser with commands that are likely.
+        Prime the recogniser with likely commands.
 
         Parameters
         ----------
         examples : Sequence[str]
-            Commands; a recogniser may take only the first ones.
+            Commands; a recogniser may use only the first ones.
 
         """
 
 
 class Listener:
     """
-    Recognizes utterances, "stop" among them always by the grammar.
+    Recogniser of utterances that always recognizes "stop" with the grammar.
 
-    Another recogniser hears words of all kinds, and takes some for others that sound like them.
-    Where it hears no command, but nearly the one that the grammar's recogniser accepts, that
-    counts.
+    A second recogniser hears free speech, and confuses some words that sound alike. Where its text
+    is no command, but similar to the one that the grammar's recogniser accepts, the latter counts.
 
     Parameters
     ----------
     grammar
-        Hears commands of a grammar, and knows which of them tells the robot to stop.
+        The recogniser of commands, which knows those that stop the robot.
     other
-        Hears everything else; by default that is the grammar, too.
+        The recogniser of everything else; by default the grammar's, too.
     wake_word
-        If there is one, utterances count only if they begin with it; "stop" always does.
+        If given, utterances are accepted only if they begin with it; "stop" always is.
     report
-        Gets the sentence when the other recogniser fails; the grammar takes its place then.
+        Called with a message when the other recogniser fails; the grammar replaces it then.
 
     """
 
@@ -188,17 +187,17 @@ class Listener:
         Parameters
         ----------
         jsgf
-            The grammar. A recogniser of free speech gets examples of it.
+            The grammar. Its examples prime a recogniser of free speech.
 
         Returns
         -------
         list[str]
-            The words that the grammar's recogniser cannot hear.
+            The words that the grammar's recogniser cannot recognize.
 
         Raises
         ------
         RecognizerError
-            If it is no grammar; the one of before stays.
+            If the grammar is invalid; the previous one stays.
 
         """
         unheard = self._grammar.set_grammar(jsgf)
@@ -232,7 +231,7 @@ class Listener:
         return self._woken(recognition)
 
     def _better(self, command: Recognition, free: Recognition) -> Recognition:
-        """Take a command rather than free words that are nearly those: "go to the hole"."""
+        """Prefer a command to free words that are nearly the same: "go to the hole"."""
         is_nearly_command = (
             command.is_accepted
             and not self._grammar.accepts(free.text)
@@ -241,7 +240,7 @@ class Listener:
         return command if is_nearly_command else free
 
     def _woken(self, recognition: Recognition) -> Recognition:
-        """Take the wake word off, or reject what does not begin with it."""
+        """Strip the wake word, or reject an utterance that does not begin with it."""
         words = recognition.text.replace(',', ' ').split()
         count = len(self._wake_word)
         if not count or not words:

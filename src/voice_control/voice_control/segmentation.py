@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find utterances in a stream of sound."""
+"""Segment an audio stream into utterances."""
 
 from __future__ import annotations
 
@@ -15,36 +15,36 @@ __all__ = ['UtteranceSegmenter']
 
 _BEGIN_S, _BEGIN_WITHIN_S = 0.21, 0.3
 """
-Speech of this length within this time begins an utterance: a short "stop" has no more, and a new
-detector takes the first 0.18 s for speech, whatever comes.
+Speech of this length within this time starts an utterance: a short "stop" has no more, and a new
+detector classifies the first 0.18 s as speech in any case.
 """
 _AROUND_S = 0.03
-"""Silence that an utterance keeps before and behind it: with more, commands fit worse."""
+"""Silence that is kept before and after an utterance: with more, commands fit worse."""
 _PAUSE_S = 0.45
-"""Silence of this length ends an utterance: less is the pause that a comma makes."""
+"""Silence of this length ends an utterance; the pause at a comma is shorter."""
 _CLICKS = 1
-"""How many frames of a pause may sound like speech."""
+"""Number of frames of a pause that may be classified as speech."""
 _NOISE = 3.0
-"""Standard deviation, in steps of 16-bit samples, of the noise that is added."""
+"""Standard deviation of the added noise, in steps of 16-bit samples."""
 
 
 @dataclass
 class UtteranceSegmenter:
     """
-    Cuts a stream of sound into utterances, by the voice activity detector of pocketsphinx.
+    Segmenter of an audio stream by the voice activity detector (VAD) of pocketsphinx.
 
-    pocketsphinx's own `Endpointer` has one window for the beginning and the end of speech: with
-    one that is long enough for a pause, a short "stop" does not begin an utterance.
+    pocketsphinx's own `Endpointer` has one window for the start and the end of speech: with one
+    that is long enough for a pause, a short "stop" does not start an utterance.
 
-    A faint noise is added to what comes in: the mean of the cepstra, by which recognisers
-    normalize sound, is of no use after digital silence.
+    Faint noise is added to the input: the cepstral mean, by which recognisers normalize audio, is
+    useless after digital silence.
 
     Parameters
     ----------
     vad_mode
-        How readily the detector takes sound for something else than speech: 0 to 3.
+        The aggressiveness with which the VAD rejects non-speech: 0 to 3.
     longest_s
-        An utterance that is longer is cut there.
+        The maximum length of an utterance, after which it is cut.
 
     """
 
@@ -60,11 +60,11 @@ class UtteranceSegmenter:
 
     @property
     def is_in_speech(self) -> bool:
-        """Whether somebody is speaking."""
+        """Whether an utterance is in progress."""
         return bool(self._speech)
 
     def reset(self) -> None:
-        """Forget what came in: the stream begins anew."""
+        """Discard the buffered audio, to start with a new stream."""
         self._rest = b''
         self._speech = b''
         window = self._frames(_BEGIN_WITHIN_S)
@@ -74,7 +74,7 @@ class UtteranceSegmenter:
 
     def add(self, sound: bytes) -> Iterator[bytes]:
         """
-        Take the next piece of the stream.
+        Add the next chunk of the stream.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class UtteranceSegmenter:
         Yields
         ------
         bytes
-            Each utterance that has come to its end, with a little silence around it.
+            Each utterance that is complete, with a little silence around it.
 
         """
         self._rest += self._with_noise(sound)
@@ -103,14 +103,14 @@ class UtteranceSegmenter:
                 self._listen(frame)
 
     def finish(self) -> Iterator[bytes]:
-        """Yield the utterance in which the stream ends, if it does; a new one may begin."""
+        """Yield the utterance in progress at the end of the stream, if there is one, and reset."""
         if self._speech:
             self._speech += self._rest
             yield self._taken()
         self.reset()
 
     def _listen(self, frame: bytes) -> None:
-        """Begin an utterance where there is enough speech."""
+        """Start an utterance once there is enough speech."""
         self._before.append(frame)
         self._begin.append(self._vad.is_speech(frame))
         if sum(self._begin) >= self._frames(_BEGIN_S):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Speak what the robot says: the node `speaker`."""
+"""Text-to-speech output of the robot: the node `speaker`."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class SpeakerParameters:
 
 class Speaker(Node):
     """
-    Speaks `speech/say`, one text after another; `speech/speaking` says when.
+    Node that speaks the texts on `speech/say` in order; `speech/speaking` reports when.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class Speaker(Node):
         self._timer.cancel()
 
     def destroy_node(self) -> None:
-        """Stop speaking, too."""
+        """Also stop speaking."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
@@ -86,7 +86,7 @@ class Speaker(Node):
             self._look()
 
     def _look(self) -> None:
-        """Begin the next text when the one before is spoken."""
+        """Start the next text once the previous one has been spoken."""
         if self._process is not None:
             if self._process.poll() is None:
                 return
@@ -110,7 +110,7 @@ class Speaker(Node):
             self._process.stdin.write(text.encode())
             self._process.stdin.close()
         except BrokenPipeError:
-            pass  # its status says so
+            pass  # the exit status reports it
 
     def _end(self, process: subprocess.Popen[bytes]) -> None:
         self._process = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn sound into commands: the node `speech_recognizer`."""
+"""Recognize commands in audio: the node `speech_recognizer`."""
 
 from __future__ import annotations
 
@@ -102,24 +102,24 @@ def make_listener(
     told: RecognizerParameters, report: Callable[[str], None]
 ) -> tuple[Listener, Recognizer]:
     """
-    Make what parameters ask for.
+    Create the listener that the parameters configure.
 
     Parameters
     ----------
     told
         The parameters.
     report
-        Gets a sentence when a part fails.
+        Called with a message when a part fails.
 
     Returns
     -------
     Listener, Recognizer
-        What hears; and what hears all but "stop".
+        The listener, and its recogniser of everything but "stop".
 
     Raises
     ------
     RecognizerError
-        If something that was asked for cannot be used.
+        If a configured part cannot be used.
 
     """
     dictionary = {}
@@ -143,9 +143,10 @@ def make_listener(
 
 class SpeechRecognizer(Node):
     """
-    Hears `audio`, and publishes commands on `speech/transcript`, and all on `speech/result`.
+    Node that recognizes speech on `audio`.
 
-    The key for a server is the variable OPENAI_API_KEY of the environment.
+    Commands are published on `speech/transcript`, and all results on `speech/result`. The API key
+    of a server is read from the environment variable OPENAI_API_KEY.
 
     Parameters
     ----------
@@ -155,7 +156,7 @@ class SpeechRecognizer(Node):
     Raises
     ------
     NodeStartError
-        If what the parameters ask for cannot be used.
+        If a configured part cannot be used.
 
     """
 
@@ -185,16 +186,16 @@ class SpeechRecognizer(Node):
         self.get_logger().info(f'Recognizes speech with {self._title}.')
 
     def destroy_node(self) -> None:
-        """End the thread, too."""
+        """Also end the worker thread."""
         self._is_enabled = False
         try:
             self._queue.put(None, timeout=_END_S)
         except Full:
-            pass  # it is a daemon
+            pass  # the thread is a daemon
         self._worker.join(_END_S)
         super().destroy_node()
 
-    # What comes in
+    # Input
 
     def _take(self, message: AudioData) -> None:
         now_s = self._sound_s = time.monotonic()
@@ -206,7 +207,7 @@ class SpeechRecognizer(Node):
         self._do(lambda: self._set_grammar(message.data))
 
     def _mute(self, message: Bool) -> None:
-        """Do not listen to the robot's own voice."""
+        """Suspend recognition while the robot itself speaks."""
         if self._is_speaking and not message.data:
             self._quiet_until_s = time.monotonic() + _ECHO_S
         self._is_speaking = message.data
@@ -220,7 +221,7 @@ class SpeechRecognizer(Node):
         return response
 
     def _do(self, work: Work) -> None:
-        """Have something done by the thread of the recogniser, unless it is far behind."""
+        """Queue work for the worker thread, unless that is far behind."""
         try:
             self._queue.put_nowait(work)
         except Full:
@@ -230,13 +231,13 @@ class SpeechRecognizer(Node):
                 throttle_duration_sec=10.0,
             )
 
-    # The thread of the recogniser
+    # Worker thread
 
     def _work(self) -> None:
         while (work := self._queue.get()) is not None:
             try:
                 work()
-            except Exception:  # what one utterance does must not end the next ones
+            except Exception:  # an error in one utterance must not affect the next
                 self.get_logger().error(traceback.format_exc())
 
     def _add(self, sound: bytes) -> None:
@@ -262,7 +263,7 @@ class SpeechRecognizer(Node):
     def _report(self, sentence: str) -> None:
         self.get_logger().warning(sentence)
 
-    # What goes out
+    # Output
 
     def _tell(self, heard: Heard) -> None:
         recognition = heard.recognition
@@ -285,7 +286,7 @@ class SpeechRecognizer(Node):
             self._transcripts.publish(String(data=recognition.text))
 
     def _status(self) -> list[PartStatus]:
-        """Return how the node is, for diagnostics."""
+        """Return the diagnostic status of the node."""
         is_silent = time.monotonic() - self._sound_s > _SILENT_AFTER_S
         values = {
             'recogniser': self._title,

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Recognize free speech with Whisper: by faster-whisper, by whisper.cpp, or by a server.
+Recognize free speech with Whisper: with faster-whisper, whisper.cpp or a server.
 
-The libraries and their models are the user's: nothing is ever downloaded.
+The user provides the libraries and their models: nothing is ever downloaded.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ _SILENCE_PROBABILITY = 0.6
 _UNSURE = -1.0
 _LANGUAGE_OF_COMMANDS = 'en'
 _PROMPT_WORDS = 150
-"""Whisper reads the last 223 tokens of a prompt, some 1.3 a word with the full stops."""
+"""Whisper reads the last 223 tokens of a prompt, about 1.3 per word with the full stops."""
 _REPEATS = 2.4
-"""Text that compresses better than this is no speech: Whisper has begun to repeat itself."""
+"""Compression ratio above which a text is no speech: Whisper has started to repeat itself."""
 _MOST_TOKENS = 100
-"""Tokens of an utterance at most: nobody says more in ten seconds."""
+"""Maximum number of tokens of an utterance: no one says more in ten seconds."""
 _NO_SPEECH = 'Nothing was said.'
 _REPETITION = 'Whisper repeated itself, so that nothing can be made of it.'
 _PUNCTUATION = re.compile(r"[^\w\s'°%-]")
@@ -40,16 +40,16 @@ _PUNCTUATION = re.compile(r"[^\w\s'°%-]")
 
 class FasterWhisper:
     """
-    Whisper by the library faster-whisper.
+    Whisper recogniser that uses the library faster-whisper.
 
     Parameters
     ----------
     folder
-        A model as CTranslate2 reads it.
+        A model in the format of CTranslate2.
     language
         The language that is spoken, such as `en`.
     threads
-        How many threads compute.
+        The number of CPU threads.
 
     Raises
     ------
@@ -67,7 +67,7 @@ class FasterWhisper:
             raise RecognizerError(
                 f"'{path}' is no model for faster-whisper: it lacks {', '.join(missing)}."
             )
-        os.environ['HF_HUB_OFFLINE'] = '1'  # a file that it misses, it would look for for minutes
+        os.environ['HF_HUB_OFFLINE'] = '1'  # else it tries for minutes to fetch missing files
         try:
             from faster_whisper import WhisperModel
         except ImportError as error:
@@ -89,7 +89,7 @@ class FasterWhisper:
         Parameters
         ----------
         examples : Sequence[str]
-            English commands, of which about 150 words count; without effect in another language.
+            English commands, of which about 150 words are used; no effect in another language.
 
         """
         self._prompt = _prompt(examples, self._language)
@@ -106,7 +106,7 @@ class FasterWhisper:
         Returns
         -------
         Recognition
-            Its confidence is the mean log-probability of a token, of the worst segment.
+            Its confidence is the mean log-probability per token of the worst segment.
 
         """
         segments = list(
@@ -132,20 +132,20 @@ class FasterWhisper:
 
 class WhisperCpp:
     """
-    Whisper by the library pywhispercpp.
+    Whisper recogniser that uses the library pywhispercpp.
 
     Parameters
     ----------
     file
-        A model in the format ggml.
+        A model in the ggml format.
     language, threads
         As for `FasterWhisper`.
 
     Raises
     ------
     RecognizerError
-        If the library is not installed, or the file is no model. The library itself would end the
-        process with a fault of memory.
+        If the library is not installed, or the file is no model. The library itself would crash
+        the process with a segmentation fault.
 
     """
 
@@ -169,12 +169,12 @@ class WhisperCpp:
 
     def expect(self, examples: Sequence[str]) -> None:
         """
-        Do without: with a prompt, pywhispercpp has ended the process (its issue 141).
+        Ignore the examples: with a prompt, pywhispercpp has crashed the process (its issue 141).
 
         Parameters
         ----------
         examples : Sequence[str]
-            Are left aside.
+            Ignored.
 
         """
 
@@ -200,20 +200,20 @@ class WhisperCpp:
 
 class TranscriptionServer:
     """
-    A server with an interface like that of OpenAI: `POST base_url/audio/transcriptions`.
+    Client of a server with an OpenAI-compatible API: `POST base_url/audio/transcriptions`.
 
     Parameters
     ----------
     base_url
-        Where the interface begins, such as `http://127.0.0.1:8000/v1`.
+        The base URL of the API, such as `http://127.0.0.1:8000/v1`.
     model
-        The name of the model, as the server knows it.
+        The name of the model on the server.
     key
-        What the server asks for as authorization, if it does.
+        The API key, if the server requires one.
     language
         As for `FasterWhisper`.
     timeout_s
-        How long an answer may take.
+        The time limit for a response.
 
     """
 
@@ -263,7 +263,7 @@ class TranscriptionServer:
         Raises
         ------
         RecognizerError
-            If the server does not answer, or answers with an error or without a text.
+            If the server does not respond, or responds with an error or without a text.
 
         """
         import httpx
@@ -306,10 +306,10 @@ def _not_installed(library: str, error: ImportError) -> RecognizerError:
 
 def _prompt(examples: Sequence[str], language: str) -> str:
     """
-    Return commands as Whisper writes sentences, as many as it takes notice of.
+    Format commands as a prompt, in the style of Whisper, up to the length that it reads.
 
-    They are English: where another language is expected there is no prompt, since Whisper goes on
-    in the language of what was said before.
+    They are English: for another language there is no prompt, since Whisper continues in the
+    language of the prompt.
     """
     prompt = ''
     if language != _LANGUAGE_OF_COMMANDS:
@@ -327,7 +327,7 @@ def _samples(sound: bytes) -> NDArray[np.float32]:
 
 
 def _judged(text: str, confidence: float, silence: float, backend: str) -> Recognition:
-    """Make a recognition of a text; what a model makes up when nothing is said does not count."""
+    """Build a recognition from a text; reject what a model hallucinates in silence."""
     words = ' '.join(_PUNCTUATION.sub(' ', text.lower()).split())
     if not words or (silence > _SILENCE_PROBABILITY and confidence < _UNSURE):
         return Recognition('', confidence, backend, _NO_SPEECH)

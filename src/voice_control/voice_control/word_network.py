@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Compile a grammar in JSGF into the smallest network of words that a decoder can search.
+Compile a JSGF grammar into a minimal word network that a decoder can search.
 
-pocketsphinx can read JSGF itself, but it writes out each reference to a rule anew, so that a
+pocketsphinx can read JSGF itself, but it expands each reference to a rule separately, so that a
 grammar of sixty commands about objects takes longer to search than to say. Here the grammar
-becomes a nondeterministic automaton (Thompson's construction), that one a deterministic one
-(subset construction), and that one the minimal one (Moore's partition refinement); see Hopcroft,
-Motwani and Ullman, Introduction to Automata Theory, chapters 2 to 4. Words that cannot be
-pronounced are left out on the way, with all that cannot be said without them.
+becomes a nondeterministic automaton (Thompson's construction), then a deterministic one (subset
+construction), and then the minimal one (Moore's partition refinement); see Hopcroft, Motwani and
+Ullman, Introduction to Automata Theory, chapters 2 to 4. Words that cannot be pronounced are left
+out on the way, with everything that requires them.
 
-JSGF: https://www.w3.org/TR/jsgf/. Weights and tags are read over; imports and rules that refer to
-themselves are rejected.
+JSGF: https://www.w3.org/TR/jsgf/. Weights and tags are ignored; imports and recursive rules are
+rejected.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ _MOST_STATES = 200_000
 @dataclass(frozen=True)
 class WordNetwork:
     """
-    A minimal deterministic automaton over words.
+    A minimal deterministic finite automaton over words.
 
     Attributes
     ----------
     arcs
-        For each state, the state that each word leads to. State 0 is the first one.
+        For each state, the target state of each word. State 0 is the start state.
     finals
-        The states in which a sentence may end.
+        The final states, in which a sentence may end.
     unknown
-        The words of the grammar that were left out, in the order in which they stand there.
+        The words of the grammar that were left out, in order of appearance.
     shown
         Sentences that the grammar itself gives as examples (`@example` in a documentation
-        comment), as far as they can be said.
+        comment), as far as the network accepts them.
 
     """
 
@@ -64,7 +64,7 @@ class WordNetwork:
         Parameters
         ----------
         text
-            Words as the grammar spells them, parted by spaces.
+            Words as the grammar spells them, separated by spaces.
 
         """
         state = 0
@@ -82,9 +82,9 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
     Parameters
     ----------
     jsgf
-        A grammar in JSGF 1.0 with one public rule at least; the first one counts.
+        A grammar in JSGF 1.0 with at least one public rule; the first one is compiled.
     is_known
-        Whether a word can be pronounced; those that cannot be are left out.
+        Returns whether a word can be pronounced; other words are left out.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
     Raises
     ------
     RecognizerError
-        If it is no such grammar, or nothing can be said by it.
+        If the grammar is invalid, or accepts no sentence.
 
     """
     rules, public = _read(jsgf)
@@ -109,7 +109,7 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
 
 
 def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
-    """Return the tokens of each rule by its name in angle brackets, and the public one."""
+    """Tokenise the rules, by their names in angle brackets; also return the public one."""
     text = _COMMENT.sub(' ', jsgf)
     header = _HEADER.match(text)
     if header is None:
@@ -138,7 +138,7 @@ def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
 
 @dataclass
 class _Compiler:
-    """Compiles the rules of a grammar, each once: the others take copies of its network."""
+    """Compiler of the rules of a grammar, each once: references copy its network."""
 
     rules: Mapping[str, list[str]]
     is_known: Callable[[str], bool]
@@ -147,7 +147,7 @@ class _Compiler:
     _open: list[str] = field(default_factory=list)
 
     def network(self, rule: str) -> WordNetwork:
-        """Return the minimal network of a rule."""
+        """Compile a rule to its minimal network, or return the cached one."""
         if rule not in self.rules:
             raise RecognizerError(f'The rule {rule} is used, but not defined.')
         if rule in self._open:
@@ -166,15 +166,15 @@ class _Compiler:
 
 @dataclass
 class _Automaton:
-    """A nondeterministic automaton with empty moves, made from the tokens of a rule."""
+    """A nondeterministic finite automaton with epsilon moves, built from the tokens of a rule."""
 
     compiler: _Compiler
     rule: str
     moves: list[list[tuple[str, int]]] = field(default_factory=list)
-    """For each state, words with the states that they lead to; empty words are free."""
+    """For each state, words with their target states; an empty word is an epsilon move."""
 
     def _copy(self, network: WordNetwork) -> tuple[int, int]:
-        """Add the states of another rule; return the first and the last one."""
+        """Add a copy of the states of another rule; return the first and the last one."""
         states = [self._state() for _ in network.arcs]
         last = self._state()
         for state, arcs in zip(states, network.arcs, strict=True):
@@ -190,7 +190,7 @@ class _Automaton:
         return len(self.moves) - 1
 
     def alternatives(self, tokens: list[str], at: int) -> tuple[int, int, int]:
-        """Read sequences up to a closing bracket or the end; return first, last and its index."""
+        """Parse up to a closing bracket or the end; return first and last state, and its index."""
         first, last = self._state(), self._state()
         while True:
             begin, end, at = self._sequence(tokens, at)
@@ -213,7 +213,7 @@ class _Automaton:
         return first, last, at
 
     def _item(self, tokens: list[str], at: int) -> tuple[int, int, int]:
-        """Read a word, a rule or a group, with what may be behind it: * or +."""
+        """Parse a word, a rule or a group, with repetition operators behind it: * or +."""
         token = tokens[at]
         at += 1
         if token in ('(', '['):
@@ -264,11 +264,11 @@ _Table = list[dict[str, int]]
 def _deterministic(
     moves: list[list[tuple[str, int]]], first: int, last: int
 ) -> tuple[_Table, set[int]]:
-    """Return the arcs of each state, and the final states, of an equal deterministic automaton."""
+    """Build the equivalent deterministic automaton: the arcs of each state, and final states."""
     free: list[frozenset[int] | None] = [None] * len(moves)
 
     def reached(state: int) -> frozenset[int]:
-        """Return the states with words that are reached from one without a word, or the last."""
+        """Return the epsilon closure of a state: its states with words, and the last one."""
         found = free[state]
         if found is None:
             seen, todo = {state}, [state]
@@ -307,7 +307,7 @@ def _deterministic(
 
 
 def _minimal(table: _Table, finals: set[int]) -> WordNetwork:
-    """Merge states from which the same can be said, and leave out those that lead nowhere."""
+    """Merge equivalent states, and remove those that lead nowhere."""
     useful = _useful(table, finals)
     table = [{word: target for word, target in arcs.items() if target in useful} for arcs in table]
     classes = [int(state in finals) for state in range(len(table))]
@@ -336,7 +336,7 @@ def _minimal(table: _Table, finals: set[int]) -> WordNetwork:
 
 
 def _useful(table: _Table, finals: set[int]) -> set[int]:
-    """Return the states from which a final one is reached."""
+    """Compute the states from which a final one is reachable."""
     sources: dict[int, set[int]] = {}
     for state, arcs in enumerate(table):
         for target in arcs.values():
@@ -351,7 +351,7 @@ def _useful(table: _Table, finals: set[int]) -> set[int]:
 
 
 def _in_order(table: _Table) -> Iterator[int]:
-    """Yield the states that are reached from the first one, itself first."""
+    """Yield the states reachable from the start state, in breadth-first order."""
     seen, todo = {0}, [0]
     for state in todo:
         yield state

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Parameters as data: a frozen dataclass whose fields know their meaning and their limits.
+Parameters as data: a frozen dataclass whose fields carry their description and limits.
 
 Nothing here needs ROS; `humanoid_common.node_parameters` declares such a dataclass on a node.
 """

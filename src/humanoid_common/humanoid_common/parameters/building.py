@@ -25,12 +25,12 @@ def build(kind: type[T], values: Mapping[str, Any]) -> T:
     kind
         The dataclass, as `specs_of` reads it.
     values
-        Values by the names of the parameters; those of a group have a dot in them.
+        Values by parameter name; names in a group contain a dot.
 
     Raises
     ------
     ParameterError
-        A value breaks the rules of its parameter, or the values do not fit together.
+        A value violates the rules of its parameter, or the values are inconsistent.
 
     """
     specs = specs_of(kind)
@@ -50,7 +50,7 @@ def values_of(snapshot: Any) -> dict[str, Any]:
     Returns
     -------
     dict
-        The values by the names of the parameters, as `build` takes them.
+        The values by parameter name, as `build` accepts them.
 
     """
     found = {}
@@ -64,7 +64,7 @@ def values_of(snapshot: Any) -> dict[str, Any]:
 
 
 def _assembled(kind: type[T], values: Mapping[str, Any]) -> T:
-    """Build a dataclass of values and groups of values."""
+    """Build a dataclass from values and groups of values."""
     own: dict[str, Any] = {}
     groups: dict[str, dict[str, Any]] = {}
     for name, value in values.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The error that refuses a parameter."""
+"""Error about invalid parameters."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ from humanoid_common.errors import NodeStartError
 
 class ParameterError(NodeStartError):
     """
-    Refuse the values of one or several parameters.
+    The values of one or several parameters are invalid.
 
-    Raise it in `__post_init__` of a parameter dataclass to refuse values that do not fit
-    together.
+    Raise it in `__post_init__` of a parameter dataclass to reject inconsistent values. `reason` is
+    the message, a full sentence, and `names` are the parameters concerned.
     """
 
     def __init__(self, reason: str, *names: str) -> None:
-        """Keep the reason, a full sentence, and the names of the parameters concerned."""
         super().__init__(reason)
         self.reason = reason
         self.names = names

@@ -13,7 +13,7 @@ _RULES = 'humanoid_common.parameters'
 
 @dataclass(frozen=True)
 class ParameterRules:
-    """What a parameter means, and which values it takes."""
+    """Description of a parameter, and the values that it accepts."""
 
     description: str
     at_least: float | None = None
@@ -38,13 +38,13 @@ def parameter(
     Parameters
     ----------
     default, description
-        The value, whose type is that of the parameter, and a sentence for `ros2 param describe`.
+        Default value, of the type of the parameter, and description for `ros2 param describe`.
     at_least, at_most, choices
-        Which values are accepted; those of a list apply to each of its elements.
+        Accepted values; for a list, those of each element.
     read_only
         Whether it cannot be changed while the node runs.
     metadata
-        What else the field keeps for its owner, as that of `dataclasses.field`.
+        Further metadata of the field, as for `dataclasses.field`.
 
     """
     rules = ParameterRules(description, at_least, at_most, tuple(choices), read_only)

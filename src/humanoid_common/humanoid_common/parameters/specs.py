@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a parameter dataclass says about each of its parameters."""
+"""Specifications of the parameters of a parameter dataclass."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ParameterSpec:
 
     @property
     def expected(self) -> str:
-        """Name the type in words."""
+        """Return the type in words, for messages."""
         one, many = _SCALARS[self.element]
         return f'a list of {many}' if self.is_list else one
 
@@ -41,7 +41,7 @@ def specs_of(kind: type) -> dict[str, ParameterSpec]:
     ----------
     kind
         The dataclass, whose fields are declared with `parameter`, or are such dataclasses
-        themselves: groups, whose name and a dot come before those of their parameters.
+        themselves: groups, whose name and a dot prefix the names of their parameters.
 
     Returns
     -------
@@ -51,7 +51,7 @@ def specs_of(kind: type) -> dict[str, ParameterSpec]:
     Raises
     ------
     TypeError
-        A field is not declared with `parameter`, or has a type that no ROS parameter has.
+        A field is not declared with `parameter`, or its type is not that of a ROS parameter.
 
     """
     hints = get_type_hints(kind)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell about values that were set for parameters which do not exist."""
+"""Warnings about values of unknown parameters."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def unknown_parameter_warnings(given: Iterable[str], known: Iterable[str]) -> li
     Returns
     -------
     list of str
-        One message a name, in alphabetical order.
+        One message per name, in alphabetical order.
 
     """
     names = sorted(known)

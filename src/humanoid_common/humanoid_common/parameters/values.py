@@ -25,7 +25,7 @@ def widened(spec: ParameterSpec, value: Any) -> Any:
     spec
         The parameter.
     value
-        The value as it was given, of any type; what is no integer stays as it is.
+        The value as it was given, of any type; all but integers stay as they are.
 
     """
     if spec.element is not float:
@@ -54,7 +54,8 @@ def checked_value(spec: ParameterSpec, value: Any) -> ParameterValue:
     Raises
     ------
     ParameterError
-        The value breaks a rule, or is an empty list; the text says which, and what it must be.
+        The value violates a rule, or is an empty list; the message states which, and what it must
+        be.
 
     """
     value = widened(spec, value)
@@ -101,7 +102,7 @@ def _refusal(
     hint: str = '',
     verb: str = '',
 ) -> ParameterError:
-    """Build the sentence that refuses a value, which for a list is one of its elements."""
+    """Build the error about an invalid value, which for a list is one of its elements."""
     verb = verb or ('contains' if spec.is_list else 'is')
     sentences = [
         f"Parameter '{spec.name}' {verb} {value!r}, but {requirement}.",
@@ -112,10 +113,10 @@ def _refusal(
 
 
 def _is_sequence(value: Any) -> bool:
-    """Tell whether the value is a list of elements, which a text is not."""
+    """Check whether the value is a sequence of elements, which a string is not."""
     return isinstance(value, (Sequence, array)) and not isinstance(value, (str, bytes))
 
 
 def _as_float(value: Any) -> Any:
-    """Turn an integer into a float and leave all else alone."""
+    """Convert an integer to a float; return all else unchanged."""
     return float(value) if type(value) is int else value

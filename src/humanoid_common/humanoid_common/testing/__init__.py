@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What the tests of several packages share.
+Helpers for the tests of several packages.
 
 - `humanoid_common.testing.waiting`: wait for a condition instead of sleeping
 - `humanoid_common.testing.processes`: run a program, read its output, signal it
-- `humanoid_common.testing.launching`: run launch files, and look into them without running them
+- `humanoid_common.testing.launching`: run launch files, or inspect them without running them
 - `humanoid_common.testing.ros`: nodes in this process, in a domain of their own
 """

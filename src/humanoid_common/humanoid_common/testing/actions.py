@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Call an action in a test."""
+"""Action client for tests."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PATIENCE_S = 100.0
 
 
 class End(NamedTuple):
-    """How a goal ended: one of the statuses of `action_msgs/msg/GoalStatus`, and its result."""
+    """End of a goal: its status, one of `action_msgs/msg/GoalStatus`, and its result."""
 
     status: int
     result: Any
@@ -22,19 +22,19 @@ class End(NamedTuple):
 
 class ActionCaller:
     """
-    A client of an action, which is there when this has been made.
+    Action client, whose constructor waits for the action server.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are.
+        The sandbox of the nodes of the test.
     kind, name
         The type and the name of the action.
 
     Attributes
     ----------
     feedback
-        What was told of the goals so far; a test may clear it.
+        Feedback of the goals that was received so far; a test may clear it.
 
     """
 
@@ -51,14 +51,14 @@ class ActionCaller:
         Parameters
         ----------
         goal
-            The goal; None builds one of its fields.
+            The goal; None builds one from its fields.
         **fields
             Fields of the goal, if it is not given as a whole.
 
         Returns
         -------
         ClientGoalHandle
-            The handle of the goal; its `accepted` says whether it was.
+            The handle of the goal; its `accepted` reports whether it was accepted.
 
         """
         future = self._client.send_goal_async(
@@ -106,7 +106,7 @@ class ActionCaller:
         return self._waited(handle.cancel_goal_async(), PATIENCE_S)
 
     def close(self) -> None:
-        """End."""
+        """Destroy the client."""
         self._client.destroy()
 
     def _waited(self, future: Future[Any], patience_s: float) -> Any:

@@ -9,7 +9,7 @@ from typing import IO
 
 class Capture:
     """
-    Collect all that comes out of a stream, as text, in a thread of its own.
+    Collector of the output of a stream, as text, in a thread of its own.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class Capture:
 
     @property
     def text(self) -> str:
-        """Return what has come so far."""
+        """Return the output so far."""
         return b''.join(self._chunks).decode(errors='replace')
 
     def join(self, timeout_s: float) -> None:
@@ -43,7 +43,7 @@ class Capture:
         Parameters
         ----------
         timeout_s
-            Returns after this time in any case.
+            Maximum time to wait.
 
         """
         self._thread.join(timeout_s)

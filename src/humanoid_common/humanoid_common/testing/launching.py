@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run launch files for tests, and look into them without running them."""
+"""Run launch files for tests, or inspect them without running them."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def assert_clean_end(proc_info: ProcInfoHandler, proc_output: IoHandler) -> None
     Raises
     ------
     AssertionError
-        A process ended otherwise; the text names it.
+        A process ended otherwise; the message names it.
 
     """
     assertExitCodes(proc_info)
@@ -162,5 +162,5 @@ def undescribed_arguments(description: LaunchDescription) -> list[str]:
 def _arguments(
     entities: Iterable[LaunchDescriptionEntity],
 ) -> Iterator[DeclareLaunchArgument]:
-    """Yield the declarations among the entities."""
+    """Yield the argument declarations among the entities."""
     return (entity for entity in entities if isinstance(entity, DeclareLaunchArgument))

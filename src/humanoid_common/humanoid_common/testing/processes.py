@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a program, read its output while it runs, signal it, and leave nothing behind."""
+"""Run a program, read its output while it runs, signal it, and leave no process behind."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from humanoid_common.testing.waiting import wait_until
 
 @dataclass(frozen=True)
 class ExitReport:
-    """How a program ended and what it wrote."""
+    """Exit status and output of a program."""
 
     status: int
     stdout: str
@@ -58,22 +58,22 @@ class RunningProgram:
 
     @property
     def output(self) -> str:
-        """Return what was written so far on both streams."""
+        """Return the output on both streams so far."""
         return self._stdout.text + self._stderr.text
 
     @property
     def pid(self) -> int:
-        """Return the id of its process."""
+        """Return the process id."""
         return self._process.pid
 
     @property
     def has_ended(self) -> bool:
-        """Tell whether the program has ended."""
+        """Whether the program has ended."""
         return self._process.poll() is not None
 
     def wait_for_output(self, text: str, timeout_s: float = 60.0) -> None:
         """
-        Wait until a text was written on stdout or stderr.
+        Wait until a text appears on stdout or stderr.
 
         Parameters
         ----------
@@ -85,7 +85,7 @@ class RunningProgram:
         Raises
         ------
         WaitedInVainError
-            The text did not come in time.
+            The text did not appear in time.
 
         """
         wait_until(
@@ -113,7 +113,7 @@ class RunningProgram:
 
     def wait_for_exit(self, timeout_s: float = 60.0) -> ExitReport:
         """
-        Wait until the program has ended and all its output was read.
+        Wait until the program has ended and all its output has been read.
 
         Parameters
         ----------
@@ -128,7 +128,7 @@ class RunningProgram:
         Raises
         ------
         WaitedInVainError
-            The program still runs then.
+            The program is still running then.
 
         """
         wait_until(
@@ -159,7 +159,7 @@ class RunningProgram:
         return self.wait_for_exit(timeout_s)
 
     def close(self) -> None:
-        """End what is still alive of the group, and of what the program started elsewhere."""
+        """Kill the process group, and all descendants of the program outside of it."""
         started = [] if self.has_ended else _descendants(self._process.pid)
         with suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)
@@ -167,7 +167,7 @@ class RunningProgram:
         for pid in started:
             with suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
-        # A node that is left would be in the domain of the next test.
+        # A node that survives would be in the domain of the next test.
         wait_until(
             lambda: not any(map(is_alive, started)),
             60.0,
@@ -204,20 +204,20 @@ def running_program(
 
 
 def _descendants(pid: int) -> list[int]:
-    """Return the ids of the processes that a process has started, and those have started."""
+    """Find the ids of all descendants of a process."""
     parents = {}
     for folder in Path('/proc').glob('[0-9]*'):
         with suppress(OSError):
             parents[int(folder.name)] = int(_stat_of(folder)[1])
     found = [pid]
-    for ancestor in found:  # grows meanwhile
+    for ancestor in found:  # grows during the loop
         found.extend(child for child, parent in parents.items() if parent == ancestor)
     return found[1:]
 
 
 def is_alive(pid: int) -> bool:
     """
-    Whether a process exists and is no zombie.
+    Check whether a process exists and is not a zombie.
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def is_alive(pid: int) -> bool:
 
 
 def _stat_of(folder: Path) -> list[str]:
-    """Return what the kernel says of a process, beginning with its state."""
+    """Read the fields of /proc/PID/stat, starting with the state."""
     return (folder / 'stat').read_text().rpartition(')')[2].split()
 
 
@@ -253,17 +253,17 @@ def module_command(module: str, *arguments: str) -> list[str]:
 
 def assert_clean_exit(report: ExitReport) -> None:
     """
-    Assert that a node ended in order: status 0, and nothing on stderr but log lines.
+    Assert that a node ended cleanly: status 0, and nothing on stderr but log lines.
 
     Parameters
     ----------
     report
-        How its program ended.
+        Exit report of its program.
 
     Raises
     ------
     AssertionError
-        It ended otherwise; the text contains the output.
+        It ended otherwise; the message contains the output.
 
     """
     noise = [line for line in report.stderr.splitlines() if line and not line.startswith('[')]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes in this process, in a domain of their own."""
+"""Sandbox for nodes in this process, in a ROS domain of their own."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from rclpy.parameter import Parameter
 
 NodeT = TypeVar('NodeT', bound=Node)
 SLICE_S = 0.01
-"""How long to wait between two looks at a condition for something to happen."""
+"""Maximum wait for an event between two evaluations of a condition."""
 
 
 class RosSandbox:
     """
-    An own context and executor, for nodes that meet only each other.
+    Separate context and executor, for nodes that discover only each other.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class RosSandbox:
     Attributes
     ----------
     environment
-        Variables that let a program join the domain, on this machine.
+        Environment variables with which a program joins the domain, on this machine.
 
     """
 
@@ -62,9 +62,9 @@ class RosSandbox:
         Parameters
         ----------
         factory
-            Makes the node; it takes the keyword arguments of `rclpy.node.Node`.
+            Creates the node; it accepts the keyword arguments of `rclpy.node.Node`.
         parameters : Mapping[str, Any]
-            Values by the names of parameters.
+            Values by parameter name.
         **options
             Further arguments for the factory.
 
@@ -87,11 +87,11 @@ class RosSandbox:
         """
         self._nodes.remove(node)
         self._executor.remove_node(node)
-        self._handle()  # what a response has set off would meet a node without its parts
+        self._handle()  # what a response has triggered would meet a node without its entities
         destroy(node)
 
     def observer(self) -> Node:
-        """Start a plain node of its own name, to watch the others with."""
+        """Start a plain node with a unique name, to observe the others."""
         name = f'observer_{next(self._observers)}'
         return self.start(lambda **options: Node(name, **options))
 
@@ -102,10 +102,10 @@ class RosSandbox:
         what: str = 'the condition',
     ) -> None:
         """
-        Spin the nodes until a condition holds; a failure tells which topics exist.
+        Spin the nodes until a condition holds; the message of a failure lists the topics.
 
-        All that has come is handled between two looks: with one event for each, a predicate that
-        publishes would fill the queue faster than it is emptied.
+        All pending events are handled between two evaluations: with only one event each, a
+        predicate that publishes would fill the queue faster than it is emptied.
 
         Parameters
         ----------
@@ -114,7 +114,7 @@ class RosSandbox:
         timeout_s
             Real time to wait.
         what
-            What is waited for, for the message of a failure.
+            Description of the condition, for the message of a failure.
 
         Raises
         ------
@@ -130,20 +130,20 @@ class RosSandbox:
         )
 
     def _handle(self) -> None:
-        """Wait a moment for something to come, and handle it with all that came before."""
+        """Wait briefly for an event, and handle it with all pending ones."""
         self._executor.spin_once(timeout_sec=SLICE_S)
         # A timer that is always due keeps a spin from ending by its timeout; a task ends it.
         last = self._executor.create_task(_nothing)
         self._executor.spin_until_future_complete(last, timeout_sec=SLICE_S)
 
     def close(self) -> None:
-        """Destroy the nodes and end ROS."""
+        """Destroy the nodes and shut down the context."""
         self._executor.shutdown()
         for node in self._nodes:
             destroy(node)
         self._context.try_shutdown()
-        # A node whose making failed still has its participant, which others would meet who get
-        # the domain next.
+        # A node whose construction failed still has its participant, which would be visible to
+        # the next users of the domain.
         gc.collect()
 
     def _graph(self) -> str:
@@ -159,15 +159,15 @@ class RosSandbox:
 
 
 def _nothing() -> None:
-    """Do nothing, but after all that was there before."""
+    """Mark the end of all tasks that were pending before."""
 
 
 @contextmanager
 def ros_sandbox() -> Iterator[RosSandbox]:
     """
-    Give a domain that nobody else uses, confined to this machine.
+    Open a sandbox in a domain that no one else uses, confined to this machine.
 
-    The environment is set for the programs that are started meanwhile, and restored after.
+    The environment is set for programs that are started within the block, and restored after it.
     """
     with domain_id() as domain:
         names = ('ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE')
@@ -183,7 +183,7 @@ def ros_sandbox() -> Iterator[RosSandbox]:
 
 
 def _restore(saved: Mapping[str, str | None]) -> None:
-    """Put the environment variables back."""
+    """Restore the environment variables."""
     for name, value in saved.items():
         if value is None:
             os.environ.pop(name, None)

@@ -27,9 +27,9 @@ def wait_until(
     timeout_s
         Real time to wait.
     message
-        Says what is waited for, when that was in vain.
+        Returns a description of the condition, for the error.
     pause
-        Runs between two attempts: a place to spin an executor.
+        Called between two evaluations, for example to spin an executor.
 
     Raises
     ------

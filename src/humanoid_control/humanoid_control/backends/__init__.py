@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What moves: robots in a simulator, or in a mock of one, behind the same interface."""
+"""Backends that move robots, simulated or mocked, behind one interface."""
 
 from humanoid_control.backends.interface import (
     Array,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The border between controllers and what they control."""
+"""Interface between controllers and the robots that they control."""
 
 from __future__ import annotations
 
@@ -15,19 +15,20 @@ Array = NDArray[np.float64]
 
 
 class BackendError(NodeStartError):
-    """Tell why a robot can no longer be moved; its node ends with this sentence."""
+    """A robot can no longer be moved; its node ends with this message."""
 
 
 @dataclass(frozen=True, eq=False)
 class Observation:
     """
-    What the sensors of a robot with n joints say at a moment, in the order of its joints.
+    Sensor values of a robot with n joints at a moment, in the order of its joints.
 
-    Of joints that slide, positions are in m, velocities in m/s and efforts in N.
+    Prismatic joints have positions in m, velocities in m/s and efforts in N.
 
-    The orientation is that of `imu_link` in the world, a unit quaternion w, x, y, z; rates and
-    acceleration (specific force: +g upwards at rest) are in `imu_link`. Feet are left, right:
-    force and torque of the ground on the foot, about the sole and in its axes.
+    The orientation is that of `imu_link` in the world, as a unit quaternion w, x, y, z; angular
+    velocity and acceleration (specific force: +g upwards at rest) are in `imu_link`. Feet are in
+    the order left, right: force and torque of the ground on the foot, about the sole and in its
+    axes.
     """
 
     time_s: float
@@ -36,7 +37,7 @@ class Observation:
     velocities_rad_s: Array
     """(n,)"""
     efforts_nm: Array
-    """(n,) what the drives exert"""
+    """(n,) actuator torques"""
     orientation: Array
     """(4,)"""
     angular_velocity_rad_s: Array
@@ -52,24 +53,24 @@ class Observation:
 @dataclass(frozen=True)
 class ImuNoise:
     """
-    How far an inertial measurement unit without a compass is off: standard deviations.
+    Noise of an IMU without a magnetometer, as standard deviations.
 
-    Biases are part of the errors: whoever uses a measurement does not know them. All zero is a
-    sensor whose errors are not known.
+    Biases count as errors, as the users of a measurement do not know them. All zero means that the
+    errors are unknown.
     """
 
     tilt_rad: float = 0.0
-    """Of roll and pitch, which gravity bounds."""
+    """Roll and pitch, whose error gravity bounds."""
     angular_velocity_rad_s: float = 0.0
-    """About each axis."""
+    """Angular velocity about each axis."""
     acceleration_m_s2: float = 0.0
-    """Along each axis."""
+    """Acceleration along each axis."""
     heading_drift_rad_s: float = 0.0
-    """Of the constant rate at which the heading drifts."""
+    """Constant drift rate of the heading."""
     heading_walk_rad_sqrt_s: float = 0.0
-    """Of the heading after a second, besides the drift; it grows with the root of the time."""
+    """Random walk of the heading after 1 s, besides the drift; grows with the root of the time."""
     tilt_bias_rad: float = 0.0
-    """Of that part of roll and pitch which stays: the sensor takes level ground for a slope."""
+    """Constant bias of roll and pitch, which makes level ground look like a slope."""
 
     def heading_variance_rad2(self, passed_s: float) -> float:
         """
@@ -78,7 +79,7 @@ class ImuNoise:
         Parameters
         ----------
         passed_s
-            The time since the heading was known.
+            Time since the heading was last known.
 
         """
         drift_rad = self.heading_drift_rad_s * passed_s
@@ -88,10 +89,10 @@ class ImuNoise:
 @dataclass(frozen=True, eq=False)
 class JointTargets:
     """
-    What the drives of n joints are to do; each array is (n,), in the units of `Observation`.
+    Targets of the actuators of n joints; each array is (n,), in the units of `Observation`.
 
-    A drive exerts kp (position - q) + kd (velocity - dq) + effort, within its limits, with the
-    gains of the model. Until new targets come, it goes on towards them.
+    An actuator exerts kp (position - q) + kd (velocity - dq) + effort, within its limits, with the
+    gains of the model. Targets stay in force until new ones come.
     """
 
     positions_rad: Array
@@ -101,9 +102,9 @@ class JointTargets:
 
 class Backend(Protocol):
     """
-    Robots of which each has a name: its namespace, '' if it is alone.
+    Backend that moves robots, each named by its namespace; '' is a single robot.
 
-    Time passes in `step` only: by one period, in which the targets hold.
+    Time advances only in `step`, by one period with constant targets.
     """
 
     @property
@@ -112,14 +113,14 @@ class Backend(Protocol):
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Return the names of the driven joints; all robots have the same."""
+        """Return the names of the actuated joints; all robots have the same."""
 
     @property
     def period_s(self) -> float:
-        """Return the time of a step."""
+        """Return the duration of a step."""
 
     def observe(self) -> Mapping[str, Observation]:
-        """Return what the sensors of every robot say now, or raise BackendError."""
+        """Read the sensors of every robot, or raise BackendError."""
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
         """
@@ -128,14 +129,13 @@ class Backend(Protocol):
         Parameters
         ----------
         targets
-            Joint targets by the names of the robots; a robot without an entry keeps those that it
-            had.
+            Joint targets by robot name; a robot without an entry keeps its last ones.
 
         """
 
     def reset(self, keyframe: str = 'home') -> None:
         """
-        Reset all robots to where they began, at rest; time goes on.
+        Reset all robots to their start poses, at rest; time continues.
 
         Parameters
         ----------
@@ -145,4 +145,4 @@ class Backend(Protocol):
         """
 
     def close(self) -> None:
-        """Give back what is held; nothing else may be called after it."""
+        """Release all resources; the backend cannot be used afterwards."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots without physics: what their joints are told comes true, within the limits."""
+"""Backend without physics: joints follow their targets within the limits."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ KEYFRAME = 'home'
 
 class MockBackend:
     """
-    Backend without physics: servos of first order, and bodies that hang upright in the air.
+    Backend without physics: first-order servos, and bodies suspended upright in the air.
 
-    The feet share the weight, the inertial sensor is level and at rest, and whatever is to carry
-    a load (the effort of a target) finds just that load.
+    The feet share the weight, the IMU is level and at rest, and the load of each joint equals its
+    target effort.
 
     Parameters
     ----------
     drives
-        The drive of each joint, by name; their order is that of observations and targets.
+        The actuator of each joint, by name, in the order of observations and targets.
     robots
-        Names of the robots; '' is a robot alone.
+        Names of the robots; '' is a single robot.
     period_s
         The control period, by which each step advances.
     mass_kg
@@ -62,16 +62,16 @@ class MockBackend:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Return the names of the driven joints."""
+        """Return the names of the actuated joints."""
         return self._joints
 
     @property
     def period_s(self) -> float:
-        """Return the time of a step."""
+        """Return the duration of a step."""
         return self._period_s
 
     def observe(self) -> dict[str, Observation]:
-        """Return what the sensors of every robot say now."""
+        """Read the sensors of every robot."""
         return {robot: self._observed(bank) for robot, bank in self._banks.items()}
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
@@ -92,7 +92,7 @@ class MockBackend:
 
     def reset(self, keyframe: str = KEYFRAME) -> None:
         """
-        Reset all joints to where they began, at rest; time goes on.
+        Reset all joints to their home positions, at rest; time continues.
 
         Parameters
         ----------
@@ -102,7 +102,7 @@ class MockBackend:
         Raises
         ------
         ValueError
-            It is another one.
+            The posture is unknown.
 
         """
         if keyframe != KEYFRAME:
@@ -114,7 +114,7 @@ class MockBackend:
             bank.reset()
 
     def close(self) -> None:
-        """Give back nothing, since nothing is held."""
+        """Release nothing: the mock holds no resources."""
 
     def _observed(self, bank: ServoBank) -> Observation:
         return Observation(
@@ -130,7 +130,7 @@ class MockBackend:
         )
 
     def _share_of_weight(self) -> Array:
-        """Return the force of the ground on either foot, (2, 3)."""
+        """Compute the ground reaction force on each foot, (2, 3)."""
         forces_n = np.zeros((2, 3))
         forces_n[:, 2] = self._weight_n / 2.0
         return forces_n

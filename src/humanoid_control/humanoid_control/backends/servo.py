@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Servos of first order: joints without inertia that run towards their targets."""
+"""First-order servos: joints without inertia that move towards their targets."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ class ServoBank:
     """
     First-order servos of n joints; every array is (n,).
 
-    Without inertia the drive's kp (position - q) + kd (velocity - dq) balances the damping d dq
-    of the joint, so that q approaches its target exponentially at the rate kp / (kd + d), but
-    no faster than the limits of velocity and of effort, effort / d, allow. The way of one
-    period is exact, of whatever length the period is.
+    Without inertia the actuator's kp (position - q) + kd (velocity - dq) balances the damping d dq
+    of the joint, so that q approaches its target exponentially at the rate kp / (kd + d), but no
+    faster than the limits of velocity and of effort, effort / d, allow. The motion in a period is
+    exact for any length of the period.
 
     Parameters
     ----------
     drives
-        The drive of each of the n joints, by name and in the order of the arrays.
+        The actuator of each of the n joints, by name and in the order of the arrays.
     home_rad
         Joint positions (n,) at the start and after a reset, clipped to the range of the joints.
 
@@ -47,7 +47,7 @@ class ServoBank:
         self.reset()
 
     def reset(self) -> None:
-        """Go home at once, and stay there."""
+        """Reset the joints to their home positions, at rest."""
         rest = np.zeros_like(self._home_rad)
         self.positions_rad = self._home_rad.copy()
         self.velocities_rad_s = rest.copy()
@@ -61,8 +61,8 @@ class ServoBank:
         Parameters
         ----------
         targets
-            Of the n joints, (n,) each. Efforts move nothing: they count as loads that the servos
-            carry.
+            Of the n joints, (n,) each. Efforts cause no motion: they count as loads that the
+            servos carry.
 
         """
         self._aim_rad = targets.positions_rad + self._lead_s * targets.velocities_rad_s
@@ -75,7 +75,7 @@ class ServoBank:
         Parameters
         ----------
         period_s
-            The time that passes.
+            Duration of the period.
 
         """
         limits = self._limits
@@ -91,7 +91,7 @@ class ServoBank:
         )
 
     def _left_after(self, left_rad: Array, period_s: float) -> Array:
-        """Return how far it is to the targets after a period: first at full speed, then less."""
+        """Compute the distance to the targets after a period: full speed first, then decaying."""
         distance_rad = np.abs(left_rad)
         beyond_rad = np.maximum(distance_rad - self._fastest_rad_s / self._rate_1_s, 0.0)
         fast_s = np.minimum(beyond_rad / self._fastest_rad_s, period_s)

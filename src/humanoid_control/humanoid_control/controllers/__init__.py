@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What decides where joints go, tick by tick, beside the backend."""
+"""Controllers, which compute the joint targets for the backend in each control period."""
 
 from humanoid_control.controllers.commands import CommandError, JointNames, PartialTargets
 from humanoid_control.controllers.follower import Follower

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Change the owner of a joint without a jump."""
+"""Bumpless transfer of joints from one controller to another."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ BLEND_S = 0.5
 
 class Blend:
     """
-    Offset that fades from the last targets of joints to those of their new owner.
+    Offset that blends the targets of joints from those of their old controller to the new ones.
 
-    It begins with the difference of position and velocity and ends with none, along the
-    polynomial of least jerk between the two (Flash and Hogan, 1985).
+    It starts at the difference in position and velocity and decays to zero along the minimum-jerk
+    polynomial (Flash and Hogan, 1985).
 
     Parameters
     ----------
     joints
-        How many joints the robot has, n.
+        Number of joints of the robot, n.
     duration_s
-        Time from a change of the owner until the offset is zero.
+        Time from a change of controller until the offset is zero.
 
     """
 
@@ -34,17 +34,17 @@ class Blend:
 
     def begin(self, joints: Mask, now_s: float, last: JointTargets, new: JointTargets) -> None:
         """
-        Start to blend some joints from their old targets to those of their new owner.
+        Start blending joints from their old targets to those of their new controller.
 
         Parameters
         ----------
         joints
-            Mask (n,) of the joints that change their owner.
+            Mask (n,) of the joints whose controller changes.
         now_s
             The robot's time.
         last, new
-            Targets of all n joints at this moment: those that the old owner leaves, and those that
-            the new owner gives.
+            Targets of all n joints at this moment: those of the old and those of the new
+            controllers.
 
         """
         self._since_s[joints] = now_s
@@ -55,14 +55,14 @@ class Blend:
 
     def blended(self, now_s: float, new: JointTargets) -> JointTargets:
         """
-        Add what is left of the offset to the targets of a moment.
+        Add the remaining offset to the current targets.
 
         Parameters
         ----------
         now_s
             The robot's time.
         new
-            What the present owners ask of all n joints.
+            Targets of all n joints from their current controllers.
 
         Returns
         -------
@@ -81,7 +81,7 @@ class Blend:
         )
 
     def _left(self, passed: Array) -> tuple[Array, Array, Array]:
-        """Return the offset, its derivative, and the share that is left, of a share of time."""
+        """Compute the offset, its derivative and its weight at a fraction of the blend time."""
         left = 1.0 - passed
         share = left**3 * (1.0 + 3.0 * passed + 6.0 * passed**2)
         share_rate = -30.0 * (passed * left) ** 2 / self._duration_s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands from outside: taken as a whole when sound, or refused as a whole with the reason."""
+"""Joint commands from outside: each is accepted or rejected as a whole, with the reason."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from numpy.typing import NDArray
 
 Indices = NDArray[np.intp]
 LARGEST = 1e6
-"""No joint gets near to it in any unit; beyond, sums of values may overflow."""
+"""Far beyond any joint value in any unit; sums of larger values may overflow."""
 
 
 class CommandError(ValueError):
-    """Refuse a command, in sentences that say what is wrong and what to do."""
+    """A command was rejected; the message states what is wrong and what to do."""
 
 
 @dataclass(frozen=True, eq=False)
 class PartialTargets:
-    """Targets of some joints of a robot: their indices among all joints, (m,), and m targets."""
+    """Targets of m joints of a robot, with their indices (m,) among all joints."""
 
     indices: Indices
     targets: JointTargets
@@ -30,7 +30,7 @@ class PartialTargets:
 
 class JointNames:
     """
-    The joints of a robot, by whose names joint commands are checked.
+    Joint names of a robot, against which joint commands are checked.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class JointNames:
         Raises
         ------
         CommandError
-            There is no name, or one is unknown or repeated.
+            The list is empty, or a name is unknown or repeated.
 
         """
         if not names:
@@ -87,9 +87,9 @@ class JointNames:
         Parameters
         ----------
         names
-            Names of the m joints that it commands.
+            Names of the m commanded joints.
         positions_rad, velocities_rad_s, efforts_nm
-            One value per name; m, m/s and N for joints that slide. Velocities and efforts may be
+            One value per name; m, m/s and N for prismatic joints. Velocities and efforts may be
             empty, which means zero.
 
         Returns
@@ -113,7 +113,7 @@ class JointNames:
         return PartialTargets(indices, targets)
 
     def _unknown(self, name: str) -> str:
-        """Build the sentence on a joint that there is not."""
+        """Build the message about an unknown joint."""
         advice = did_you_mean(name, self.joints) or f'It has: {", ".join(self.joints)}.'
         return f"The robot has no joint '{shortened(name)}'. {advice}"
 
@@ -145,7 +145,7 @@ def optional_values(field: str, values: Sequence[float], names: Sequence[str]) -
 
 def checked_values(field: str, values: Sequence[float], names: Sequence[str]) -> Array:
     """
-    Check that a field has one finite value of sane size per joint.
+    Check that a field has one finite value of plausible magnitude per joint.
 
     Parameters
     ----------

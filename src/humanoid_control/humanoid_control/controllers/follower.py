@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Follow the joint targets that come from outside, for as long as they come."""
+"""Controller that follows streamed joint commands until they time out."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ TIMEOUT_S = 0.5
 
 class Follower:
     """
-    Controller that follows a stream of joint commands, and gives joints back when it stops.
+    Controller that follows a stream of joint commands, and releases joints when it stops.
 
-    It claims the joints that the last commands named. A command for some joints leaves what
-    earlier commands said of others as it is, but only until those have been silent for the
-    timeout.
+    It claims each joint until the timeout has passed since the last command for it. A command for
+    some joints leaves the targets of the others unchanged.
 
     Parameters
     ----------
@@ -29,10 +28,10 @@ class Follower:
     timeout_s
         How long a joint stays claimed after the last command for it.
     clock
-        Tells the computer's time in s, by which the timeout must have passed, too; without it the
-        robot's time alone counts.
+        Returns the computer's time in s, by which the timeout must have passed as well; without it
+        only the robot's time counts.
     name
-        What users call the controller.
+        Name of the controller, as shown to users.
 
     """
 
@@ -54,12 +53,12 @@ class Follower:
 
     @property
     def waits(self) -> bool:
-        """Tell that nothing waits for a start: what is to be done came with the commands."""
+        """Whether a start is pending: never, as the targets come with the commands."""
         return False
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """
-        Do nothing: the targets came with the commands.
+        Start the controller; a no-op, as the targets come with the commands.
 
         Parameters
         ----------
@@ -75,7 +74,7 @@ class Follower:
         Parameters
         ----------
         command
-            Checked targets of some joints, whose timeout starts anew; other joints keep theirs.
+            Checked targets of some joints, whose timeout restarts; other joints keep theirs.
 
         """
         targets, indices = self._targets, command.indices
@@ -86,7 +85,7 @@ class Follower:
 
     def wanted(self, now_s: float) -> Mask:
         """
-        Compute which joints have commands that have not timed out.
+        Compute the mask of joints whose commands have not timed out.
 
         Parameters
         ----------
@@ -108,7 +107,7 @@ class Follower:
 
     def update(self, observation: Observation) -> JointTargets:
         """
-        Return the newest commanded targets.
+        Return the latest commanded targets.
 
         Parameters
         ----------
@@ -118,17 +117,17 @@ class Follower:
         Returns
         -------
         JointTargets
-            Of all n joints; the entries of joints that are not `wanted` mean nothing.
+            Targets of all n joints; entries of joints that are not `wanted` are to be ignored.
 
         """
         return self._targets
 
     def cancel(self) -> None:
-        """Forget all commands."""
+        """Drop all commands."""
         self._silences = {}
 
     def _silence_of(self, indices: list[int]) -> Silence:
-        """Return the silence of a set of joints that is commanded together."""
+        """Return the timeout of a set of joints that are commanded together."""
         key = tuple(indices)
         if key not in self._silences:
             self._silences[key] = (self._mask(indices), Silence(self._timeout_s, self._clock))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What controllers have in common that are given goals, and keep their joints behind them."""
+"""Base class of controllers that run goals and keep their joints claimed afterwards."""
 
 from __future__ import annotations
 
@@ -24,30 +24,30 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
     """
     Controller that runs one goal at a time on the joints that it claims.
 
-    It claims them with its first goal and keeps them until it is deactivated or the robot begins
-    anew: what was reached stays.
+    It claims them with its first goal and keeps them until it is deactivated, the robot is reset
+    or its mode changes: reached positions are held.
 
     Parameters
     ----------
     name
-        What users call the controller.
+        Name of the controller, as shown to users.
     joints
         All joints of the robot, in the order of its targets.
     own
-        The joints that the controller moves, all at once.
+        The joints of the controller; a goal moves all of them.
 
     Attributes
     ----------
     indices
         Indices (m,) of its own joints among all.
     is_active
-        Whether it may be given goals; it is active at the start.
+        Whether it accepts goals; initially true.
 
     """
 
     way_out = 'deactivate that controller (ros2 control switch_controllers --deactivate)'
     kind: ClassVar[str]
-    """Its type, by the name that clients look for."""
+    """The controller type that clients look for."""
 
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
         self.name, self.joints, self.own = name, tuple(joints), tuple(own)
@@ -64,17 +64,17 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
 
     @property
     def has_goal(self) -> bool:
-        """Whether a goal runs, or is to start with the next period."""
+        """Whether a goal is running, or starts in the next period."""
         return self._goal is not None
 
     @property
     def waits(self) -> bool:
-        """Whether it is to be started, even if it has its joints already."""
+        """Whether `start` is to be called, even if it has its joints already."""
         return self._starts
 
     def accept(self, goal: GoalT, done: Callable[[ResultT], None]) -> None:
         """
-        Accept a goal, which starts in the next period and preempts the one that runs.
+        Accept a goal, which starts in the next period and preempts the running one.
 
         Parameters
         ----------
@@ -89,15 +89,15 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         self._claims = self._starts = True
 
     def cancel_goal(self) -> None:
-        """End the goal as its client asks; hold the joints where they were told to be last."""
+        """Cancel the goal for its client, and hold the joints at their last targets."""
         self._end(self._ended(CANCELED, True))
 
     def abort(self, why: str) -> None:
         """
         Abort the goal; from the next period on the joints are held at their last targets.
 
-        Without a goal nothing changes. Joints that another controller has are held when they come
-        back.
+        Has no effect without a goal. Joints that another controller has claimed are held once they
+        are released.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
 
     def release(self, why: str) -> None:
         """
-        Abort the goal, if one runs, and release the claimed joints.
+        Abort the running goal, if any, and release the claimed joints.
 
         Parameters
         ----------
@@ -121,12 +121,12 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         self._claims = self._starts = False
 
     def cancel(self) -> None:
-        """Begin anew: no goal, no joints."""
+        """Abort the goal and release the joints, as on a reset or a mode change."""
         self.release(RESTARTED)
 
     def wanted(self, now_s: float) -> Mask:
         """
-        Return the joints that it claims: its own from the first goal until `release`, then none.
+        Return the mask of claimed joints: its own from the first goal until `release`, else none.
 
         Parameters
         ----------
@@ -166,16 +166,16 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         Returns
         -------
         JointTargets
-            Of all n joints of the robot; only the entries of its own joints mean something.
+            Targets of all n joints of the robot; only the entries of its own joints are valid.
 
         """
 
     @abstractmethod
     def _ended(self, why: str, is_canceled: bool) -> ResultT:
-        """Return the result of a goal that is ended from outside."""
+        """Build the result of a goal that was canceled or aborted from outside."""
 
     def _end(self, result: ResultT, stays: bool = False) -> None:
-        """Say how the goal ended; unless the joints stay as they are told now, hold them."""
+        """Send the result of the goal; hold the joints unless their targets stay as they are."""
         if self._goal is None:
             return
         done, self._done = self._done, _nobody
@@ -185,8 +185,8 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         done(result)
 
     def _forget(self) -> None:
-        """Drop what belongs to the goal that has ended."""
+        """Clear the state of the goal that has ended."""
 
 
 def _nobody(result: object) -> None:
-    """Tell nobody."""
+    """Ignore the result: no client waits for it."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Open and close a gripper with a limited force, and notice what it holds."""
+"""Gripper controller with a force limit and stall detection."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from humanoid_control.controllers.goal_controller import GoalController
 from humanoid_control.limits import JointLimits
 
 TOLERANCE_M = 0.002
-"""So close to the gap that was asked for, it is reached."""
+"""A gap this close to the commanded one counts as reached."""
 STALL_M, STALL_S = 0.0005, 0.3
-"""A finger that moves by less in that time is held by something."""
+"""A finger that moves less than this distance in this time has stalled."""
 _BEYOND_M = 1e-3
-"""By so much a gap may be out of range: it was rounded, or measured."""
+"""A gap may be out of range by this amount, as when it was rounded or measured."""
 REACHED = 'The gap is reached.'
 STALLED = 'The fingers hold something, or are held.'
 
 
 @dataclass(frozen=True)
 class Grip:
-    """A gap between the fingers (m), and the force (N) with which they may go there."""
+    """Gap between the fingers (m), and the maximum force (N) with which they move there."""
 
     gap_m: float
     most_n: float
@@ -33,16 +33,16 @@ class Grip:
 @dataclass(frozen=True)
 class GripState:
     """
-    How a gripper is, with the fields of control_msgs/GripperCommand.
+    State of a gripper, with the fields of control_msgs/GripperCommand.
 
     Attributes
     ----------
     gap_m, effort_n
-        Between the fingers; what its drive exerts, negative to close.
+        Gap between the fingers; force of the actuator, negative when closing.
     stalled
         Whether the fingers stopped before the gap was reached.
     reached_goal
-        Whether they are where they should be.
+        Whether the commanded gap is reached.
 
     """
 
@@ -54,7 +54,7 @@ class GripState:
 
 @dataclass(frozen=True)
 class GripResult:
-    """How a grip ended, with a sentence on it."""
+    """Result of a grip, with a message."""
 
     state: GripState
     message: str
@@ -68,11 +68,11 @@ class GripResult:
 
 class GripperController(GoalController[Grip, GripResult]):
     """
-    Controller of the finger of a gripper, which the thumb mirrors: the gap is twice its position.
+    Controller of the finger of a gripper; the thumb mirrors it: the gap is twice its position.
 
-    The target is never farther from where the finger is than the stiffness of the servo makes the
-    force; so it presses with that force on what is between the fingers, and goes on doing so
-    behind the goal: what is held stays held, also if it yields.
+    The target leads the measured position by no more than the maximum force divided by the
+    stiffness of the servo. The finger thus presses on an object with that force, also after the
+    goal has ended: the object stays held even if it yields.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class GripperController(GoalController[Grip, GripResult]):
         super().__init__(name, joints, (own,))
         self._index = index = int(self.indices[0])
         self.widest_m = 2.0 * float(limits.upper_rad[index])
-        """The gap of the open gripper."""
+        """Gap of the fully open gripper."""
         self._strongest_n = float(limits.effort_nm[index])
         self._stiffness_n_m = float(limits.kp_nm_rad[index])
         self.state = GripState()
@@ -105,14 +105,14 @@ class GripperController(GoalController[Grip, GripResult]):
 
     def checked(self, gap_m: float, most_n: float) -> Grip:
         """
-        Return a grip that can be done.
+        Validate a grip and clamp it to the limits of the gripper.
 
         Parameters
         ----------
         gap_m
-            Between the fingers.
+            Gap between the fingers.
         most_n
-            The greatest force; 0 is that of the drive.
+            Maximum force; 0 is that of the actuator.
 
         Raises
         ------
@@ -154,8 +154,8 @@ class GripperController(GoalController[Grip, GripResult]):
         """
         Compute the force-limited target of the finger; end the goal when it is reached or stalls.
 
-        The target stays so close to the measured position that the stiffness of the servo alone
-        makes no more than the force of the grip.
+        The target stays close enough to the measured position for the stiffness of the servo to
+        exert no more than the force of the grip.
 
         Parameters
         ----------
@@ -165,7 +165,7 @@ class GripperController(GoalController[Grip, GripResult]):
         Returns
         -------
         JointTargets
-            Of all n joints of the robot; only the position (m) of the finger means something.
+            Targets of all n joints of the robot; only the position (m) of the finger is valid.
 
         """
         at_m = float(observation.positions_rad[self._index])
@@ -177,7 +177,7 @@ class GripperController(GoalController[Grip, GripResult]):
         return self._targets
 
     def _watch(self, at_m: float, reached: bool, observation: Observation) -> None:
-        """End a goal that is reached, or that the finger does not come closer to."""
+        """End the goal when it is reached or the finger has stalled."""
         now_s = observation.time_s
         if abs(at_m - self._anchor_m) > STALL_M or math.isinf(self._anchor_s):
             self._anchor_m, self._anchor_s = at_m, now_s
@@ -188,6 +188,6 @@ class GripperController(GoalController[Grip, GripResult]):
             self._end(GripResult(self.state, REACHED if reached else STALLED), stays=True)
 
     def _ended(self, why: str, is_canceled: bool) -> GripResult:
-        """Return the result of a goal that is ended from outside."""
+        """Build the result of a goal that was canceled or aborted from outside."""
         state = GripState(self.state.gap_m, self.state.effort_n)
         return GripResult(state, why, is_canceled)

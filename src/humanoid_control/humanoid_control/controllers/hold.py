@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep joints where they were told to be last."""
+"""Controller that holds joints at their last targets."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ import numpy as np
 
 class Hold:
     """
-    Controller that holds all joints at rest; what carried a load goes on to carry it.
+    Controller that holds all joints at rest; joints that carry a load keep their efforts.
 
     Parameters
     ----------
     joints
         All joints of the robot, in the order of its targets.
     name
-        What users call the controller.
+        Name of the controller, as shown to users.
 
     """
 
@@ -44,12 +44,12 @@ class Hold:
 
     def take_back(self, joints: Mask, held: JointTargets) -> None:
         """
-        Hold joints that another controller gives back, with zero velocity and effort.
+        Hold joints that another controller has released, with zero velocity and effort.
 
         Parameters
         ----------
         joints
-            Mask (n,) of the joints that come back; the others are held as before.
+            Mask (n,) of the released joints; the others are held as before.
         held
             Targets of all n joints, at whose positions those joints are held.
 
@@ -73,7 +73,7 @@ class Hold:
         Returns
         -------
         JointTargets
-            Of all n joints.
+            Held targets of all n joints.
 
         """
         return self._targets

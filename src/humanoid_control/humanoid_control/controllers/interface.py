@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every controller offers to the manager that runs it."""
+"""Interfaces of the controllers that the controller manager runs."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ Mask = NDArray[np.bool_]
 
 
 class Controller(Protocol):
-    """Moves the joints that it claims; the manager sees to it that a joint has one owner."""
+    """Controller of joints; the manager assigns each joint to exactly one controller."""
 
     @property
     def name(self) -> str:
-        """Return what users call it."""
+        """Return the name shown to users."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -25,35 +25,35 @@ class Controller(Protocol):
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """
-        Start to control joints, from the targets that they have now.
+        Start controlling joints from their current targets.
 
         The manager calls it before `update`: for the controller of a mode when the mode is
-        entered, for a `ClaimingController` when it gets joints, or has them and `waits`.
+        entered, for a `ClaimingController` when it is assigned joints, or has some and `waits`.
 
         Parameters
         ----------
         observation
-            Sensor values of the present period.
+            Sensor values of the current period.
         held
-            Targets of all joints to go on from: those of the last period, extrapolated to now at
-            their velocities; at first the measured positions, at rest.
+            Targets of all joints to continue from: those of the last period, extrapolated to now
+            at their velocities; initially the measured positions, at rest.
 
         """
 
     def update(self, observation: Observation) -> JointTargets:
         """
-        Compute the joint targets of the coming period. Call once per control period.
+        Compute the joint targets for the coming period. Call once per control period.
 
         Parameters
         ----------
         observation
-            Sensor values of the present period.
+            Sensor values of the current period.
 
         Returns
         -------
         JointTargets
-            Of its n joints, in their order, each array (n,). The manager ignores those of joints
-            that belong to another controller.
+            Targets of its n joints, in their order, each array (n,). The manager ignores those of
+            joints that belong to another controller.
 
         """
 
@@ -63,15 +63,15 @@ class ClaimingController(Controller, Protocol):
 
     @property
     def way_out(self) -> str:
-        """Say what somebody else who wants its joints can do, as the end of a sentence."""
+        """Return a way to free its joints for another controller, to end an error message."""
 
     @property
     def waits(self) -> bool:
-        """Tell whether it is to be started, even if it has its joints already."""
+        """Whether `start` is to be called, even if it has its joints already."""
 
     def wanted(self, now_s: float) -> Mask:
         """
-        Compute which joints it has commands for, and so claims.
+        Compute the mask of joints that it has commands for and therefore claims.
 
         Parameters
         ----------
@@ -86,4 +86,4 @@ class ClaimingController(Controller, Protocol):
         """
 
     def cancel(self) -> None:
-        """Forget all commands."""
+        """Drop all commands."""

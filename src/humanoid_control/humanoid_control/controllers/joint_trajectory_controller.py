@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Follow trajectories that are goals: watch the way, say how it ended, and hold the last pose."""
+"""Joint trajectory controller: tracks the trajectory of a goal within tolerances, then holds."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ REACHED = 'Goal reached.'
 
 
 class ErrorCode(IntEnum):
-    """How a goal ended, with the numbers of control_msgs/action/FollowJointTrajectory."""
+    """Error codes of a goal, with the values of control_msgs/action/FollowJointTrajectory."""
 
     SUCCESSFUL = 0
     INVALID_GOAL = -1
@@ -29,7 +29,7 @@ class ErrorCode(IntEnum):
 
 @dataclass(frozen=True)
 class GoalResult:
-    """The end of a goal, with a sentence on it."""
+    """Result of a goal, with a message."""
 
     code: ErrorCode
     message: str
@@ -38,10 +38,10 @@ class GoalResult:
 
 @dataclass(frozen=True, eq=False)
 class Progress:
-    """Where the m joints of a controller should be and are, each array (m,)."""
+    """Desired and actual state of the m joints of a controller, each array (m,)."""
 
     time_s: float
-    """Since the start of the trajectory."""
+    """Time since the start of the trajectory."""
     desired_rad: Array
     desired_rad_s: Array
     actual_rad: Array
@@ -50,9 +50,9 @@ class Progress:
 
 class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
     """
-    Controller that moves its joints along trajectories, and holds them in the last pose.
+    Controller that moves its joints along trajectories, and holds them at the last positions.
 
-    A new goal goes on from the position and the velocity that the joints were told last.
+    A new goal continues from the last target positions and velocities of the joints.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
         super().__init__(name, joints, own)
         self.progress: Progress | None = None
-        """Of the goal that runs."""
+        """Progress of the running goal, if any."""
         self._spline: Spline | None = None
         self._start_s = 0.0
         self._hold_rad: Array | None = None
@@ -75,14 +75,14 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
         """
         Start the accepted trajectory, or hold the joints if there is none.
 
-        They are held at their last targets; after a violation of the path tolerance, where they
-        were measured then.
+        They are held at their last targets; after a violation of the path tolerance, at the
+        positions measured then.
 
         Parameters
         ----------
         observation, held
-            As for `Controller.start`. The trajectory begins at the time of the observation and
-            goes on from the held position and velocity.
+            As for `Controller.start`. The trajectory starts at the time of the observation and
+            continues from the held position and velocity.
 
         """
         self._starts = False
@@ -108,7 +108,7 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
         Returns
         -------
         JointTargets
-            Of all n joints of the robot; only the entries of its own joints mean something.
+            Targets of all n joints of the robot; only the entries of its own joints are valid.
 
         """
         if self._goal is not None and self._spline is not None:
@@ -127,7 +127,7 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
         return self._targets
 
     def _watch(self, goal: TrajectoryGoal, progress: Progress, end_s: float) -> None:
-        """End a goal that is reached, or whose tolerances are violated."""
+        """End the goal once it is reached or a tolerance is violated."""
         errors = (
             progress.desired_rad - progress.actual_rad,
             progress.desired_rad_s - progress.actual_rad_s,
@@ -146,17 +146,17 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
             self._end(_goal_violated(fault, goal.goal_time_s), stays=True)
 
     def _ended(self, why: str, is_canceled: bool) -> GoalResult:
-        """Return the result of a goal that is ended from outside."""
+        """Build the result of a goal that was canceled or aborted from outside."""
         code = ErrorCode.SUCCESSFUL if is_canceled else ErrorCode.INVALID_GOAL
         return GoalResult(code, why, is_canceled)
 
     def _forget(self) -> None:
-        """Drop the way of the goal that has ended."""
+        """Drop the trajectory of the goal that has ended."""
         self._spline = self.progress = self._hold_rad = None
 
 
 def _path_violated(fault: str, time_s: float) -> GoalResult:
-    """Return the end of a goal that leaves its path."""
+    """Build the result of a goal that violated its path tolerance."""
     return GoalResult(
         ErrorCode.PATH_TOLERANCE_VIOLATED,
         f'Path tolerance violated {max(time_s, 0.0):.2f} s after the start: {fault}. The joints '
@@ -165,7 +165,7 @@ def _path_violated(fault: str, time_s: float) -> GoalResult:
 
 
 def _goal_violated(fault: str, goal_time_s: float) -> GoalResult:
-    """Return the end of a goal that is not reached in time."""
+    """Build the result of a goal that was not reached in time."""
     return GoalResult(
         ErrorCode.GOAL_TOLERANCE_VIOLATED,
         f'Goal tolerance violated {goal_time_s:g} s after the end of the trajectory: {fault}. '

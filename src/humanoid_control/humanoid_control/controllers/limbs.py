@@ -15,23 +15,23 @@ LIMBS = {
     'head_controller': ('head_',),
     'waist_controller': ('waist_',),
 }
-"""What the names of the joints of a controller contain, after a prefix."""
+"""Substrings of the joint names of each controller, after a prefix."""
 
 
 GRIPPERS = {'left_gripper_controller': 'left_gripper', 'right_gripper_controller': 'right_gripper'}
-"""What the name of the joint of a gripper ends with."""
+"""Suffix of the joint name of each gripper controller."""
 
 
 def gripper_controllers(
     joints: Sequence[str], limits: JointLimits
 ) -> tuple[GripperController, ...]:
     """
-    Make the controllers of the grippers that a robot has.
+    Create the controllers of the grippers of a robot.
 
     Parameters
     ----------
     joints, limits
-        All joints of the robot, in the order of its targets, and what they can do.
+        All joints of the robot, in the order of its targets, and their limits.
 
     """
     return tuple(
@@ -44,7 +44,7 @@ def gripper_controllers(
 
 def limb_controllers(joints: Sequence[str]) -> tuple[JointTrajectoryController, ...]:
     """
-    Make the controllers of the limbs that a robot has.
+    Create the trajectory controllers of the limbs of a robot.
 
     Parameters
     ----------

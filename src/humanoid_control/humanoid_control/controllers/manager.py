@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let one controller at a time claim each joint, and let no change of it make a joint jump."""
+"""Controller manager: assigns each joint to one controller, and blends targets on a change."""
 
 from __future__ import annotations
 
@@ -19,15 +19,16 @@ from numpy.typing import NDArray
 
 Owners = NDArray[np.intp]
 _MODE = -1
-"""Who claims a joint that no controller does; claimants are counted from 0."""
+"""Owner of a joint that no claimant has claimed; claimants are numbered from 0."""
 
 
 class ControllerManager:
     """
-    Run the controllers of one robot, and limit the targets that they ask for.
+    Manager that runs the controllers of one robot and limits their targets.
 
-    A joint goes to the first claimant that claims it if the mode leaves it to controllers, else to
-    the controller of the mode. Every change blends from what the joint was told last.
+    A joint that the mode leaves to controllers goes to the first claimant that claims it; all
+    others go to the controller of the mode. Every change blends from the last targets of the
+    joint.
 
     Parameters
     ----------
@@ -73,12 +74,12 @@ class ControllerManager:
 
     @property
     def is_leaving(self) -> bool:
-        """Tell whether another mode waits for the present one to come to rest."""
+        """Whether a mode switch is pending until the current mode can be left."""
         return self._next is not self._mode
 
     @property
     def trouble(self) -> str:
-        """Return why the mode needs all joints for the moment, or nothing."""
+        """Return why the mode keeps all joints at the moment; empty if there is none."""
         return self._mode.needs_all_because()
 
     @property
@@ -98,8 +99,8 @@ class ControllerManager:
         """
         Request a mode switch.
 
-        It takes place in the first `update` in which the present mode can be left, and blends the
-        targets. The name of the present mode withdraws an earlier request.
+        It takes place in the first `update` in which the current mode can be left, and blends the
+        targets. The name of the current mode withdraws a pending request.
 
         Parameters
         ----------
@@ -120,7 +121,7 @@ class ControllerManager:
         self._next = self._modes[mode]
 
     def reset(self) -> None:
-        """Begin anew with the next observation, from where the joints are then."""
+        """Reset all controllers; restart from the joint positions of the next observation."""
         for claimant in self._claimants:
             claimant.cancel()
         for mode in self._modes.values():
@@ -133,7 +134,7 @@ class ControllerManager:
 
     def owner(self, joint: str) -> str:
         """
-        Look up the controller that has claimed a joint now.
+        Look up the mode or controller that currently claims a joint.
 
         Parameters
         ----------
@@ -155,7 +156,7 @@ class ControllerManager:
 
     def joints_of(self, name: str) -> tuple[str, ...]:
         """
-        List the joints that a mode or a claimant has claimed now.
+        List the joints that a mode or a claimant currently claims.
 
         Parameters
         ----------
@@ -172,7 +173,7 @@ class ControllerManager:
 
     def is_claimable(self, indices: Indices) -> bool:
         """
-        Check whether the mode leaves all of some joints to controllers now.
+        Check whether the mode currently leaves all the given joints to controllers.
 
         Parameters
         ----------
@@ -184,7 +185,7 @@ class ControllerManager:
 
     def owns(self, claimant: ClaimingController, indices: Indices) -> bool:
         """
-        Check whether a claimant has claimed all of some joints.
+        Check whether a claimant currently claims all the given joints.
 
         Parameters
         ----------
@@ -197,7 +198,7 @@ class ControllerManager:
         return bool((self._owners[indices] == self._claimants.index(claimant)).all())
 
     def claimed(self) -> dict[str, str]:
-        """Return the joints that are claimed now, with the names of their controllers."""
+        """Return the joints that claimants currently claim, with the names of the claimants."""
         indices = np.flatnonzero(self._owners != _MODE)
         return {self.joints[index]: self._name_of(self._owners[index]) for index in indices}
 
@@ -238,18 +239,18 @@ class ControllerManager:
         """
         Compute the targets of all joints for the coming period. Call once per control period.
 
-        It switches the mode if that was requested and is possible, assigns joints to the claimants
-        that claim them, and blends and limits the targets of the owners.
+        Switches the mode if requested and possible, assigns joints to the claimants that claim
+        them, and blends and limits the targets.
 
         Parameters
         ----------
         observation
-            Sensor values of the present period.
+            Sensor values of the current period.
 
         Returns
         -------
         JointTargets
-            Of all n joints, within their limits of range, velocity and effort.
+            Targets of all n joints, within their position, velocity and effort limits.
 
         """
         now_s = observation.time_s
@@ -268,7 +269,7 @@ class ControllerManager:
         return self._last
 
     def _enter(self, mode: Mode) -> None:
-        """Enter a mode; claimants have to claim anew."""
+        """Enter a mode and cancel all claimants, which have to claim joints again."""
         if mode.controller.joints != self.joints:
             raise ValueError(
                 f"The controller of mode '{mode.name}' must claim all joints of the robot, in "
@@ -280,7 +281,7 @@ class ControllerManager:
             claimant.cancel()
 
     def _change_owners(self, observation: Observation, held: JointTargets) -> Mask | None:
-        """Start the controllers that get joints; return which joints these are, None for none."""
+        """Start the controllers that are assigned joints; return those joints, None for none."""
         owners = self._owners_at(observation.time_s)
         news = self._news(owners)
         if not (self._entered or news.any()):
@@ -293,7 +294,7 @@ class ControllerManager:
         return news
 
     def _owners_at(self, now_s: float) -> Owners:
-        """Return who claims each joint, (n,): the rank of a claimant, or _MODE."""
+        """Compute the owner of each joint, (n,): the rank of a claimant, or _MODE."""
         owners = np.full(len(self.joints), _MODE)
         if self.trouble:
             return owners
@@ -302,7 +303,7 @@ class ControllerManager:
         return owners
 
     def _news(self, owners: Owners) -> Mask:
-        """Return the joints that change hands, (n,)."""
+        """Compute the mask (n,) of joints whose controller changes or `waits`."""
         if self._entered:
             return np.ones_like(self._claimable)
         news: Mask = owners != self._owners
@@ -314,7 +315,7 @@ class ControllerManager:
     def _start(
         self, owners: Owners, news: Mask, observation: Observation, held: JointTargets
     ) -> None:
-        """Notify controllers of the joints that they were given."""
+        """Notify controllers of the joints that they were assigned."""
         returned = news & (owners == _MODE)
         if self._entered:
             self._mode.controller.start(observation, held)
@@ -327,7 +328,7 @@ class ControllerManager:
                 claimant.start(observation, held)
 
     def _wished(self, observation: Observation, held: JointTargets) -> JointTargets:
-        """Return what the owners ask for, together."""
+        """Merge the targets of the mode and the claimants; non-finite ones are replaced."""
         own = wished = self._mode.controller.update(observation)
         for rank, joints in self._active.items():
             wished = _merged(wished, self._claimants[rank].update(observation), joints)
@@ -337,7 +338,7 @@ class ControllerManager:
         return wished if _is_finite(wished) else self._repaired(wished, held)
 
     def _repaired(self, wished: JointTargets, held: JointTargets) -> JointTargets:
-        """Keep joints where they are whose owner asks for what is no number, and say so."""
+        """Hold the joints whose targets are not finite, and report the controller at fault."""
         sound = np.isfinite(wished.positions_rad + wished.velocities_rad_s + wished.efforts_nm)
         index = int(np.argmin(sound))
         self._say(
@@ -351,7 +352,7 @@ class ControllerManager:
         return self.mode if rank == _MODE else self._claimants[rank].name
 
     def _kept(self, joint: str) -> str:
-        """Build the sentence on a joint that the mode keeps for itself."""
+        """Build the message about a joint that the mode keeps for itself."""
         ways = [mode.name for mode in self._modes.values() if joint in mode.claimable]
         leaves = 'only other joints' if self._mode.claimable else 'no joint'
         out = f"Leave it out, or set the mode to '{ways[0]}'." if ways else 'Leave it out.'
@@ -362,18 +363,18 @@ class ControllerManager:
 
 
 def _at_rest(observation: Observation) -> JointTargets:
-    """Return the targets that keep the joints where they are."""
+    """Build targets that hold the joints at their measured positions."""
     return JointTargets(observation.positions_rad, *np.zeros((2, len(observation.positions_rad))))
 
 
 def _continued(targets: JointTargets, elapsed_s: float) -> JointTargets:
-    """Return the targets, gone on at their velocities."""
+    """Extrapolate the target positions at their velocities."""
     positions_rad = targets.positions_rad + elapsed_s * targets.velocities_rad_s
     return replace(targets, positions_rad=positions_rad)
 
 
 def _merged(targets: JointTargets, others: JointTargets, chosen: Mask) -> JointTargets:
-    """Return targets, with those of other ones where they are chosen."""
+    """Replace the targets of the chosen joints with others."""
     return JointTargets(
         np.where(chosen, others.positions_rad, targets.positions_rad),
         np.where(chosen, others.velocities_rad_s, targets.velocities_rad_s),
@@ -382,6 +383,6 @@ def _merged(targets: JointTargets, others: JointTargets, chosen: Mask) -> JointT
 
 
 def _is_finite(targets: JointTargets) -> bool:
-    """Tell whether all targets are numbers; a sum is the cheapest way to know."""
+    """Check whether all targets are finite; a sum is the cheapest test."""
     total = targets.positions_rad.sum() + targets.velocities_rad_s.sum()
     return math.isfinite(total + targets.efforts_nm.sum())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a robot does as a whole, and which joints other controllers may claim meanwhile."""
+"""Modes of a robot, and the joints that other controllers may claim in each."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from humanoid_control.controllers.interface import Controller, Mask
 
 
 def _nothing(joints: Mask, held: JointTargets) -> None:
-    """Take joints back without more ado."""
+    """Accept released joints without any action."""
 
 
 def _no_memory() -> None:
-    """Have nothing to forget."""
+    """Reset nothing: the mode has no state."""
 
 
 def _always() -> bool:
-    """Tell that a mode can be left at any time."""
+    """Allow a mode to be left at any time."""
     return True
 
 
 def _no_reason() -> str:
-    """Tell that nothing is wrong."""
+    """Return no reason to keep all joints."""
     return ''
 
 
@@ -34,11 +34,11 @@ class Mode:
     """
     A controller of all joints, and the joints that other controllers may claim from it.
 
-    `take_back` is told which joints come back, (n,) true, and what they were told last. The mode
-    can be left when `may_end` says so, and keeps all joints while `needs_all_because` gives a
-    reason. `forget` is called when the robot has been put somewhere. The efforts of a mode that
-    `supports` bear the weight of all joints wherever they are, the claimed ones too: what their
-    controllers exert comes on top.
+    `take_back` receives the mask (n,) of released joints and the last targets of all joints. The
+    mode can be left while `may_end` returns true, and keeps all joints while `needs_all_because`
+    returns a reason. `forget` is called when the robot was reset or moved from outside. The
+    efforts of a mode that `supports` compensate the weight of all joints in any posture, also of
+    claimed ones: the efforts of their controllers are added.
     """
 
     name: str
@@ -66,7 +66,7 @@ def hold_mode(joints: Sequence[str]) -> Mode:
 
 def follow_mode(joints: Sequence[str]) -> Mode:
     """
-    Build the mode in which every joint can be claimed, and is held while nobody moves it.
+    Build the mode in which every joint can be claimed, and is held while no controller does.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Know when somebody who sends commands has stopped to."""
+"""Command timeout, in the robot's time and in the computer's."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ Clock = Callable[[], float]
 
 class Silence:
     """
-    Timeout since something was last heard, such as a command.
+    Timeout since the last input, such as a command.
 
-    Both the robot's time and the computer's must have passed: the robot's time may run many times
-    faster than the person who drives it, or stand still while the simulator is paused.
+    It must have passed in both the robot's time and the computer's: the robot's time may run many
+    times faster than the operator's, or stand still while the simulator is paused.
 
     Parameters
     ----------
     timeout_s
-        How long nothing must have been heard.
+        Time without input until the timeout.
     clock
-        Tells the computer's time in s; without it the robot's time alone counts.
+        Returns the computer's time in s; without it only the robot's time counts.
 
     """
 
@@ -33,17 +33,17 @@ class Silence:
         self._heard_s = self._heard_clock_s = -math.inf
 
     def heard(self) -> None:
-        """Note that something came."""
+        """Restart the timeout on an input."""
         self._unheard, self._fresh = False, True
         self._heard_clock_s = self._clock()
 
     def end(self) -> None:
-        """Be silent from now on, until something is heard."""
+        """Expire at once; the next input restarts the timeout."""
         self._unheard = True
 
     def lasts(self, now_s: float) -> bool:
         """
-        Check whether the timeout has passed since something was heard.
+        Check whether the timeout has passed since the last input.
 
         Call it in every period: the timeout counts from the first call after `heard`.
 
@@ -55,7 +55,7 @@ class Silence:
         Returns
         -------
         bool
-            True also if nothing was ever heard, or nothing since `end`.
+            Also true before the first input, and after `end` until the next one.
 
         """
         if self._fresh:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A smooth way of several joints through points."""
+"""Spline interpolation of several joints through points."""
 
 from __future__ import annotations
 
@@ -9,16 +9,17 @@ import numpy as np
 
 class Spline:
     """
-    Polynomials between points: cubic, or quintic if the accelerations at the points are given.
+    Piecewise polynomial through points: cubic, or quintic if accelerations are given.
 
     Parameters
     ----------
     times_s
-        Of the k points (k,), growing strictly; there are at least two.
+        Times of the k points (k,), strictly increasing; at least two.
     positions
-        Of the m joints at each point (k, m), in any unit.
+        Positions of the m joints at each point (k, m), in any unit.
     velocities, accelerations
-        Of the joints there (k, m), in that unit per s and s2; None makes the polynomials cubic.
+        Derivatives at the points (k, m), in that unit per s and s2; without accelerations the
+        polynomials are cubic.
 
     """
 
@@ -48,14 +49,13 @@ class Spline:
         Parameters
         ----------
         time_s
-            On the time axis of the points; a time before the first or after the last one counts as
-            that of the point.
+            Time on the axis of the points; clamped to the range from the first to the last one.
 
         Returns
         -------
         tuple[Array, Array]
-            Positions and velocities of the joints, (joints,) each; the latter in units of the
-            positions per s.
+            Positions and velocities of the joints, (m,) each; the latter in units of the positions
+            per s.
 
         """
         time_s = min(max(time_s, float(self._times_s[0])), self.end_s)
@@ -70,14 +70,14 @@ class Spline:
 
 def cubic(p0: Array, p1: Array, v0: Array, v1: Array) -> Array:
     """
-    Compute the coefficients of cubic polynomials through two points, over a time from 0 to 1.
+    Compute the coefficients of cubic polynomials between two points, over a time from 0 to 1.
 
     Parameters
     ----------
     p0, p1
-        Positions at the start and at the end, of any shape, such as (pieces, joints).
+        Positions at the start and at the end, of any shape, such as (segments, joints).
     v0, v1
-        Velocities there, multiplied by the duration of the piece.
+        Velocities there, multiplied by the duration of the segment.
 
     Returns
     -------
@@ -91,14 +91,14 @@ def cubic(p0: Array, p1: Array, v0: Array, v1: Array) -> Array:
 
 def quintic(p0: Array, p1: Array, v0: Array, v1: Array, a0: Array, a1: Array) -> Array:
     """
-    Compute the coefficients of quintic polynomials through two points, over a time from 0 to 1.
+    Compute the coefficients of quintic polynomials between two points, over a time from 0 to 1.
 
     Parameters
     ----------
     p0, p1
-        Positions at the start and at the end, of any shape, such as (pieces, joints).
+        Positions at the start and at the end, of any shape, such as (segments, joints).
     v0, v1
-        Velocities there, multiplied by the duration of the piece.
+        Velocities there, multiplied by the duration of the segment.
     a0, a1
         Accelerations there, multiplied by the square of the duration.
 
@@ -123,17 +123,17 @@ def quintic(p0: Array, p1: Array, v0: Array, v1: Array, a0: Array, a1: Array) ->
 
 def inner_velocities(times_s: Array, positions: Array) -> Array:
     """
-    Choose velocities at points that give none: zero at both ends, and where a joint turns back.
+    Choose velocities at points without any: zero at both ends and where a joint reverses.
 
-    Elsewhere it is the harmonic mean of the speeds before and after, which keeps the path of a
-    cubic between its points (Fritsch and Butland, 1984).
+    Elsewhere it is the harmonic mean of the adjacent slopes, which makes the cubic spline monotone
+    between points, without overshoot (Fritsch and Butland, 1984).
 
     Parameters
     ----------
     times_s
-        Of the k points (k,), growing strictly.
+        Times of the k points (k,), strictly increasing.
     positions
-        Of the m joints at each point (k, m).
+        Positions of the m joints at each point (k, m).
 
     Returns
     -------

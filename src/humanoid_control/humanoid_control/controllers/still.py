@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hold still whatever can be held, as long as the robot must."""
+"""Controller that holds the joints during a stop."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 class Still(Hold):
     """
-    Controller that holds the joints in place that the mode leaves to controllers, while it is on.
+    Controller that, while on, holds all joints that the mode leaves to controllers.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Still(Hold):
     Attributes
     ----------
     on
-        Whether it claims the joints; it begins switched off.
+        Whether it claims the joints; initially off.
 
     """
 
@@ -36,7 +36,7 @@ class Still(Hold):
 
     @property
     def waits(self) -> bool:
-        """Tell that nothing waits."""
+        """Whether a start is pending: never."""
         return False
 
     def wanted(self, now_s: float) -> Mask:
@@ -57,4 +57,4 @@ class Still(Hold):
         return self._all if self.on else self._none
 
     def cancel(self) -> None:
-        """Stay as it is: nobody but who stopped it releases the robot."""
+        """Stay on or off: a reset or a mode change does not release the robot from a stop."""

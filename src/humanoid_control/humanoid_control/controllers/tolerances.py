@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far joints may be from where a trajectory has them."""
+"""Path and goal tolerances of joint trajectories."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from humanoid_control.controllers.commands import CommandError
 import numpy as np
 
 ERASED = -1.0
-"""The tolerance that stands for none at all (control_msgs/JointTolerance)."""
+"""The value that removes a tolerance (control_msgs/JointTolerance)."""
 
 
 @dataclass(frozen=True)
 class JointTolerance:
-    """The largest errors of a joint: 0 is what the controller has by default, -1 any error."""
+    """Maximum errors of a joint: 0 is the controller's default, -1 allows any error."""
 
     joint: str
     position_rad: float = 0.0
@@ -27,7 +27,7 @@ class JointTolerance:
 
 @dataclass(frozen=True, eq=False)
 class StateTolerances:
-    """The largest errors of m joints, each array (m,); infinite is any error."""
+    """Maximum errors of m joints, each array (m,); infinity allows any error."""
 
     joints: tuple[str, ...]
     position_rad: Array
@@ -41,21 +41,21 @@ class StateTolerances:
         default_rad: float = math.inf,
     ) -> StateTolerances:
         """
-        Combine the tolerances of a goal with those by default.
+        Combine the tolerances of a goal with the defaults.
 
         Parameters
         ----------
         joints
             The joints of the controller.
         given
-            What the goal says, of any of them.
+            Tolerances of the goal, for any of these joints.
         default_rad
-            The tolerance of the positions of those of which it says nothing.
+            Position tolerance of joints for which the goal has none.
 
         Raises
         ------
         CommandError
-            A tolerance of another joint, or a value that means nothing.
+            A tolerance is for another joint, or has an invalid value.
 
         """
         position_rad = np.full(len(joints), default_rad)
@@ -68,7 +68,7 @@ class StateTolerances:
 
     def violation(self, positions_rad: Array, velocities_rad_s: Array) -> str:
         """
-        Say which joint is off by more than it may, and by how much; nothing if none is.
+        Describe the joint with the largest error beyond its tolerance; empty if there is none.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class StateTolerances:
 
 
 def _index(joint: str, joints: Sequence[str]) -> int:
-    """Return the index of a joint; refuse one that is not among the joints."""
+    """Look up the index of a joint; reject a joint of another controller."""
     if joint not in joints:
         raise CommandError(
             f"It has a tolerance of '{shortened(joint)}', which is no joint of this controller. "
@@ -102,7 +102,7 @@ def _index(joint: str, joints: Sequence[str]) -> int:
 
 
 def _limit(kind: str, joint: str, value: float, default: float) -> float:
-    """Return what a value of a tolerance means."""
+    """Convert a tolerance value to the maximum error that it stands for."""
     if value == 0.0:
         return default
     if value == ERASED:

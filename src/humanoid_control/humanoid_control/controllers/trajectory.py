@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Trajectories: what is asked for, and whether the joints can do it."""
+"""Joint trajectories, and their validation against the joint limits."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 MOST_POINTS = 1000
-"""More would keep the robot from its next tick for too long."""
+"""More points would delay the robot's next tick for too long."""
 
 
 @dataclass(frozen=True)
 class TrajectoryPoint:
-    """Where joints are to be at a time after the start; velocities and more may be left out."""
+    """Joint positions at a time after the start; velocities and accelerations are optional."""
 
     time_s: float
     positions_rad: Sequence[float]
@@ -33,7 +33,7 @@ class TrajectoryPoint:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """A sound trajectory of m joints through k points; None is what no point gives."""
+    """Validated trajectory of m joints through k points; a field that no point gives is None."""
 
     indices: Indices
     times_s: Array
@@ -51,19 +51,19 @@ def checked_trajectory(
     points: Sequence[TrajectoryPoint],
 ) -> Trajectory:
     """
-    Check a joint trajectory as a whole against names, times and joint limits.
+    Validate a joint trajectory: joint names, times, values and joint limits.
 
-    Neither accelerations nor the motion from the present positions to the first point are limited
+    Neither accelerations nor the motion from the current positions to the first point are limited
     here.
 
     Parameters
     ----------
     joints, limits
-        All joints of the robot, and what they can do, in the same order.
+        All joints of the robot, and their limits, in the same order.
     names
         The m joints that the trajectory moves, in the order of the values of its points.
     points
-        The k points, at times that grow.
+        The k points, at increasing times.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def checked_trajectory(
 
 
 def _checked_times(points: Sequence[TrajectoryPoint]) -> Array:
-    """Return the times, which begin at zero or later and grow."""
+    """Collect the times of the points; they must start at 0 s or later, and increase."""
     times_s = np.array([point.time_s for point in points])
     if times_s[0] < 0.0:
         raise CommandError(f'Its first point is at {times_s[0]:g} s. Begin at 0 s or later.')
@@ -116,7 +116,7 @@ def _checked_times(points: Sequence[TrajectoryPoint]) -> Array:
 
 
 def _checked_rows(field: str, rows: Sequence[Sequence[float]], names: Sequence[str]) -> Array:
-    """Return one finite value for each point and joint, (k, m), or refuse them."""
+    """Collect the values of a field, (k, m); reject missing or non-finite ones."""
     for row in rows:
         if len(row) != len(names):
             checked_values(field, row, names)
@@ -130,7 +130,7 @@ def _checked_rows(field: str, rows: Sequence[Sequence[float]], names: Sequence[s
 def _check_range(
     positions_rad: Array, indices: Indices, limits: JointLimits, names: Sequence[str]
 ) -> None:
-    """Refuse positions that joints do not reach."""
+    """Validate joint positions against the limits."""
     lower, upper = limits.lower_rad[indices], limits.upper_rad[indices]
     outside = _first((positions_rad < lower) | (positions_rad > upper))
     if outside is not None:
@@ -148,7 +148,7 @@ def _check_speed(
     limits: JointLimits,
     names: Sequence[str],
 ) -> None:
-    """Refuse points that joints cannot get to in time, even at full speed."""
+    """Validate the mean velocities between points against the velocity limits."""
     fastest_rad_s = limits.velocity_rad_s[indices]
     speeds_rad_s = np.abs(np.diff(positions_rad, axis=0)) / np.diff(times_s)[:, None]
     too_fast = _first(speeds_rad_s > fastest_rad_s)
@@ -162,7 +162,7 @@ def _check_speed(
 
 
 def _check_velocities(velocities_rad_s: Array, most_rad_s: Array, names: Sequence[str]) -> None:
-    """Refuse velocities at points that joints cannot have."""
+    """Validate the velocities at the points against the velocity limits."""
     for number, speed_rad_s in enumerate(np.abs(velocities_rad_s), start=1):
         too_fast = speed_rad_s > most_rad_s
         if too_fast.any():
@@ -174,7 +174,7 @@ def _check_velocities(velocities_rad_s: Array, most_rad_s: Array, names: Sequenc
 
 
 def _given(field: str, rows: Sequence[Sequence[float]], names: Sequence[str]) -> Array | None:
-    """Return what points give, zero at those that do not; None if none does."""
+    """Collect an optional field of the points, zero where it is empty; None if no point has it."""
     if not any(len(row) for row in rows):
         return None
     nothing = [0.0] * len(names)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goals of trajectory controllers: what is asked for, and whether it can be done."""
+"""Goals of joint trajectory controllers, and their validation."""
 
 from __future__ import annotations
 
@@ -18,35 +18,35 @@ from humanoid_control.limits import JointLimits
 import numpy as np
 
 GOAL_TOLERANCE_RAD = 0.1
-"""Of positions at the end, unless the goal says otherwise: an arm sags a little by its weight."""
+"""Default goal tolerance of positions: an arm sags a little under its weight."""
 _AT_REST_RAD_S = 1e-6
 
 
 @dataclass(frozen=True)
 class TrajectoryRequest:
-    """A goal as it was asked for."""
+    """A trajectory goal as requested."""
 
     joints: Sequence[str]
     points: Sequence[TrajectoryPoint]
     path: Sequence[JointTolerance] = ()
-    """Errors on the way."""
+    """Path tolerances."""
     goal: Sequence[JointTolerance] = ()
-    """Errors at the end."""
+    """Goal tolerances."""
     goal_time_s: float = 0.0
-    """By so much the goal may be reached late; 0 is any time."""
+    """Goal time tolerance: the goal may be reached late by this amount; 0 is any time."""
     start_in_s: float = 0.0
-    """When the trajectory starts, from now; below zero it has started already."""
+    """Time from now to the start of the trajectory; negative if it has started already."""
 
 
 @dataclass(frozen=True, eq=False)
 class TrajectoryGoal:
-    """A sound goal; its joints are all those of the controller, in their order."""
+    """A validated goal, for all joints of the controller in their order."""
 
     trajectory: Trajectory
     path: StateTolerances
     goal: StateTolerances
     goal_time_s: float
-    """Infinite for any time."""
+    """Goal time tolerance; infinite for any time."""
 
 
 def checked_goal(
@@ -57,7 +57,7 @@ def checked_goal(
     request: TrajectoryRequest,
 ) -> TrajectoryGoal:
     """
-    Check a request as a whole.
+    Validate a trajectory goal of a controller.
 
     Parameters
     ----------
@@ -66,14 +66,14 @@ def checked_goal(
     own
         The joints of the controller.
     robot, limits
-        All joints of the robot, and what they can do.
+        All joints of the robot, and their limits.
     request
-        What is asked for.
+        The requested goal.
 
     Raises
     ------
     CommandError
-        The first reason why it cannot be done, in sentences.
+        The goal is rejected; the message states the first reason.
 
     """
     _check_joints(controller, own, robot, request.joints)
@@ -90,7 +90,7 @@ def checked_goal(
 def _check_joints(
     controller: str, own: Sequence[str], robot: JointNames, given: Sequence[str]
 ) -> None:
-    """Refuse a goal that does not name just the joints of the controller."""
+    """Check that a goal names exactly the joints of the controller."""
     robot.indices(given)
     foreign = [joint for joint in given if joint not in own]
     if foreign:
@@ -106,7 +106,7 @@ def _check_joints(
 
 
 def _check_end(trajectory: Trajectory, joints: Sequence[str]) -> None:
-    """Refuse a trajectory that ends in motion: nothing says what comes then."""
+    """Check that a trajectory ends at rest; what follows the end is undefined."""
     if trajectory.velocities_rad_s is None:
         return
     moving = np.abs(trajectory.velocities_rad_s[-1]) > _AT_REST_RAD_S
@@ -119,7 +119,7 @@ def _check_end(trajectory: Trajectory, joints: Sequence[str]) -> None:
 
 
 def _ordered(trajectory: Trajectory, own: Sequence[str], given: Sequence[str]) -> Trajectory:
-    """Put the columns of a trajectory into the order of the controller's joints."""
+    """Reorder the columns of a trajectory to the order of the controller's joints."""
     order = [list(given).index(joint) for joint in own]
     velocities, accelerations = trajectory.velocities_rad_s, trajectory.accelerations_rad_s2
     return Trajectory(
@@ -132,7 +132,7 @@ def _ordered(trajectory: Trajectory, own: Sequence[str], given: Sequence[str]) -
 
 
 def _shifted(trajectory: Trajectory, start_in_s: float) -> Trajectory:
-    """Let a trajectory begin at its time; refuse one that is over."""
+    """Shift a trajectory to its start time; reject one that has ended already."""
     times_s = trajectory.times_s + start_in_s
     if start_in_s and times_s[-1] <= 0.0:
         raise CommandError(
@@ -143,7 +143,7 @@ def _shifted(trajectory: Trajectory, start_in_s: float) -> Trajectory:
 
 
 def _checked_time(goal_time_s: float) -> float:
-    """Return how late the goal may be reached."""
+    """Validate the goal time tolerance; 0 becomes infinity."""
     if not math.isfinite(goal_time_s) or goal_time_s < 0.0:
         raise CommandError(
             f'Its goal time tolerance is {goal_time_s:g} s. Give a time from zero on; zero is any '

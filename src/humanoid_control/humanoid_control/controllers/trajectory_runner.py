@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a trajectory that came from outside, to its end."""
+"""Controller that runs joint trajectories that are commanded without a goal."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ import numpy as np
 
 class TrajectoryRunner:
     """
-    Controller that runs a trajectory to its last point; a new one takes the place of the old.
+    Controller that runs a trajectory to its last point; a new trajectory replaces the old one.
 
-    It claims the joints of the trajectory until then. The way begins where the joints are told to
-    be when it starts. Points without velocities are passed as smoothly as their positions allow;
-    those without accelerations have none.
+    It claims the joints of the trajectory until then. The motion starts from the targets that the
+    joints have when it starts. If no point has velocities, they are chosen for a smooth motion
+    through the positions; if no point has accelerations, the spline is cubic.
 
     Parameters
     ----------
     joints
         All joints of the robot, in the order of its targets.
     name
-        What users call the controller.
+        Name of the controller, as shown to users.
 
     """
 
@@ -44,12 +44,12 @@ class TrajectoryRunner:
 
     @property
     def waits(self) -> bool:
-        """Tell whether a new trajectory is to be started."""
+        """Whether a new trajectory is to be started."""
         return self._waiting is not None
 
     def accept(self, trajectory: Trajectory) -> None:
         """
-        Accept a trajectory, which starts in the next period and replaces the one that runs.
+        Accept a trajectory, which starts in the next period and replaces the running one.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class TrajectoryRunner:
 
     def wanted(self, now_s: float) -> Mask:
         """
-        Compute which joints a trajectory moves or is about to move.
+        Compute the mask of joints that a trajectory moves or is about to move.
 
         A trajectory whose last point has passed is dropped.
 
@@ -100,7 +100,7 @@ class TrajectoryRunner:
 
     def update(self, observation: Observation) -> JointTargets:
         """
-        Sample the trajectory that runs.
+        Sample the running trajectory.
 
         Parameters
         ----------
@@ -110,7 +110,7 @@ class TrajectoryRunner:
         Returns
         -------
         JointTargets
-            Of all n joints; the entries of joints that are not `wanted` mean nothing.
+            Targets of all n joints; entries of joints that are not `wanted` are to be ignored.
 
         """
         if self._spline is not None:
@@ -120,27 +120,27 @@ class TrajectoryRunner:
         return self._targets
 
     def cancel(self) -> None:
-        """Forget the trajectory."""
+        """Drop the trajectory."""
         self._waiting, self._spline = None, None
         self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
 
 
 def spline_from(trajectory: Trajectory, held: JointTargets) -> Spline:
     """
-    Compute the way from what joints were told last through the points of a trajectory.
+    Build the spline from the last targets of joints through the points of a trajectory.
 
     Parameters
     ----------
     trajectory
-        Its m joints and points; times are those since now.
+        Trajectory of m joints; its times count from now.
     held
-        What all joints of the robot were told last. The way begins at their position and velocity,
-        unless the trajectory has a point at time zero or before.
+        Last targets of all joints of the robot. The spline starts at their positions and
+        velocities, unless the trajectory has a point at time zero or before.
 
     Returns
     -------
     Spline
-        Of the m joints; it ends at rest if the points say nothing of velocities.
+        Spline of the m joints; it ends at rest if the points have no velocities.
 
     """
     times_s, positions_rad = trajectory.times_s, trajectory.positions_rad
@@ -161,5 +161,5 @@ def spline_from(trajectory: Trajectory, held: JointTargets) -> Spline:
 
 
 def _led_by(first: Array, rows: Array) -> Array:
-    """Return the rows with another one before them."""
+    """Prepend a row."""
     return np.vstack([first, rows])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The walk as a controller of all joints, which leaves those above the legs to others."""
+"""Walking controller, and the mode that leaves the joints above the legs to other controllers."""
 
 from __future__ import annotations
 
@@ -51,12 +51,12 @@ class WalkingController:
         Parameters
         ----------
         observation
-            Sensor values of the present period.
+            Sensor values of the current period.
 
         Returns
         -------
         JointTargets
-            Of all n joints of the robot, those that are claimed too.
+            Targets of all n joints of the robot, including claimed ones.
 
         Raises
         ------
@@ -67,21 +67,21 @@ class WalkingController:
         return self.walker.update(observation)
 
     def is_at_rest(self) -> bool:
-        """Tell whether the robot can be held as it is: in the middle of a step it would fall."""
+        """Check whether the robot can be held as it is; in the middle of a step it would fall."""
         return self.walker.phase not in MOVING
 
     def needs_all_because(self) -> str:
-        """Return why it keeps all joints for the moment, or nothing."""
+        """Return the reason for keeping all joints at the moment; empty if there is none."""
         return DOWN if self.walker.has_fallen else ''
 
     def drive(self, velocity: VelocityCommand) -> None:
         """
-        Set the walking velocity; zero stops. The same velocity again costs nothing.
+        Set the walking velocity; zero stops. Repeating the same velocity costs nothing.
 
         Parameters
         ----------
         velocity
-            Of the body in its own axes; the gait limits it to what it can do.
+            Velocity of the body in its own axes; the gait limits it to what is feasible.
 
         """
         if velocity != self.walker.velocity:
@@ -90,7 +90,7 @@ class WalkingController:
 
 def walking_mode(controller: WalkingController) -> Mode:
     """
-    Build the mode in which the robot walks and leaves all joints but those of the legs to others.
+    Build the mode in which the robot walks and leaves the joints above the legs to controllers.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Kinematics and dynamics of the humanoid, in numpy alone."""
+"""Kinematics and dynamics of the humanoid, in pure numpy."""
 
 from humanoid_control.dynamics.body_model import BodyModel
 from humanoid_control.dynamics.body_state import BodyState

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What describes the bodies of a robot in a posture and motion.
+Poses, twists, accelerations and inertias of the bodies of a robot, as homogeneous matrices.
 
-All are matrices (4, 4) in the axes of the world, about the origin of the root, so that nothing is
-recursive (Legnani, Casolo, Righettini and Zappa, A Homogeneous Matrix Approach to 3D Kinematics
-and Dynamics, Mechanism and Machine Theory 31, 1996):
+All are matrices (4, 4) in the axes of the world, about the origin of the root, so that no
+recursion is needed (Legnani, Casolo, Righettini and Zappa, A Homogeneous Matrix Approach to 3D
+Kinematics and Dynamics, Mechanism and Machine Theory 31, 1996):
 
-- The twist W of a body gives the velocity W r of each of its points r = (x, y, z, 1). The twist
-  of a body is the sum over the joints above it: of the screw L of the joint times its rate.
+- The twist W of a body gives the velocity W r of each of its points r = (x, y, z, 1). It is the
+  sum, over the joints above the body, of the screw L of the joint times its rate dq.
 - The acceleration is H r; H is the sum of (2 W - L dq) L dq over the joints above, where W is the
   twist below the joint.
-- With the pseudo-inertia J (the integral of r r^T dm), W J holds the momentum and H J the forces:
-  the last column is linear, the antisymmetric part angular. The power of forces F on a motion W is
-  the sum of the products of their entries.
+- With the pseudo-inertia J (the integral of r r^T dm), W J is the momentum and H J the force: the
+  last column is the linear part, the antisymmetric part the angular one. The power of forces F on
+  a motion W is the sum of their elementwise products.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class BodyMatrices:
-    """The matrices of n joints and n + 1 bodies, each computed when it is first asked for."""
+    """Matrices of n joints and n + 1 bodies, each computed on first access."""
 
     tree: Tree
     forward: ForwardKinematics
@@ -47,12 +47,12 @@ class BodyMatrices:
 
     @cached_property
     def poses(self) -> Array:
-        """Return (n + 1, 4, 4) of the bodies."""
+        """Return the poses of the bodies (n + 1, 4, 4)."""
         return self.forward.poses(self.rotation, self.positions_rad)
 
     @cached_property
     def screws(self) -> Array:
-        """Return (n, 4, 4) the twists at unit rates."""
+        """Return the screws of the joints: their twists at unit rates (n, 4, 4)."""
         poses = self.poses[1:]
         screws: Array = (poses[:, :3, 2] @ _SKEW).reshape(-1, 4, 4)
         np.matmul(screws[:, :3, :3], -poses[:, :3, 3:], out=screws[:, :3, 3:])
@@ -60,12 +60,12 @@ class BodyMatrices:
 
     @cached_property
     def _motions(self) -> Array:
-        """Return (n, 4, 4) the twists of joints against their parents."""
+        """Return the twists (n, 4, 4) of bodies 1 to n relative to their parents."""
         return self.screws * self.velocities_rad_s[:, None, None]
 
     @cached_property
     def twists(self) -> Array:
-        """Return (n + 1, 4, 4) of the bodies."""
+        """Return the twists of the bodies (n + 1, 4, 4)."""
         n = len(self.tree.joints)
         twists: Array = self.tree.moves @ self._motions.reshape(n, 16)
         twists += self.angular_velocity_rad_s @ _SKEW
@@ -73,7 +73,7 @@ class BodyMatrices:
 
     @cached_property
     def accelerations(self) -> Array:
-        """Return (n + 1, 4, 4) of the bodies in a lift that accelerates upwards by g."""
+        """Return the bias accelerations, with the root accelerating upwards by g (n + 1, 4, 4)."""
         n = len(self.tree.joints)
         motions = self._motions
         centripetal = (2.0 * self.twists[1:] - motions) @ motions
@@ -85,24 +85,24 @@ class BodyMatrices:
 
     @cached_property
     def inertias(self) -> Array:
-        """Return (n + 1, 4, 4) pseudo-inertias of the bodies."""
+        """Return the pseudo-inertias of the bodies (n + 1, 4, 4)."""
         poses = self.poses
         inertias: Array = poses @ self.tree.inertias @ poses.transpose(0, 2, 1)
         return inertias
 
     @cached_property
     def composites(self) -> Array:
-        """Return (n + 1, 4, 4) pseudo-inertias of the bodies with all that hangs from them."""
+        """Return the composite pseudo-inertias (n + 1, 4, 4) of each body and its descendants."""
         return self._hanging(self.inertias)
 
     @cached_property
     def forces(self) -> Array:
-        """Return (n + 1, 4, 4) forces on the bodies with all that hangs from them."""
+        """Return the bias forces, each on a body and its descendants (n + 1, 4, 4)."""
         return self._hanging(self.accelerations @ self.inertias)
 
     @cached_property
     def momentum(self) -> Array:
-        """Return (4, 4) the momentum of the robot."""
+        """Return the momentum of the robot (4, 4)."""
         momentum: Array = (self.twists @ self.inertias).sum(axis=0)
         return momentum
 
@@ -120,7 +120,7 @@ class BodyMatrices:
         Returns
         -------
         Array
-            Forces (n + 1, 4, 4) on the bodies with all that hangs from each.
+            Forces (n + 1, 4, 4), each on a body and its descendants.
 
         """
         n = len(self.tree.joints)
@@ -137,7 +137,7 @@ class BodyMatrices:
         Parameters
         ----------
         forces
-            On the bodies with all that hangs from each (n + 1, 4, 4), as in `forces`.
+            Forces (n + 1, 4, 4), each on a body and its descendants, as in `forces`.
 
         Returns
         -------
@@ -149,7 +149,7 @@ class BodyMatrices:
         return powers @ np.ones(16)
 
     def _hanging(self, values: Array) -> Array:
-        """Return the sums over the bodies and all that hangs from each."""
+        """Sum values (n + 1, 4, 4) over each body and its descendants."""
         sums: Array = self.tree.carries @ values.reshape(-1, 16)
         return sums.reshape(-1, 4, 4)
 
@@ -180,7 +180,7 @@ def axial(moments: Array) -> Array:
     )
 
 
-# A vector (3,) times this is the matrix of its cross product, (4, 4) flat.
+# A vector (3,) times this is its skew-symmetric matrix (cross product), (4, 4) flat.
 _SKEW: Array = np.zeros((3, 4, 4))
 _SKEW[:, :3, :3] = [skew(axis) for axis in np.eye(3)]
 _SKEW = _SKEW.reshape(3, 16)

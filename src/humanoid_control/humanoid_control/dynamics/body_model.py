@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot on a floating base, as arrays."""
+"""Floating-base rigid-body model of a robot."""
 
 from __future__ import annotations
 
@@ -26,10 +26,11 @@ GRAVITY_M_S2 = 9.81
 @dataclass(frozen=True, eq=False)
 class BodyModel:
     """
-    Rigid bodies of which one floats, and n joints that turn the others.
+    Rigid-body model of a robot with a floating base and n revolute joints.
 
-    Body 0 is the root of the robot with all that is fixed to it; body 1 + j is what joint j moves
-    directly. Build it by `of`; then ask `state` about a posture and its motion.
+    Body 0 is the root of the robot with all links that are fixed to it; body 1 + j is the child
+    of joint j. Build a model with `of`; `state` returns its kinematics and dynamics for a posture
+    and motion.
     """
 
     tree: Tree
@@ -51,19 +52,19 @@ class BodyModel:
         Parameters
         ----------
         robot
-            A tree of links with one root.
+            Description of the robot: a tree of links with one root.
         joints
-            Joints that turn, in the order of all arrays; others are taken as fixed at zero.
+            Revolute or continuous joints, in the order of all arrays; others are fixed at zero.
         armature_kgm2
-            Inertia of the rotors as seen at the joints: one for all, or (n,).
+            Reflected rotor inertia at the joints: one value for all, or (n,).
         gravity_m_s2
-            Along -z of the world.
+            Gravitational acceleration along -z of the world.
 
         Raises
         ------
         DynamicsError
-            As for `Tree.of`, or the armature has another number of values, or one that is negative
-            or not finite.
+            As for `Tree.of`; or the armature has the wrong number of values, or a value that is
+            negative or not finite.
 
         """
         tree = Tree.of(robot, tuple(joints))
@@ -76,7 +77,7 @@ class BodyModel:
 
     @property
     def links(self) -> Mapping[str, Mount]:
-        """Return the links by their names, frames without mass as well."""
+        """Return the mounts of all links by name, including massless frames."""
         return self.tree.mounts
 
     @property
@@ -86,17 +87,17 @@ class BodyModel:
 
     @cached_property
     def forward(self) -> ForwardKinematics:
-        """Return what computes the poses."""
+        """Return the forward kinematics of the tree."""
         return ForwardKinematics.of(self.tree)
 
     def group(self, joints: Sequence[str]) -> JointGroup:
         """
-        Select joints whose inertia or Jacobian a state is to compute.
+        Select joints for which a state computes the inertia matrix or the Jacobian.
 
         Parameters
         ----------
         joints
-            Names of k joints, in the order that the group is to have.
+            Names of k joints, in the order of the group.
 
         Raises
         ------
@@ -109,7 +110,7 @@ class BodyModel:
 
     def index(self, joint: str) -> int:
         """
-        Look up the index of a joint in all arrays (n,).
+        Find the index of a joint in the arrays (n,).
 
         Parameters
         ----------
@@ -136,24 +137,24 @@ class BodyModel:
         velocities_rad_s: Array,
     ) -> BodyState:
         """
-        Describe the robot in a posture and motion; what is not asked for is not computed.
+        Build the state of the robot in a posture and motion; quantities are computed on demand.
 
-        The origin of the root is at zero and does not move: add its position and velocity. The
-        arrays are not copied: leave them as they are while the state is in use.
+        The origin of the root is at zero and at rest: add its position and velocity. The arrays
+        are not copied: do not modify them while the state is in use.
 
         Parameters
         ----------
         rotation
-            Of the root in the world (3, 3).
+            Rotation (3, 3) of the root in the world.
         angular_velocity_rad_s
-            Of the root (3,), in its own axes, as a gyroscope measures it.
+            Angular velocity (3,) of the root, in its own axes, as a gyroscope measures it.
         positions_rad, velocities_rad_s
-            Of the joints, (n,) each.
+            Joint positions and velocities, (n,) each.
 
         Raises
         ------
         DynamicsError
-            An array has another shape, or holds a value that is not finite.
+            An array has the wrong shape, or contains a non-finite value.
 
         """
         n = len(self.joints)
@@ -178,7 +179,7 @@ class BodyModel:
 
 
 def _armature(joints: tuple[str, ...], given: ArrayLike) -> Array:
-    """Return the armature of every joint."""
+    """Validate the armature, and broadcast it to all joints."""
     values = np.asarray(given, dtype=np.float64)
     if values.shape not in ((), (len(joints),)):
         raise DynamicsError(
@@ -196,11 +197,11 @@ def _armature(joints: tuple[str, ...], given: ArrayLike) -> Array:
 
 
 def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
-    """Refuse what cannot be computed with."""
+    """Reject an array of the wrong shape or with non-finite values."""
     if values.shape != shape:
         raise DynamicsError(f'{name} has the shape {values.shape}, but {shape} is needed.')
     flat = values.ravel()
-    # The sum of squares is finite only if all are: much faster than to look at each.
+    # The sum of squares is finite only if all values are: much faster than checking each.
     if not math.isfinite(flat @ flat):
         bad = int(np.argmax(~(np.abs(flat) < 1e100)))
         raise DynamicsError(f'{name} holds {flat[bad]} at place {bad}: give finite numbers.')

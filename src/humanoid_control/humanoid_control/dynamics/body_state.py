@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot in a posture and motion, and what follows from it."""
+"""Kinematics and dynamics of a robot in a posture and motion."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True, eq=False)
 class BodyState:
     """
-    A robot of n joints, of which the origin of the root is at zero and does not move.
+    State of a robot with n joints; the origin of its root is at zero and at rest.
 
-    `BodyModel.state` makes it. Points, vectors and wrenches are in the axes of the world; points
-    are seen from the origin of the root. Each quantity is computed when it is first asked for;
-    those that are kept cannot be written to (copy them). A method that is asked about a link
-    raises `DynamicsError` if the model does not have it.
+    `BodyModel.state` builds it. Points, vectors and wrenches are in the axes of the world; points
+    are relative to the origin of the root. Each quantity is computed on first access; cached
+    arrays are read-only (copy them to modify them). Methods that take the name of a link raise
+    `DynamicsError` if the model does not have it.
     """
 
     tree: Tree
@@ -36,17 +36,17 @@ class BodyState:
 
     @property
     def base_rotation(self) -> Array:
-        """Return how the root is turned, (3, 3)."""
+        """Return the rotation matrix (3, 3) of the root in the world."""
         return self.matrices.rotation
 
     @property
     def base_angular_velocity_rad_s(self) -> Array:
-        """Return how the root turns, (3,), in the axes of the world."""
+        """Return the angular velocity (3,) of the root, in the axes of the world."""
         return self.matrices.angular_velocity_rad_s
 
     @property
     def velocities_rad_s(self) -> Array:
-        """Return the rates (n,) of the joints."""
+        """Return the joint velocities (n,)."""
         return self.matrices.velocities_rad_s
 
     def pose(self, link: str) -> Array:
@@ -146,16 +146,15 @@ class BodyState:
     @cached_property
     def bias_nm(self) -> Array:
         """
-        Return the efforts (n,) of the joints that gravity and motion ask for.
+        Return the joint torques (n,) that gravity and motion require.
 
-        That is with all accelerations zero: neither the joints nor the root accelerate, and
-        nothing touches the robot.
+        They hold at zero acceleration of the root and the joints, without contacts.
         """
         return _kept(self.matrices.efforts(self.matrices.forces))
 
     @cached_property
     def bias_wrench(self) -> Array:
-        """Return what holds the root meanwhile: force (N) and torque (Nm) at its origin, (6,)."""
+        """Return the root wrench (6,) of the bias: force (N), then torque (N m) at its origin."""
         return _kept(_wrench(self.matrices.forces[0]))
 
     def required(self, base: Array, joints_rad_s2: Array) -> tuple[Array, Array]:
@@ -195,7 +194,7 @@ class BodyState:
 
     @cached_property
     def com_drift_m_s2(self) -> Array:
-        """Return the acceleration (3,) of the centre of mass while no joint accelerates."""
+        """Return the acceleration bias (3,) of the centre of mass, as `drift` of a link."""
         drift: Array = self.matrices.forces[0, :3, 3] / self.tree.mass_kg
         drift[2] -= self.matrices.gravity_m_s2
         return _kept(drift)
@@ -204,7 +203,7 @@ class BodyState:
         """
         Compute the acceleration bias of a link, the product of Jacobian derivative and velocities.
 
-        It is how the link accelerates while neither the root nor the joints do.
+        It is the acceleration of the link at zero acceleration of the root and the joints.
 
         Parameters
         ----------
@@ -306,23 +305,23 @@ class BodyState:
         """
         Map a force on a link to joint torques by the Jacobian transpose, without the Jacobian.
 
-        To stand on the point, the joints exert `bias_nm` less this.
+        To stand on the point, the joints exert `bias_nm` minus the result.
 
         Parameters
         ----------
         link
             Its name.
         point_m
-            Where the force acts (3,), in the axes of the world from the origin of the root.
+            Point of application (3,), in the axes of the world from the origin of the root.
         force_n
-            On the link (3,), in the axes of the world.
+            Force (3,) on the link, in the axes of the world.
         torque_nm
-            A torque on the link in addition (3,), likewise.
+            Additional torque (3,) on the link, in the axes of the world.
 
         Returns
         -------
         Array
-            Joint torques (n,) in N m that the force has at the joints.
+            Joint torques (n,) in N m that the force exerts on the joints.
 
         """
         mount = self._mount(link)
@@ -360,7 +359,7 @@ class BodyState:
         return group.symmetric(below) + group.armature_kgm2
 
     def _mount(self, link: str) -> Mount:
-        """Return where a link is."""
+        """Look up the mount of a link."""
         mount = self.tree.mounts.get(link)
         if mount is None:
             hint = did_you_mean(link, self.tree.mounts)
@@ -368,7 +367,7 @@ class BodyState:
         return mount
 
     def _point(self, mount: Mount, point_m: Array | None) -> Array:
-        """Return a point, or the origin of a link, as (4,)."""
+        """Return a point, or the origin of a link, in homogeneous coordinates (4,)."""
         if point_m is None:
             origin: Array = self.matrices.poses[mount.body] @ mount.pose[:, 3]
             return origin
@@ -378,11 +377,11 @@ class BodyState:
 
 
 def _wrench(forces: Array) -> Array:
-    """Return force and torque (6,) of forces (4, 4)."""
+    """Extract the wrench (6,), force and torque, from a force matrix (4, 4)."""
     return np.concatenate([forces[:3, 3], axial(forces)])
 
 
 def _kept(values: Array) -> Array:
-    """Return an array that is computed once, and that nobody may change therefore."""
+    """Make an array read-only, since it is cached."""
     values.setflags(write=False)
     return values

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The errors of this package."""
+"""Exceptions of the dynamics package."""
 
 from __future__ import annotations
 
 
 class DynamicsError(Exception):
-    """Tell in sentences why a robot or its state cannot be computed with."""
+    """A robot model or state that the dynamics cannot handle; the message states why."""

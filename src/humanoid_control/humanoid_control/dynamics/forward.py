@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Poses of all bodies at once."""
+"""Forward kinematics of all bodies at once."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True, eq=False)
 class ForwardKinematics:
     """
-    Multiplies the poses along all limbs in as many rounds as the depth has binary digits.
+    Forward kinematics by pointer jumping: one round for each binary digit of the tree's depth.
 
-    After a round each pose reaches up twice as many joints as before: it is multiplied by that of
-    the body where it ended (Hillis and Steele, Data Parallel Algorithms, CACM 1986).
+    Each round doubles the number of joints that a pose spans: it is multiplied by the pose of the
+    body at which it ended (Hillis and Steele, Data Parallel Algorithms, CACM 1986).
     """
 
     turned: Array
-    """(n, 3, 16) poses in the parents, flat: what 1, sin q and cos q are multiplied by"""
+    """(n, 3, 16) poses in the parents, flat: the coefficients of 1, sin q and cos q"""
     jumps: tuple[NDArray[np.intp], ...]
-    """(n + 1,) a round: the body above; n + 1, which stays put, where there is none"""
+    """(n + 1,) per round: index of the ancestor; n + 1, a fixed identity, where there is none"""
     at_rest: Array
-    """(n + 2, 4, 4) identities: of the root, the bodies, and what stays put"""
+    """(n + 2, 4, 4) identities: of the root, the other bodies, and the fixed one"""
 
     @classmethod
     def of(cls, tree: Tree) -> ForwardKinematics:
@@ -49,9 +49,9 @@ class ForwardKinematics:
         Parameters
         ----------
         rotation
-            Of the root in the world (3, 3).
+            Rotation (3, 3) of the root in the world.
         positions_rad
-            Of the joints (n,).
+            Joint positions (n,).
 
         Returns
         -------
@@ -74,7 +74,7 @@ class ForwardKinematics:
 
 
 def _turned(placements: Array) -> Array:
-    """Return the poses of frames that turn about their z, as factors of 1, sin and cos."""
+    """Compute the poses of frames that rotate about z, as coefficients of 1, sin and cos."""
     x, y = placements[:, :, 0], placements[:, :, 1]
     turned = np.zeros((len(placements), 3, 4, 4))
     turned[:, 0, :, 2:] = placements[:, :, 2:]
@@ -84,7 +84,7 @@ def _turned(placements: Array) -> Array:
 
 
 def _jumps(parents: NDArray[np.intp]) -> tuple[NDArray[np.intp], ...]:
-    """Return for each round the body at which the pose of a body ends."""
+    """Compute, for each round, the ancestor at which the pose of each body ends."""
     nowhere = len(parents)
     above = np.append(parents, nowhere)
     above[0] = nowhere

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frames that move, seen from each other."""
+"""Poses and twists of moving frames, relative to each other."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """Where a frame is in another: the position (3,) of its origin and its rotation (3, 3)."""
+    """Pose of a frame in another: the position (3,) of its origin and its rotation (3, 3)."""
 
     position_m: Array
     rotation: Array
@@ -40,28 +40,28 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Twist:
-    """How a frame moves in another: the velocity (3,) of its origin, and its turning (3,)."""
+    """Twist of a frame in another: linear velocity (3,) of its origin, angular velocity (3,)."""
 
     linear_m_s: Array
     angular_rad_s: Array
 
     def seen_from(self, base: Frame, base_twist: Twist, position_m: Array) -> Twist:
         """
-        Express the twist of a frame relative to another that moves as well.
+        Express the twist of a frame relative to another moving frame.
 
         All arguments and this twist are given in the axes of a common parent.
 
         Parameters
         ----------
         base, base_twist
-            The other frame, and how it moves.
+            The other frame, and its twist.
         position_m
             The origin of the frame that has this twist (3,).
 
         Returns
         -------
         Twist
-            The motion as an observer who moves with `base` sees it, in the axes of `base`.
+            The motion as seen by an observer that moves with `base`, in the axes of `base`.
 
         """
         lever = position_m - base.position_m

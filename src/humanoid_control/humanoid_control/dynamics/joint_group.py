@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Some joints of a model, prepared for their inertia."""
+"""Groups of joints, with precomputed tables for their inertia matrix."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class JointGroup:
-    """Joints of a model in an order of their own, as `BodyModel.group` returns them."""
+    """Subset of the joints of a model, in its own order, as `BodyModel.group` returns it."""
 
     joints: tuple[str, ...]
     indices: NDArray[np.intp]
@@ -42,7 +42,7 @@ class JointGroup:
         moves
             Which joints move which bodies (n + 1, n), from `Tree.moves`.
         armature_kgm2
-            Of all joints of the model (n,).
+            Armature of all joints of the model (n,).
 
         """
         carries = moves[indices + 1][:, indices].T.copy()
@@ -50,7 +50,7 @@ class JointGroup:
 
     def symmetric(self, below: Array) -> Array:
         """
-        Complete a symmetric matrix of which only the elements in `carries` are right.
+        Complete a symmetric matrix of which only the elements marked in `carries` are valid.
 
         Parameters
         ----------
@@ -60,7 +60,7 @@ class JointGroup:
         Returns
         -------
         Array
-            The whole (k, k), zero between joints of which neither carries the other.
+            The full matrix (k, k), zero between joints of which neither carries the other.
 
         """
         right = below * self._shares
@@ -69,6 +69,6 @@ class JointGroup:
 
     @cached_property
     def _shares(self) -> Array:
-        """Return (k, k) what a matrix is multiplied by to be added to its transpose."""
+        """Return the weights (k, k) of a matrix that is added to its transpose."""
         shares: Array = self.carries - 0.5 * np.eye(len(self.carries))
         return shares

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The lengths of a leg whose joints have closed solutions."""
+"""Geometry of a leg that has closed-form inverse kinematics."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from humanoid_description.kinematics import chain, poses
 from humanoid_description.robot import Array, Joint, named, Robot
 import numpy as np
 
-# The joints from the hip to the foot, and the axes that they turn about.
+# The joints from the hip to the foot, and their axes of rotation.
 AXES = {
     'hip_yaw': 'z',
     'hip_roll': 'x',
@@ -29,10 +29,10 @@ _TOLERANCE = 1e-9
 @dataclass(frozen=True, eq=False)
 class LegGeometry:
     """
-    A leg that hangs straight down at zero.
+    Geometry of a leg that hangs straight down at zero joint positions.
 
-    The three axes of the hip meet in one point, the two of the ankle in another; the knee is
-    between them. The axes of the sole are those of the root at zero.
+    The three axes of the hip intersect in one point, the two of the ankle in another; the knee is
+    between them. At zero the axes of the sole are parallel to those of the root.
     """
 
     joints: tuple[str, ...]
@@ -61,7 +61,7 @@ class LegGeometry:
         Raises
         ------
         DynamicsError
-            The side is another one, or the robot has no such leg, or one of another build.
+            The side is unknown, or the robot has no such leg, or its kinematics are different.
 
         """
         sole = _sole(robot, side)
@@ -80,12 +80,12 @@ class LegGeometry:
 
     @property
     def length_m(self) -> float:
-        """Return the distance from hip to ankle while the leg is stretched."""
+        """Return the distance from hip to ankle of the stretched leg."""
         return self.thigh_m + self.shank_m
 
 
 def _sole(robot: Robot, side: str) -> str:
-    """Return the name of the link under a foot."""
+    """Return the name of the sole link of a leg."""
     if side not in _SOLES:
         raise DynamicsError(f"The sides of a robot are {' and '.join(SIDES)}, not '{side}'.")
     sole = robot.prefix + _SOLES[side]
@@ -98,7 +98,7 @@ def _sole(robot: Robot, side: str) -> str:
 
 
 def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[Array]) -> None:
-    """Refuse a leg of another build; the poses are those of the joints at zero, in the root."""
+    """Validate the joints and axes of a leg; poses are at zero joint positions, in the root."""
     needed = [f'{robot.prefix}{side}_{kind}' for kind in AXES]
     found = [joint.name for joint in joints]
     if found != needed:
@@ -115,7 +115,7 @@ def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[A
 
 
 def _check_places(points: Sequence[Array], side: str) -> None:
-    """Refuse joints that are not above each other as the closed solution needs it."""
+    """Reject a leg whose joint axes do not meet as the closed-form solution requires."""
     yaw, roll, hip, knee, pitch, ankle = points
     straight = all(
         np.allclose(lower[:2], upper[:2], atol=_TOLERANCE) and lower[2] < upper[2]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The joints of a leg for a pose of its foot, in closed form.
+Inverse kinematics of a leg, in closed form.
 
 After Kajita, Hirukawa, Harada and Yokoi, Introduction to Humanoid Robotics (2014), section 2.5.2:
-the distance from ankle to hip gives the knee, the direction to the hip, seen from the foot, the
-ankle, and what is left of the rotation the hip.
+the distance from ankle to hip gives the knee angle, the direction to the hip in the frame of the
+foot gives the ankle angles, and the remaining rotation gives the hip angles.
 """
 
 from __future__ import annotations
@@ -16,41 +16,42 @@ from humanoid_control.dynamics.errors import DynamicsError
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 
-# The last part of the leg's length, within which a foot that goes on is left behind smoothly.
+# The last fraction of the leg length, in which the leg smoothly stops following the foot.
 SOFT = 0.002
 
 
 @dataclass(frozen=True)
 class LegPosture:
-    """Where the joints of a leg are."""
+    """Joint positions of a leg for a pose of its sole, and how far that is out of reach."""
 
     positions_rad: tuple[float, ...]
     """six, in the order of the leg's joints"""
     beyond_m: float
-    """how much farther from the hip the ankle should be than it is; 0 within reach, and negative
-    nearer to the hip than the leg folds"""
+    """distance by which the ankle falls short of its target, away from the hip; 0 within reach,
+    negative if the target is nearer to the hip than the leg can fold"""
     give: float
-    """the part of a motion away from the hip that the leg follows; 1 within reach"""
+    """reach gain: the fraction of a motion away from the hip that the leg follows; 1 within
+    reach"""
 
 
 def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
     """
     Compute the inverse kinematics of a leg for a pose of its sole.
 
-    Beyond reach the leg is stretched towards the place where the ankle should be, and the sole is
-    turned as it should be. The transition is smooth: see `SOFT`.
+    Beyond reach the leg stretches towards the target of the ankle, and the sole keeps its target
+    orientation. The transition is smooth: see `SOFT`.
 
     Parameters
     ----------
     leg
         Its geometry.
     sole
-        The wanted pose of the sole, in the frame of the root.
+        Target pose of the sole, in the frame of the root.
 
     Returns
     -------
     LegPosture
-        The six joint positions, and how far beyond reach the wanted pose is.
+        The six joint positions, and how far the target is beyond reach.
 
     Raises
     ------
@@ -62,7 +63,7 @@ def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
     px, py, pz = sole.position_m.tolist()
     ax, ay, az = leg.ankle_m.tolist()
     hx, hy, hz = leg.hip_m.tolist()
-    # From the ankle to the hip: in the root, then in the sole.
+    # From the ankle to the hip: in the axes of the root, then in those of the sole.
     x, y, z = hx - px, hy - py, hz - pz
     x, y, z = (
         r00 * x + r10 * y + r20 * z - ax,
@@ -79,7 +80,7 @@ def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
     knee = _knee(leg, distance_m)
     roll, pitch = _ankle(leg, (x, y, z), knee)
 
-    # The rotation of the thigh is that of the sole less the turns of ankle and knee.
+    # The rotation of the thigh is that of the sole without those of ankle and knee.
     c, s = math.cos(roll), math.sin(roll)
     ct, st = math.cos(pitch + knee), math.sin(pitch + knee)
     up = s * r21 + c * r22
@@ -93,7 +94,7 @@ def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
 
 
 def _reached(leg: LegGeometry, wanted_m: float) -> tuple[float, float]:
-    """Return how far the ankle gets from the hip, and how fast it follows what is wanted."""
+    """Limit the distance from ankle to hip to the reach of the leg; also return the reach gain."""
     soft_m = SOFT * leg.length_m
     free_m = leg.length_m - soft_m
     shortest_m = abs(leg.thigh_m - leg.shank_m)
@@ -106,9 +107,9 @@ def _reached(leg: LegGeometry, wanted_m: float) -> tuple[float, float]:
 
 
 def _knee(leg: LegGeometry, distance_m: float) -> float:
-    """Return how much the knee bends for a distance from ankle to hip."""
+    """Compute the knee angle for a distance from ankle to hip."""
     a, b = leg.thigh_m, leg.shank_m
-    # With half angles: exact for a leg that is nearly stretched, where a cosine is not.
+    # With half angles: accurate for a leg that is nearly stretched, where the arc cosine is not.
     shorter = max(0.0, (a + b - distance_m) * (a + b + distance_m))
     longer = max(0.0, (distance_m - a + b) * (distance_m + a - b))
     return 2.0 * math.atan2(math.sqrt(shorter), math.sqrt(longer))
@@ -117,9 +118,9 @@ def _knee(leg: LegGeometry, distance_m: float) -> float:
 def _ankle(
     leg: LegGeometry, hip_m: tuple[float, float, float], knee: float
 ) -> tuple[float, float]:
-    """Return roll and pitch of the ankle for the direction to the hip, seen from the sole."""
+    """Compute the ankle roll and pitch for a position of the hip in the axes of the sole."""
     x, y, z = hip_m
-    if z < 0.0:  # a foot that is turned over rolls less than a quarter of a turn too
+    if z < 0.0:  # an upside-down foot rolls by less than a quarter turn, too
         roll, height = math.atan2(-y, -z), -math.hypot(y, z)
     else:
         roll, height = math.atan2(y, z), math.hypot(y, z)

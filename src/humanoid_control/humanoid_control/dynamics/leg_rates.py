@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rates of the joints of a leg for a motion of its foot, in closed form."""
+"""Differential inverse kinematics of a leg: joint velocities for a twist of its foot."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.dynamics.leg_ik import LegPosture
 
-# Sines, cosines and distances below it are taken as zero: there the leg cannot follow.
+# Sines, cosines and distances below this are treated as zero: the leg is singular there.
 SMALLEST = 1e-9
 Vector = tuple[float, float, float]
 
@@ -20,8 +20,8 @@ def leg_rates(
     """
     Compute the joint velocities of a leg for a twist of its sole.
 
-    It is the derivative of `leg_posture`: beyond reach the leg follows what of the motion it can
-    follow.
+    It is the time derivative of `leg_posture`, in closed form: beyond reach the leg follows the
+    feasible part of the motion.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def leg_rates(
     posture
         The result of `leg_posture` for the same leg and sole.
     sole, twist
-        The wanted pose of the sole, and its motion as seen from the root, in the axes of the root.
+        Target pose of the sole, and its twist relative to the root, in the axes of the root.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def leg_rates(
     hip_in_shank = _about_y(_about_x(hip, -hip_roll), -hip_pitch - knee)
     knee_rate, pitch_rate, roll_rate = _lower_rates(leg, posture, hip_in_shank)
 
-    # What is left of the turning, in the axes after the yaw, is that of the hip.
+    # The remaining angular velocity, in the axes after the hip yaw, is that of the hip.
     c, s = math.cos(hip_roll), math.sin(hip_roll)
     axis = _about_x(_about_y((1.0, 0.0, 0.0), hip_pitch + knee + ankle_pitch), hip_roll)
     x, y, z = (a - b * roll_rate for a, b in zip(turning, axis))
@@ -55,7 +55,7 @@ def leg_rates(
 
 
 def _hip_past_sole(leg: LegGeometry, sole: Frame, twist: Twist) -> Vector:
-    """Return the velocity of the hip for one who moves with the sole, in the axes of the root."""
+    """Compute the velocity of the hip relative to the moving sole, in the axes of the root."""
     vx, vy, vz = twist.linear_m_s.tolist()
     wx, wy, wz = twist.angular_rad_s.tolist()
     x, y, z = (leg.hip_m - sole.position_m).tolist()
@@ -63,7 +63,7 @@ def _hip_past_sole(leg: LegGeometry, sole: Frame, twist: Twist) -> Vector:
 
 
 def _lower_rates(leg: LegGeometry, posture: LegPosture, velocity: Vector) -> Vector:
-    """Return the rates of knee, ankle pitch and roll for a velocity of the hip, in the shank."""
+    """Compute the rates of knee, ankle pitch and roll for a hip velocity in shank axes."""
     _, _, _, knee, pitch, _ = posture.positions_rad
     a, b = leg.thigh_m, leg.shank_m
     sine, cosine = math.sin(knee), math.cos(knee)
@@ -73,7 +73,7 @@ def _lower_rates(leg: LegGeometry, posture: LegPosture, velocity: Vector) -> Vec
     wanted = distance + posture.beyond_m
     if min(distance, wanted) < SMALLEST:
         return 0.0, 0.0, 0.0
-    # Beyond reach: turn as the direction to the hip does, stretch as far as the leg gives way.
+    # Beyond reach: rotate with the direction to the hip, stretch by the reach gain `give`.
     near = distance / wanted
     away = (x * vx + z * vz) / distance
     around = (z * vx - x * vz) / distance * near
@@ -86,21 +86,21 @@ def _lower_rates(leg: LegGeometry, posture: LegPosture, velocity: Vector) -> Vec
 
 
 def _about_x(vector: Vector, angle: float) -> Vector:
-    """Return a vector turned about x."""
+    """Rotate a vector about x."""
     x, y, z = vector
     c, s = math.cos(angle), math.sin(angle)
     return x, c * y - s * z, s * y + c * z
 
 
 def _about_y(vector: Vector, angle: float) -> Vector:
-    """Return a vector turned about y."""
+    """Rotate a vector about y."""
     x, y, z = vector
     c, s = math.cos(angle), math.sin(angle)
     return c * x + s * z, y, c * z - s * x
 
 
 def _about_z(vector: Vector, angle: float) -> Vector:
-    """Return a vector turned about z."""
+    """Rotate a vector about z."""
     x, y, z = vector
     c, s = math.cos(angle), math.sin(angle)
     return c * x - s * y, s * x + c * y, z

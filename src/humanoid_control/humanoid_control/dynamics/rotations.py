@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Rotations as matrices (3, 3), which turn the axes of a frame into those of its parent.
+Rotation matrices (3, 3) from a frame to its parent, and conversions from and to them.
 
-Quaternions are w, x, y, z; roll, pitch and yaw turn about the fixed x, y and z, in this order.
+Quaternions are w, x, y, z; roll, pitch and yaw are about the fixed x, y and z, in this order.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ def from_quaternion(quaternion: Sequence[float] | Array) -> Array:
     Parameters
     ----------
     quaternion
-        w, x, y, z, of any length but zero.
+        w, x, y, z, of any norm but zero.
 
     Raises
     ------
     ValueError
-        The length is zero or not finite.
+        The norm is zero or not finite.
 
     """
     w, x, y, z = map(float, quaternion)
@@ -124,7 +124,7 @@ def to_rpy(rotation: Array) -> tuple[float, float, float]:
     Returns
     -------
     tuple[float, float, float]
-        Angles in rad about the fixed x, y and z; the pitch is within a quarter of a turn.
+        Angles in rad about the fixed x, y and z; the pitch is between -pi/2 and pi/2.
 
     """
     (r00, _, _), (r10, _, _), (r20, r21, r22) = rotation.tolist()
@@ -133,7 +133,7 @@ def to_rpy(rotation: Array) -> tuple[float, float, float]:
 
 def yaw_of(rotation: Array) -> float:
     """
-    Extract the yaw of a rotation in rad: where its x axis points, seen from above.
+    Extract the yaw of a rotation in rad: the heading of its x axis, seen from above.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def exp(rotation_vector: Array) -> Array:
     """
     angle = math.sqrt(rotation_vector @ rotation_vector)
     turn = skew(rotation_vector)
-    # sin(a) / a and (1 - cos(a)) / a^2, which numpy's sinc gives at zero as well.
+    # sin(a) / a and (1 - cos(a)) / a^2 by numpy's sinc, which is also defined at zero.
     sine = float(np.sinc(angle / np.pi))
     half = float(np.sinc(angle / 2.0 / np.pi))
     rotation: Array = np.eye(3) + sine * turn + 0.5 * half * half * (turn @ turn)
@@ -179,7 +179,7 @@ def log(rotation: Array) -> Array:
 
     """
     (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
-    # The quaternion from its largest component, so that no root of a small number is taken.
+    # The quaternion from its largest component, which is well conditioned for all rotations.
     candidates = (
         (1.0 + a + e + i, h - f, c - g, d - b),
         (h - f, 1.0 + a - e - i, b + d, c + g),
@@ -196,7 +196,7 @@ def log(rotation: Array) -> Array:
 
 def skew(vector: Array) -> Array:
     """
-    Build the skew-symmetric matrix (3, 3) that takes the cross product with a vector.
+    Build the skew-symmetric matrix (3, 3) of the cross product with a vector.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bodies and joints of a robot as tables."""
+"""Kinematic tree of a robot: its bodies and joints as arrays."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TURNING = ('revolute', 'continuous')
 
 @dataclass(frozen=True, eq=False)
 class Mount:
-    """Where a link is: the number of the body that it is part of, and its pose (4, 4) in it."""
+    """Mount of a link: the index of the body that it is part of, and its pose (4, 4) in it."""
 
     body: int
     pose: Array
@@ -29,38 +29,38 @@ class Mount:
 @dataclass(frozen=True, eq=False)
 class Tree:
     """
-    n joints and n + 1 bodies: body 0 is the root, body 1 + j what joint j moves directly.
+    Kinematic tree of n joints and n + 1 bodies: 0 is the root, 1 + j the child of joint j.
 
     The frame of a body has its origin on the axis of its joint, and z along it.
     """
 
     joints: tuple[str, ...]
     mounts: Mapping[str, Mount]
-    """all links by their names"""
+    """mounts of all links by name"""
     parents: NDArray[np.intp]
-    """(n + 1,) the body that each hangs from; the root hangs from itself"""
+    """(n + 1,) index of the parent body of each; the root is its own parent"""
     placements: Array
-    """(n, 4, 4) the pose of bodies 1 to n in their parents while the joints are at zero"""
+    """(n, 4, 4) poses of bodies 1 to n in their parents at zero joint positions"""
     inertias: Array
     """(n + 1, 4, 4) pseudo-inertia of each body in its frame"""
 
     @classmethod
     def of(cls, robot: Robot, joints: tuple[str, ...]) -> Tree:
         """
-        Build the tables of a robot's bodies and joints.
+        Build the kinematic tree of a robot.
 
         Parameters
         ----------
         robot
             Its links and joints.
         joints
-            Joints that turn, in the order of the tables; others are taken as fixed at zero.
+            Revolute or continuous joints, in the order of the arrays; others are fixed at zero.
 
         Raises
         ------
         DynamicsError
-            The robot has not exactly one root or weighs nothing, or a joint is unknown, repeated,
-            does not turn or mimics another.
+            The robot does not have exactly one root, or has no mass; or a joint is unknown,
+            repeated, neither revolute nor continuous, or mimics another.
 
         """
         _check(robot, joints)
@@ -97,12 +97,12 @@ class Tree:
 
     @cached_property
     def carries(self) -> Array:
-        """Return (n + 1, n + 1): 1 where the body of the column hangs from, or is, the row's."""
+        """Return (n + 1, n + 1): 1 where the column's body is, or descends from, the row's."""
         return np.vstack([np.ones(len(self.moves)), self.moves.T])
 
 
 def _check(robot: Robot, joints: tuple[str, ...]) -> None:
-    """Refuse what is no tree of turning joints."""
+    """Validate that the robot has one root and mass, and that its joints can be modelled."""
     if len(robot.roots) != 1:
         raise DynamicsError(
             f"Robot '{robot.name}' has {len(robot.roots)} links that hang from no joint "
@@ -120,7 +120,7 @@ def _check(robot: Robot, joints: tuple[str, ...]) -> None:
 
 
 def _check_joint(joint: Joint) -> None:
-    """Refuse a joint that does not turn, or not by itself."""
+    """Reject a joint that is neither revolute nor continuous, or that mimics another."""
     if joint.kind not in TURNING:
         raise DynamicsError(
             f'{named(joint)} is {joint.kind}, but only joints that turn can be computed with. '
@@ -134,13 +134,13 @@ def _check_joint(joint: Joint) -> None:
 
 
 def _mounts(robot: Robot, joints: tuple[str, ...]) -> dict[str, Mount]:
-    """Return of which body every link is part, and where in it."""
+    """Compute the mounts of all links: the body of each, and its pose in that body."""
     body = {name: index + 1 for index, name in enumerate(joints)}
     return {link.name: _mount(chain(robot, link.name), body) for link in robot.links}
 
 
 def _mount(joints: list[Joint], body: Mapping[str, int]) -> Mount:
-    """Return the place of the link to which joints lead from the root."""
+    """Compute the mount of the link at the end of a chain of joints from the root."""
     mount = Mount(0, np.eye(4))
     for joint in joints:
         if joint.name in body:
@@ -153,7 +153,7 @@ def _mount(joints: list[Joint], body: Mapping[str, int]) -> Mount:
 def _z_along(axis: Array) -> Array:
     """Return the pose (4, 4) of a frame whose z points along an axis."""
     z = axis / np.linalg.norm(axis)
-    # Of the axes x, y, z the one that is farthest from z: no rounding for a z along one of them.
+    # The coordinate axis that is farthest from z: no rounding if z lies along one of them.
     other = np.eye(3)[int(np.argmin(np.abs(z)))]
     y = np.cross(z, other)
     y /= np.linalg.norm(y)
@@ -163,7 +163,7 @@ def _z_along(axis: Array) -> Array:
 
 
 def _inertias(robot: Robot, mounts: Mapping[str, Mount], count: int) -> Array:
-    """Return the pseudo-inertias of bodies, each that of all its links."""
+    """Sum the pseudo-inertias of the links of each body, (count, 4, 4)."""
     inertias = np.zeros((count, 4, 4))
     for link in robot.links:
         if link.body:
@@ -175,11 +175,11 @@ def _inertias(robot: Robot, mounts: Mapping[str, Mount], count: int) -> Array:
 
 def _pseudo_inertia(body: Body) -> Array:
     """
-    Return the integral of r r^T dm over a body, r = (x, y, z, 1), at its centre of mass.
+    Compute the integral of r r^T dm over a body, r = (x, y, z, 1), at its centre of mass.
 
-    It holds the same as mass, centre and inertia, and a pose T makes it T J T^T (Wensing, Kim and
-    Slotine, Linear Matrix Inequalities for Physically Consistent Inertial Parameter
-    Identification, IEEE RA-L 2018).
+    It is equivalent to mass, centre of mass and inertia, and a pose T transforms it to T J T^T
+    (Wensing, Kim and Slotine, Linear Matrix Inequalities for Physically Consistent Inertial
+    Parameter Identification, IEEE RA-L 2018).
     """
     inertia = np.asarray(body.inertia_kgm2, float)
     pseudo = np.zeros((4, 4))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots and what controls them, in lockstep."""
+"""Control loop: a backend and the controllers of its robots, in lockstep."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from humanoid_control.backends import Backend, JointTargets, Observation
 
 
 class Brain(Protocol):
-    """What decides where the joints of one robot go."""
+    """Control of one robot, which computes its joint targets."""
 
     def update(self, observation: Observation) -> JointTargets:
         """
-        Compute the joint targets of the coming control period.
+        Compute the joint targets for the coming control period.
 
         Parameters
         ----------
         observation
-            What the sensors of the robot measured at the start of the period.
+            Sensor values of the robot at the start of the period.
 
         Returns
         -------
@@ -29,7 +29,7 @@ class Brain(Protocol):
         """
 
     def reset(self) -> None:
-        """Begin anew with the next observation."""
+        """Restart the control from the next observation."""
 
 
 class ControlLoop:
@@ -41,7 +41,7 @@ class ControlLoop:
     backend
         Observes and moves the robots.
     brains
-        What decides the joint targets, by the name of the robot; one without it gets no targets.
+        The control of each robot, by name; a robot without one gets no targets.
 
     Raises
     ------
@@ -61,7 +61,7 @@ class ControlLoop:
         self._brains = dict(brains)
 
     def tick(self) -> Mapping[str, Observation]:
-        """Observe, decide, and let a period pass; return what was observed before it."""
+        """Observe, compute targets and step one period; return the observations before it."""
         observations = self.backend.observe()
         self.backend.step(
             {name: brain.update(observations[name]) for name, brain in self._brains.items()}
@@ -70,7 +70,7 @@ class ControlLoop:
 
     def reset(self, keyframe: str = 'home') -> None:
         """
-        Reset all robots to a named posture at their start pose; time goes on.
+        Reset all robots to a named posture at their start pose; time continues.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions below the names of the controllers of a robot."""
+"""Action servers of the controllers of a robot."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rclpy.node import Node
 
 class ControllerActions:
     """
-    Action servers `follow_joint_trajectory` and `gripper_cmd` below the names of controllers.
+    Action servers `follow_joint_trajectory` and `gripper_cmd`, in the controller namespaces.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class ControllerActions:
     robot
         Name of the robot, which is its namespace; empty if it is alone.
     control
-        The control of the robot, whose controllers are given the goals.
+        The control of the robot, whose controllers run the goals.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The controllers of a robot as ros2_control's users know them: who is active, who claims what."""
+"""Controllers of a robot in the terms of ros2_control: states and claimed interfaces."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from humanoid_control.hosting.robot_control import RobotControl
 
 ACTIVE, INACTIVE = 'active', 'inactive'
 QUANTITIES = ('position', 'velocity', 'effort')
-"""What a joint is told, and what it says."""
+"""Command and state interfaces of a joint."""
 
 
 class Strictness(IntEnum):
-    """What happens when a part of a switch cannot be done (controller_manager_msgs)."""
+    """Strictness of a controller switch, with the values of controller_manager_msgs."""
 
     BEST_EFFORT = 1
     STRICT = 2
@@ -29,7 +29,7 @@ class Strictness(IntEnum):
 
 @dataclass(frozen=True)
 class ControllerInfo:
-    """A controller, the joints that belong to it now, and those that it needs to do its work."""
+    """A controller, the joints that it currently claims, and those that it requires."""
 
     name: str
     kind: str
@@ -45,7 +45,7 @@ class ControllerInfo:
 
 def interfaces_of(joints: Sequence[str]) -> list[str]:
     """
-    Name the ros2_control interfaces of joints; command and state interfaces are the same.
+    List the ros2_control interfaces of joints; command and state interfaces are the same.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def interfaces_of(joints: Sequence[str]) -> list[str]:
     Returns
     -------
     list of str
-        Three a joint: `joint/position`, `joint/velocity` and `joint/effort`.
+        Three per joint: `joint/position`, `joint/velocity` and `joint/effort`.
 
     """
     return [f'{joint}/{quantity}' for joint in joints for quantity in QUANTITIES]
@@ -75,7 +75,7 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     Returns
     -------
     list of ControllerInfo
-        First those that take goals, then the modes, of which one is active, and then those that
+        First those that accept goals, then the modes, of which one is active, and then those that
         move joints as commanded on a topic.
 
     """
@@ -115,23 +115,23 @@ def switch(
     control: RobotControl, activate: Sequence[str], deactivate: Sequence[str], strictness: int
 ) -> tuple[bool, str]:
     """
-    Activate and deactivate controllers that take goals.
+    Activate and deactivate controllers that accept goals.
 
     Parameters
     ----------
     control
-        The robot.
+        The control of the robot.
     activate, deactivate
-        Names of controllers. One that is in both begins anew: it gives its joints back.
+        Names of controllers. One that is in both is restarted: it releases its joints.
     strictness
-        With BEST_EFFORT what is possible is done, and it is fine if a controller is in the
-        wanted state already. With all others it is done as a whole, or not at all: as there are
-        no chains of controllers, AUTO and FORCE_AUTO have nothing to resolve.
+        With BEST_EFFORT, whatever can be switched is switched, and a controller may be in the
+        wanted state already. All others switch everything or nothing: without controller chains,
+        AUTO and FORCE_AUTO have nothing to resolve.
 
     Returns
     -------
     tuple[bool, str]
-        Whether that worked, and what did not, in sentences.
+        Whether the switch succeeded, and a message about what did not.
 
     """
     if strictness not in (0, *Strictness):
@@ -159,14 +159,14 @@ def switch(
 
 
 def _set(controller: GoalController[Any, Any], active: bool) -> None:
-    """Activate or deactivate a controller; one that is not active owns nothing."""
+    """Activate or deactivate a controller; an inactive one claims no joints."""
     if not active:
         controller.release(DEACTIVATED)
     controller.is_active = active
 
 
 def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> str:
-    """Say why a controller cannot be activated or deactivated, or nothing if it can."""
+    """Return the reason why a controller cannot be switched; empty if it can."""
     controller = control.controllers.get(name)
     if controller is None:
         return _not_switched(control, name)
@@ -184,7 +184,7 @@ def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> s
 
 
 def _not_switched(control: RobotControl, name: str) -> str:
-    """Say why something is not switched that takes no goals."""
+    """Build the message about a name that is not a controller that accepts goals."""
     if name in control.manager.modes:
         return (
             f"'{name}' is a mode of the robot. Set the parameter 'mode' of the node that runs the "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of a controller manager, answered from what runs the robot."""
+"""Services of a ros2_control controller manager, answered from the control of a robot."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ SENSORS = {
     'l_sole': WRENCH,
     'r_sole': WRENCH,
 }
-"""What the controllers read besides the joints."""
+"""State interfaces that the controllers read besides those of the joints, by link."""
 BASE_CLASS = 'controller_interface::ControllerInterface'
 VALUE = 'double'
 
 
 class ControllerServices:
     """
-    Services of a ros2_control controller manager, below `controller_manager` of a robot.
+    Services of a ros2_control controller manager, in the namespace `controller_manager`.
 
     Parameters
     ----------
@@ -53,11 +53,11 @@ class ControllerServices:
     control
         The control of the robot, whose controllers are listed and switched.
     hardware
-        The class of what moves the joints, as package/Class.
+        Class of the hardware component that moves the joints, as package/Class.
     rate_hz
         The control rate, reported as the update rate.
     prefix
-        What the names of the sensors' links begin with.
+        Prefix of the names of the sensors' links.
 
     """
 
@@ -123,7 +123,7 @@ class ControllerServices:
         return controllers_of(self._control)
 
     def _state(self, controller: ControllerInfo) -> ControllerState:
-        """Return the message on a controller."""
+        """Build the ControllerState message of a controller."""
         required = interfaces_of(controller.required)
         return ControllerState(
             name=controller.name,
@@ -136,7 +136,7 @@ class ControllerServices:
         )
 
     def _commands(self) -> list[HardwareInterface]:
-        """Return what joints can be told; each joint has an owner."""
+        """List the command interfaces of the joints, with their claims."""
         claimed = {
             name
             for controller in self._controllers()
@@ -150,7 +150,7 @@ class ControllerServices:
         ]
 
     def _states(self) -> list[HardwareInterface]:
-        """Return what joints and sensors say; to read it, nobody has to claim it."""
+        """List the state interfaces of joints and sensors, which need not be claimed."""
         sensors = [
             f'{self._prefix}{sensor}/{value}'
             for sensor, values in SENSORS.items()

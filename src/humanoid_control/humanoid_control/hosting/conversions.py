@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn messages into commands."""
+"""Convert messages to commands."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ def body_pose_of(message: Pose) -> BodyPose:
     Parameters
     ----------
     message
-        `position.z` is the height (m) relative to that of an upright robot, negative is lower. Of
-        the orientation the pitch counts, positive bends forward. All else is ignored.
+        `position.z` is the height (m) relative to that of an upright robot, negative is lower.
+        Only the pitch of the orientation is used; positive bends forward. All else is ignored.
 
     Raises
     ------
     WalkingError
-        The orientation is no rotation: its length is zero or not finite.
+        The orientation is not a rotation: its norm is zero or not finite.
 
     """
     turn = message.orientation

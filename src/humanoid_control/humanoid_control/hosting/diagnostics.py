@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say how the robots of a node are, and how busy it is."""
+"""Diagnostics of the robots of a node, and of its load."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class HostDiagnostics:
     robots
         The robots, whose health is reported.
     speed
-        Returns how fast the robots' time passes; None while that is not known.
+        Returns the real-time factors; None while they are not known.
 
     """
 
@@ -45,7 +45,7 @@ class HostDiagnostics:
         self._diagnostics = Diagnostics(node, self.report, lambda: robots.time_s)
 
     def report(self) -> list[PartStatus]:
-        """Return how the control loop and each robot are."""
+        """Return the status of the control loop and of each robot."""
         robots = [_robot_status(*entry) for entry in self._robots.health().items()]
         return [self._loop(), *robots]
 
@@ -83,7 +83,7 @@ def _robot_status(robot: str, health: RobotHealth) -> PartStatus:
 
 
 def _verdict(health: RobotHealth) -> tuple[Level, str]:
-    """Return how bad it is, and what to say of it."""
+    """Return the level and the message of the status of a robot."""
     if health.trouble:
         return Level.ERROR, health.trouble
     if health.holds_because:

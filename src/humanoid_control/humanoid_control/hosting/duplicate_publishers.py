@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notice that others publish what one node alone may publish."""
+"""Detect other publishers on topics that only one node may publish."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ class DuplicatePublisherCheck:
     """
     Duplicate publisher check: warns of topics with another publisher, as from a second simulator.
 
-    It looks every few seconds. A publisher must be there twice in a row: a node that ends may be
-    seen for a moment longer.
+    It checks every few seconds. A publisher must be seen twice in a row, as a node that ends may
+    stay visible for a moment.
 
     Parameters
     ----------
     node
         The node that publishes the topics, and logs the warning.
     topics
-        Topics that this node alone may publish; names are relative to its namespace or absolute.
+        Topics that only this node may publish; names are relative to its namespace or absolute.
 
     """
 
@@ -36,7 +36,7 @@ class DuplicatePublisherCheck:
         self._timer = node.create_timer(PERIOD_S, self._look, clock=steady)
 
     def _look(self) -> None:
-        """Warn of duplicates that are there for a while, once as long as they stay."""
+        """Warn of duplicates that persist, once for as long as they stay."""
         duplicates = {topic for topic in self._topics if self._node.count_publishers(topic) > 1}
         lasting = duplicates & self._seen
         if lasting - self._said:

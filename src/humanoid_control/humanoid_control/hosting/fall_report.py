@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say in the log that a robot has fallen, and that it stands again."""
+"""Reports in the log that a robot has fallen, and that it stands again."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ FALLEN = (
 
 
 class Log(Protocol):
-    """What sentences are told to."""
+    """Logger for the messages."""
 
     def error(self, message: str) -> object:
         """
@@ -21,7 +21,7 @@ class Log(Protocol):
         Parameters
         ----------
         message
-            What is wrong, and what to do.
+            Description of the problem, and what to do.
 
         """
 
@@ -32,14 +32,14 @@ class Log(Protocol):
         Parameters
         ----------
         message
-            What is good to know.
+            What is to be reported.
 
         """
 
 
 class FallReport:
     """
-    Log a message when a robot falls, and one when it stands again.
+    Reporter that logs a message when a robot falls, and one when it stands again.
 
     Parameters
     ----------

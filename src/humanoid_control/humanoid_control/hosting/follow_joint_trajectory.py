@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions by which arms and head are moved along trajectories."""
+"""Action servers `follow_joint_trajectory` of the joint trajectory controllers."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class FollowJointTrajectoryServer(GoalServer[TrajectoryGoal, GoalResult]):
         self._control, self._controller = control, controller
 
     def publish_feedback(self) -> None:
-        """Say where the joints should be and are, if a goal runs."""
+        """Publish the desired and actual joint states and their error, if a goal is running."""
         progress, goal = self._controller.progress, self.current
         if progress is None or goal is None:
             return
@@ -121,7 +121,7 @@ class FollowJointTrajectoryServer(GoalServer[TrajectoryGoal, GoalResult]):
 
 
 def _request(goal: FollowJointTrajectory.Goal, now_s: float) -> TrajectoryRequest:
-    """Return what a goal asks for, at a time of the robot; refuse what no controller can do."""
+    """Convert a goal to a request at the robot's time; reject unsupported fields."""
     if goal.multi_dof_trajectory.points or goal.multi_dof_trajectory.joint_names:
         raise CommandError(
             'It has a multi_dof_trajectory, but all joints here have one degree of freedom. Give '
@@ -144,12 +144,12 @@ def _request(goal: FollowJointTrajectory.Goal, now_s: float) -> TrajectoryReques
 
 
 def _tolerances(given: Sequence[Any]) -> list[JointTolerance]:
-    """Return the tolerances of messages."""
+    """Convert JointTolerance messages."""
     return [JointTolerance(each.name, each.position, each.velocity) for each in given]
 
 
 def _point(time_s: float, positions_rad: Array, velocities_rad_s: Array) -> JointTrajectoryPoint:
-    """Return the message of a state of the joints."""
+    """Build the trajectory point message of a joint state."""
     whole_s = math.floor(time_s)
     return JointTrajectoryPoint(
         positions=positions_rad,

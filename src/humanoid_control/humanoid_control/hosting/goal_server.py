@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An action by which a controller is given goals."""
+"""Action server for the goals of a controller."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ ResultT = TypeVar('ResultT')
 
 class GoalServer(ABC, Generic[GoalT, ResultT]):
     """
-    The action of one controller.
+    Action server of one controller.
 
-    A goal is checked, and rejected with a sentence in the log if it cannot be done; a newer one
-    takes the place of the one that runs.
+    A goal is checked, and rejected with a message in the log if it cannot be executed; a newer
+    goal preempts the running one.
 
     Parameters
     ----------
     node, kind, name
-        Who offers the action, its type, and its name.
+        The node that offers the action, its type, and its name.
     controller
-        Who does the goals.
+        Runs the goals.
     refusals
-        Gets a sentence on each goal that is rejected.
+        Receives a message on each goal that is rejected.
 
     """
 
@@ -49,7 +49,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
         self._goals, self._refusals = controller, refusals
         self._checked: GoalT | None = None
         self.current: ServerGoalHandle | None = None
-        """The goal that runs."""
+        """The running goal."""
         self._ends: dict[bytes, Future] = {}
         self.time_s = 0.0
         """The robot's time."""
@@ -65,7 +65,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
 
     @abstractmethod
     def publish_feedback(self) -> None:
-        """Say how the goal goes, if one runs."""
+        """Publish the feedback of the running goal, if any."""
 
     @abstractmethod
     def checked(self, goal: Any) -> GoalT:
@@ -85,7 +85,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
         Raises
         ------
         CommandError
-            The goal cannot be done; the text says why, and what to do.
+            The goal cannot be executed; the message states why, and what to do.
 
         """
 
@@ -109,7 +109,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
         """
 
     def _check(self, goal: Any) -> GoalResponse:
-        """Accept a goal that can be done; say why another is rejected."""
+        """Accept a goal that can be executed; log the reason why any other is rejected."""
         try:
             self._checked = self.checked(goal)
         except CommandError as error:
@@ -118,7 +118,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
         return GoalResponse.ACCEPT
 
     def _start(self, handle: ServerGoalHandle) -> None:
-        """Give the goal that was just checked to the controller."""
+        """Pass the goal that was just checked to the controller."""
         if self._checked is None:
             raise RuntimeError('A goal was accepted that was not checked.')
         end = self._ends[bytes(handle.goal_id.uuid)] = Future(executor=self._node.executor)
@@ -127,7 +127,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
         handle.execute()
 
     async def _execute(self, handle: ServerGoalHandle) -> Any:
-        """Wait for the end of a goal, and say how it ended."""
+        """Wait for the end of a goal, and return its result."""
         goal_id = bytes(handle.goal_id.uuid)
         end: ResultT = await self._ends[goal_id]
         del self._ends[goal_id]
@@ -139,7 +139,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
         return result
 
     def _cancel(self, handle: ServerGoalHandle) -> CancelResponse:
-        """End a goal as its client asks, unless it has ended meanwhile."""
+        """Cancel a goal for its client, unless it has ended meanwhile."""
         end = self._ends.get(bytes(handle.goal_id.uuid))
         if end is None or end.done():
             return CancelResponse.REJECT

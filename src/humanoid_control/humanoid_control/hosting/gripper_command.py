@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions by which grippers are opened and closed."""
+"""Action servers `gripper_cmd` of the gripper controllers."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
     """
     Action server of one gripper; see `GoalServer`.
 
-    A position is the gap between the fingers in m, an effort the force of the drive in N. A goal
-    succeeds if the gap is reached, and also if the fingers stop before, at what they hold:
-    `stalled` and `position` tell which it was, and how wide that is.
+    A position is the gap between the fingers in m, an effort the force of the actuator in N. A
+    goal succeeds if the gap is reached, and also if the fingers stop before, on an object:
+    `stalled` reports which of the two it was, and `position` the final gap.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
         self._control, self._controller = control, controller
 
     def publish_feedback(self) -> None:
-        """Say how wide the gripper is, if a goal runs."""
+        """Publish the state of the gripper, if a goal is running."""
         if self.current is not None and self._controller.has_goal:
             feedback = GripperCommand.Feedback()
             self.current.publish_feedback(_filled(feedback, self._controller.state))
@@ -59,8 +59,8 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
         Parameters
         ----------
         goal
-            Its `position` is the gap between the fingers in m, its `max_effort` the greatest force
-            in N; 0 is all that the drive has.
+            Its `position` is the gap between the fingers in m, its `max_effort` the maximum force
+            in N; 0 is that of the actuator.
 
         Returns
         -------
@@ -85,7 +85,7 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
         Parameters
         ----------
         handle, end
-            As for `GoalServer.finished`; fingers that stall at what they hold succeed, too.
+            As for `GoalServer.finished`; fingers that stall on an object succeed as well.
 
         Returns
         -------
@@ -105,7 +105,7 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
 
 
 def _filled(message: Any, state: GripState) -> Any:
-    """Fill in the state of a gripper."""
+    """Fill a message with the state of a gripper."""
     message.position, message.effort = state.gap_m, state.effort_n
     message.stalled, message.reached_goal = state.stalled, state.reached_goal
     return message

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run robots inside a node."""
+"""Host that runs the control loop of robots inside a node."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 SLICE_S = 0.005
-"""After so long with ticks alone, the node hears what has come meanwhile."""
+"""Longest run of ticks before the node handles other callbacks."""
 PAUSED_INTERVAL_S = 0.05
-"""In a pause, the host looks so often for what has come: a stop is to be heard."""
+"""Period of the checks for input while paused, so that a stop is obeyed."""
 _AT_ONCE_S = 1e-6
 _EARLY = 0.25
-"""A tick may begin earlier by this share of the interval: no timer is exactly in step."""
+"""A tick may start earlier by this fraction of the interval, as no timer is exact."""
 Look = Callable[[], None]
 Tell = Callable[[Mapping[str, Observation]], None]
 
 
 class Host:
     """
-    Tick a control loop at a pace, in the thread of its node, as soon as the node is spun.
+    Host that ticks a control loop at a pace, in the thread of its node, once that is spun.
 
     Callbacks of the node run between ticks, never during one.
 
@@ -42,14 +42,14 @@ class Host:
     interval_s
         Real time between two ticks at the pace; 0 is as fast as possible.
     look
-        Called before each tick, and repeatedly in a pause, so that a stop is obeyed.
+        Called before each tick, and repeatedly while paused, so that a stop is obeyed.
     tell
-        Called after each tick with what was observed, by the name of the robot.
+        Called after each tick with the observations, by robot name.
 
     Attributes
     ----------
     load
-        How long ticks take; those in a pause do not count.
+        Computing time of the ticks, without those while paused.
 
     """
 
@@ -74,24 +74,24 @@ class Host:
 
     @property
     def paused(self) -> bool:
-        """Tell whether no time passes but by `tick`."""
+        """Whether the control loop is paused, so that time advances only by `tick`."""
         return self._paused
 
     @property
     def is_stepping(self) -> bool:
-        """Tell whether periods are still to pass that `tick_in_pause` asked for."""
+        """Whether steps that `tick_in_pause` requested are still pending."""
         return self._owed > 0
 
     def pause(self, paused: bool) -> None:
         """
         Pause or resume the control loop.
 
-        Steps that `tick_in_pause` still owes are dropped in both cases.
+        Pending steps of `tick_in_pause` are dropped in both cases.
 
         Parameters
         ----------
         paused
-            Whether to pause. When time goes on, the pause is not caught up with.
+            Whether to pause. After a pause, the missed ticks are not caught up.
 
         """
         self._paused = paused
@@ -114,7 +114,7 @@ class Host:
         self._set_timer()
 
     def tick(self) -> None:
-        """Let one period pass."""
+        """Run one control period."""
         self._look()
         self._tell(self._loop.tick())
 
@@ -122,7 +122,7 @@ class Host:
         """
         Step the paused control loop, as fast as possible, with callbacks of the node in between.
 
-        Returns at once. Steps that an earlier call still owes are dropped.
+        Returns at once. Pending steps of an earlier call are dropped.
 
         Parameters
         ----------
@@ -138,7 +138,7 @@ class Host:
 
     def reset(self, keyframe: str = 'home') -> None:
         """
-        Reset all robots to a named posture at their start pose; time goes on.
+        Reset all robots to a named posture at their start pose; time continues.
 
         Parameters
         ----------
@@ -149,7 +149,7 @@ class Host:
         self._loop.reset(keyframe)
 
     def _run(self) -> None:
-        """Do the ticks that are due, for a slice of time at most; in a pause, only look."""
+        """Run due ticks, or the pending steps while paused, for one time slice at most."""
         if self._paused:
             self._look()
             self._tick_owed()
@@ -163,7 +163,7 @@ class Host:
             self._pace.ticked(now_s)
 
     def _tick_owed(self) -> None:
-        """Let periods pass in a pause, if any are to, for a slice of time at most."""
+        """Run pending steps while paused, for one time slice at most."""
         end_s = time.monotonic() + SLICE_S
         while self._owed and time.monotonic() < end_s:
             self._owed -= 1
@@ -173,12 +173,12 @@ class Host:
             self._set_timer()
 
     def _settle(self) -> None:
-        """Owe no periods any more, and say so to whom they were owed."""
+        """Drop the pending steps, and notify the caller that requested them."""
         done, self._owed, self._done = self._done, 0, _nothing
         done()
 
     def _set_timer(self) -> None:
-        """Let the timer follow a change of the pace, or a pause."""
+        """Set the timer to the current pace or pause."""
         pause_s = _AT_ONCE_S if self._owed else PAUSED_INTERVAL_S
         interval_s = pause_s if self._paused else self._interval_s or _AT_ONCE_S
         self._timer.timer_period_ns = int(interval_s * 1e9)
@@ -186,4 +186,4 @@ class Host:
 
 
 def _nothing() -> None:
-    """Tell nobody."""
+    """Notify no one."""

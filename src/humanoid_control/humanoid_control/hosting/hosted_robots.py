@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The robots of a node: what they hear and what they say."""
+"""The robots of a node, with their topics, actions and services."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from rclpy.node import Node
 
 @dataclass(frozen=True)
 class RobotHealth:
-    """How a robot is, for diagnostics."""
+    """Health of a robot, for diagnostics."""
 
     mode: str
     walk: str
     trouble: str
-    """Why the mode cannot do what it should, empty if it can."""
+    """The reason why the mode cannot work as it should; empty if it can."""
     is_blocked: bool
     """Whether something is in its way."""
     holds_because: str
     claimed: Mapping[str, str]
-    """The joints that belong to others than the mode, and these."""
+    """The joints that controllers have claimed from the mode, and these controllers."""
 
 
 class HostedRobots:
@@ -46,7 +46,7 @@ class HostedRobots:
     parameters : HostParameters
         Mode, rates, prefix and heartbeat timeout.
     hardware
-        The class of what moves the joints, as package/Class.
+        Class of the hardware component that moves the joints, as package/Class.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class HostedRobots:
         Parameters
         ----------
         parameters : HostParameters
-            The new values; those that are read-only have their effect at the start alone.
+            The new values; read-only ones take effect only at the start.
 
         """
         for robot in self._robots.values():
@@ -103,7 +103,7 @@ class HostedRobots:
             outputs.change(parameters)
 
     def look(self) -> None:
-        """Hear of a stop, before each tick."""
+        """Apply the stop state of each robot. Call before each tick."""
         for inputs in self._inputs.values():
             inputs.look()
 
@@ -126,7 +126,7 @@ class HostedRobots:
             self._obstacles[name].look(walker.is_blocked)
 
     def health(self) -> dict[str, RobotHealth]:
-        """Return how each robot is."""
+        """Return the health of each robot, by name."""
         return {name: self._health_of(name) for name in self._robots}
 
     def _health_of(self, name: str) -> RobotHealth:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How busy the ticks keep the computer."""
+"""Computing load of the ticks."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class LoadReport:
-    """The ticks of some time."""
+    """Load of the ticks in a measurement."""
 
     ticks: int
     mean_ms: float
     worst_ms: float
     share: float
-    """Of the time, how much the ticks took."""
+    """Fraction of the time that the ticks took."""
 
 
 class Load:
@@ -24,7 +24,7 @@ class Load:
     Parameters
     ----------
     now_s
-        Time of a steady clock, from which the measurement counts.
+        Time of a steady clock at the start of the measurement.
 
     """
 

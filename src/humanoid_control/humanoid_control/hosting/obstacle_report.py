@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say in the log that something is in the way of a robot."""
+"""Reports in the log that an obstacle blocks a robot."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ BLOCKED = (
 
 
 class Log(Protocol):
-    """What sentences are told to."""
+    """Logger for the messages."""
 
     def warning(self, message: str) -> object:
         """
@@ -21,14 +21,14 @@ class Log(Protocol):
         Parameters
         ----------
         message
-            What limits the robot, and what to do.
+            Description of the limitation, and what to do.
 
         """
 
 
 class ObstacleReport:
     """
-    Log a warning when a robot becomes blocked.
+    Reporter that logs a warning when a robot becomes blocked.
 
     Parameters
     ----------

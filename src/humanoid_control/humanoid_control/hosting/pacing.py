@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When the next tick is due; all times are those of a clock that nobody sets."""
+"""Pacing of ticks; all times are those of a steady clock."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Protocol
 
 
 class Pace(Protocol):
-    """Says when to let a period pass."""
+    """Pace of a control loop, which schedules its ticks."""
 
     def wait_s(self, now_s: float) -> float:
         """
@@ -27,7 +27,7 @@ class Pace(Protocol):
 
     def ticked(self, now_s: float) -> None:
         """
-        Schedule the next tick after one that was just done.
+        Schedule the next tick after one that has just ended.
 
         Parameters
         ----------
@@ -38,7 +38,7 @@ class Pace(Protocol):
 
     def restart(self, now_s: float) -> None:
         """
-        Schedule the next tick for now, as after a pause: what was missed is not caught up with.
+        Schedule the next tick for now, as after a pause: missed ticks are not caught up.
 
         Parameters
         ----------
@@ -50,17 +50,17 @@ class Pace(Protocol):
 
 class RealTimePace:
     """
-    Pace of one tick per period of real time, with late ticks made up for.
+    Pace of one tick per period of real time, which catches up late ticks.
 
-    What the computer is behind by more than a moment is given up: the robot's time is then late
-    for good, rather than in a hurry. The first tick is due at once.
+    A delay beyond `most_behind_s` is not caught up: the robot's time then lags for good, rather
+    than running fast. The first tick is due at once.
 
     Parameters
     ----------
     period_s
         Real time between two ticks.
     most_behind_s
-        The longest delay that is caught up with.
+        The longest delay that is caught up.
 
     """
 
@@ -89,7 +89,7 @@ class RealTimePace:
         """
         Schedule the next tick one period after the last one was due.
 
-        A delay beyond `most_behind_s` is not caught up with.
+        A delay beyond `most_behind_s` is not caught up.
 
         Parameters
         ----------

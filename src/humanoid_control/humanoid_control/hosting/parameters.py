@@ -16,7 +16,7 @@ _NAMESPACE = re.compile(r'[A-Za-z][A-Za-z0-9_]{0,59}')
 
 @dataclass(frozen=True)
 class HostParameters:
-    """Which robots there are, what they do, and how often they say what."""
+    """The robots, their model, mode and walk, and the control and publishing rates."""
 
     robots: tuple[str, ...] = parameter(
         ('',),

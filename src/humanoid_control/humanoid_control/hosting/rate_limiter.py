@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Do something now and then, in the robot's time."""
+"""Rate limiting in the robot's time."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class RateLimiter:
 
     def is_due(self, now_s: float) -> bool:
         """
-        Whether the next period has come; a call that returns True starts the following one.
+        Check whether the next period is due; a call that returns True starts the following one.
 
-        Periods that were missed are skipped; a clock that was set back starts the schedule anew.
+        Periods that were missed are skipped; a clock that was set back restarts the schedule.
 
         Parameters
         ----------

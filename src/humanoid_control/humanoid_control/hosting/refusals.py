@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why commands are refused: once, not as often as they come."""
+"""Log of rejected commands, without repetition."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ import math
 import time
 
 QUIET_S = 5.0
-"""A reason that was not heard for so long is said anew."""
+"""A message that has not come for this time is logged again."""
 MOST = 10
-"""So many different sentences are said in that time: more are those of a flood."""
+"""Maximum number of different messages that are logged in that time; more are a flood."""
 
 
 class Refusals:
     """
-    Log of rejected commands that repeats no message at short intervals, and limits a flood.
+    Rate-limited log of rejected commands, which repeats no message at short intervals.
 
     Parameters
     ----------
     say
         Logs a message.
     clock
-        Tells the time of a steady clock in s.
+        Returns the time of a steady clock in s.
 
     """
 
@@ -43,7 +43,7 @@ class Refusals:
         Parameters
         ----------
         sentence
-            Why the command is rejected, and what to do.
+            The message: why the command is rejected, and what to do.
 
         """
         now_s = self._clock()
@@ -55,7 +55,7 @@ class Refusals:
             self._say_some(sentence, now_s)
 
     def _say_some(self, sentence: str, now_s: float) -> None:
-        """Say a new sentence, unless there have been many of them in a short while."""
+        """Log a new message, unless many have been logged in a short time."""
         if now_s - self._since_s >= QUIET_S:
             self._since_s, self._count = now_s, 0
         self._count += 1

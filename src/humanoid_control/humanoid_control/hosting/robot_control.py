@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All that decides what one robot does: its mode, those who move its joints, and the stop."""
+"""Control of one robot: its mode, its controllers and the stop."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class RobotControl:
 
     Commands are stored, and obeyed in the next period. While the robot must hold still, it walks
     at velocity zero, every joint that its mode leaves to controllers is held, and commands are
-    not heard.
+    ignored.
 
     Parameters
     ----------
@@ -53,15 +53,15 @@ class RobotControl:
     modes
         The modes, whose controllers claim all joints in that order; the first one is entered.
     drive
-        Called in each period with the velocity at which to walk; None if nothing walks.
+        Called in each period with the velocity at which to walk; None if the robot cannot walk.
     clock
-        Tells the computer's time in s: commands expire when the timeout has passed by it and by
-        the robot's time; without it the robot's time alone counts.
+        Returns the computer's time in s: commands expire when the timeout has passed by it and by
+        the robot's time; without it only the robot's time counts.
     say
         Receives a message when a controller asks for targets that are not finite.
     hold_body
-        Called with the pose in which to hold the body, or with None to keep it as it is bent now;
-        None if nothing bends the body.
+        Called with the body pose to hold, or with None to keep the current one; None if the robot
+        cannot bend its body.
 
     Raises
     ------
@@ -83,12 +83,12 @@ class RobotControl:
         self._hold_body = hold_body
         self._names, self._limits, self._drive = JointNames(joints), limits, drive
         self.still = Still(joints)
-        """Owns the joints while the robot must hold still."""
+        """Claims the joints while the robot must hold still."""
         self._runner = TrajectoryRunner(joints)
         self._follower = Follower(joints, clock=clock)
         self._velocity = VelocityInput(clock=clock)
         self.trajectory_controllers = {each.name: each for each in limb_controllers(joints)}
-        """Those of arms and head, by their names."""
+        """Joint trajectory controllers of arms, head and waist, by name."""
         self.gripper_controllers = {
             each.name: each for each in gripper_controllers(joints, limits)
         }
@@ -96,14 +96,14 @@ class RobotControl:
             **self.trajectory_controllers,
             **self.gripper_controllers,
         }
-        """All that take goals, by their names."""
+        """All controllers that accept goals, by name."""
         limbs = self.controllers.values()
         claimants: list[ClaimingController] = [self.still, *limbs, self._runner, self._follower]
         self.manager = ControllerManager(joints, modes, claimants, limits, say)
 
     @property
     def must_hold(self) -> bool:
-        """Tell whether the robot must hold still."""
+        """Whether the robot must hold still."""
         return self.still.on
 
     def follow(
@@ -116,12 +116,12 @@ class RobotControl:
         """
         Command joints to positions, from the next control period on.
 
-        While the robot must hold still, a sound command is dropped.
+        While the robot must hold still, a valid command is dropped.
 
         Parameters
         ----------
         names
-            The joints, m of them, each once.
+            Names of the m joints, each once.
         positions_rad
             Target positions (m,); in m if prismatic.
         velocities_rad_s, efforts_nm
@@ -131,7 +131,7 @@ class RobotControl:
         Raises
         ------
         CommandError
-            The command is unsound, or the joints belong to the mode or to a controller of higher
+            The command is invalid, or the joints belong to the mode or to a controller of higher
             priority.
 
         """
@@ -144,14 +144,14 @@ class RobotControl:
         """
         Move joints along a trajectory that starts with the next control period.
 
-        While the robot must hold still, a sound trajectory is dropped.
+        While the robot must hold still, a valid trajectory is dropped.
 
         Parameters
         ----------
         names
-            The joints, m of them, each once.
+            Names of the m joints, each once.
         points
-            Where they are to be, and when; each point has m values, in the order of the names.
+            Trajectory points; each has m values, in the order of the names.
 
         Raises
         ------
@@ -167,25 +167,25 @@ class RobotControl:
 
     def checked_goal(self, controller: str, request: TrajectoryRequest) -> TrajectoryGoal:
         """
-        Check a trajectory goal of a controller of arms, head or waist.
+        Validate a trajectory goal of a controller of arms, head or waist.
 
         Parameters
         ----------
         controller
             Name of the controller, one of `trajectory_controllers`.
         request
-            What its client asks for.
+            The goal that its client requests.
 
         Returns
         -------
         TrajectoryGoal
-            The goal, which the controller can be given now.
+            The goal, which the controller can accept now.
 
         Raises
         ------
         CommandError
-            The joints cannot do it, the controller is inactive, the robot must hold still, or the
-            joints belong to the mode or to a controller of higher priority.
+            The joints cannot execute it, the controller is inactive, the robot must hold still, or
+            the joints belong to the mode or to a controller of higher priority.
 
         """
         wanted = self.trajectory_controllers[controller]
@@ -195,7 +195,7 @@ class RobotControl:
 
     def checked_grip(self, controller: str, gap_m: float, most_n: float) -> Grip:
         """
-        Check a goal of a gripper controller.
+        Validate a goal of a gripper controller.
 
         Parameters
         ----------
@@ -204,12 +204,12 @@ class RobotControl:
         gap_m
             Gap between the fingers.
         most_n
-            The greatest force; 0 is all that the drive has.
+            Maximum force; 0 is that of the actuator.
 
         Returns
         -------
         Grip
-            The goal within the limits of the gripper, which the controller can be given now.
+            The goal within the limits of the gripper, which the controller can accept now.
 
         Raises
         ------
@@ -223,7 +223,7 @@ class RobotControl:
         return grip
 
     def _check_free(self, controller: GoalController[Any, Any]) -> None:
-        """Refuse a goal of a controller that cannot have its joints now."""
+        """Check that a controller can claim its joints now."""
         if not controller.is_active:
             raise CommandError(
                 f"'{controller.name}' is inactive. Activate it: ros2 control switch_controllers "
@@ -247,7 +247,7 @@ class RobotControl:
         Raises
         ------
         CommandError
-            The robot does not walk.
+            The robot cannot walk.
 
         """
         if self._drive is None:
@@ -264,7 +264,7 @@ class RobotControl:
         Parameters
         ----------
         pose
-            How the pelvis is to be held; the gait limits what it cannot do.
+            Pose of the pelvis; the gait limits it to what is feasible.
 
         Raises
         ------
@@ -283,7 +283,7 @@ class RobotControl:
         """
         Stop the robot, or release it.
 
-        A stop drops all commands, aborts the goals, and keeps the body as it is bent now.
+        A stop drops all commands, aborts the goals, and keeps the current body pose.
 
         Parameters
         ----------
@@ -301,14 +301,14 @@ class RobotControl:
 
     def update(self, observation: Observation) -> JointTargets:
         """
-        Compute the joint targets of the coming control period; call it once per period.
+        Compute the joint targets for the coming control period. Call once per period.
 
         While the robot must hold still or is leaving its mode, the velocity is zero.
 
         Parameters
         ----------
         observation
-            What the sensors of the robot measured at the start of the period.
+            Sensor values of the robot at the start of the period.
 
         Returns
         -------
@@ -325,12 +325,12 @@ class RobotControl:
         return targets
 
     def reset(self) -> None:
-        """Begin anew with the next observation."""
+        """Drop all commands, and restart from the next observation."""
         self._forget()
         self.manager.reset()
 
     def _end_lost_goals(self) -> None:
-        """End the goals of controllers whose joints somebody else has taken."""
+        """End the goals of controllers whose joints others have taken."""
         trouble = self.manager.trouble
         for controller in self.controllers.values():
             if trouble:
@@ -341,7 +341,7 @@ class RobotControl:
                 controller.abort(f'Its joints were taken by {others}.')
 
     def _forget(self) -> None:
-        """Forget what was commanded."""
+        """Drop all commands."""
         self._velocity.clear()
         self._runner.cancel()
         self._follower.cancel()

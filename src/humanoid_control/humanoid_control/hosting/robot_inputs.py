@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics by which one robot is commanded."""
+"""Command topics of one robot."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from trajectory_msgs.msg import JointTrajectory
 
 class RobotInputs:
     """
-    Subscriptions by which one robot is commanded.
+    Subscriptions to the command topics of one robot.
 
     They are `cmd_vel`, `body_pose`, `joint_commands`, `joint_trajectory` and the topics of a stop.
-    What comes is stored until the next tick, or rejected with the reason in the log.
+    Commands are stored until the next tick, or rejected with the reason in the log.
 
     Parameters
     ----------
@@ -33,14 +33,14 @@ class RobotInputs:
     robot
         Name of the robot, which is its namespace; empty if it is alone.
     control
-        The control of the robot, which is given the commands.
+        The control of the robot, which receives the commands.
     heartbeat_timeout_s
         How long the console in control may be silent before the robot holds still, in real time.
 
     Attributes
     ----------
     stop
-        Knows whether the robot must hold still.
+        Decides whether the robot must hold still.
 
     """
 
@@ -60,7 +60,7 @@ class RobotInputs:
             node.create_subscription(kind, topic(robot, name), take, COMMAND)
 
     def look(self) -> None:
-        """Hold still if the robot must; to be called before each tick."""
+        """Hold the robot still, or release it, by the stop state. Call before each tick."""
         self._control.hold_still(self.stop.must_hold)
 
     def _walk(self, message: Twist) -> None:
@@ -84,7 +84,7 @@ class RobotInputs:
         )
 
     def _attempt(self, name: str, command: Callable[[], None]) -> None:
-        """Pass a command on; say why it is refused."""
+        """Execute a command; log the reason if it is rejected."""
         try:
             command()
         except (CommandError, WalkingError) as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which one robot says how it is."""
+"""State topics of one robot."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from rclpy.node import Node
 
 BLOCKED = 'blocked'
-"""The state of a robot that something is in the way of, whether it steps back or stands."""
+"""Walking state of a robot that an obstacle blocks, whether it steps back or stands."""
 
 
 class RobotOutputs:
     """
-    Publishers of what one robot observes and how it walks, each at its own rate.
+    Publishers of the sensor values and the walk of one robot, each at its own rate.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class RobotOutputs:
     robot
         Its walker and its control.
     parameters : HostParameters
-        Rates of the topics, and what the names of frames begin with.
+        Rates of the topics, and the prefix of the frame names.
 
     """
 
@@ -49,12 +49,12 @@ class RobotOutputs:
 
     def change(self, parameters: HostParameters) -> None:
         """
-        Set the publishing rates; each topic is due at once after it.
+        Set the publishing rates; each topic is then due at once.
 
         Parameters
         ----------
         parameters : HostParameters
-            Their rates in Hz; 0 is never.
+            The rates in Hz; 0 is never.
 
         """
         self._joints_due = RateLimiter(parameters.joint_states_rate_hz)
@@ -87,7 +87,7 @@ class RobotOutputs:
             self._footsteps.publish(now_s, status)
 
     def _publish_state(self) -> None:
-        """Say how the robot walks, or the mode in which it does not."""
+        """Publish the walking state, or the mode if the robot does not walk."""
         mode = self._robot.control.manager.mode
         walker = self._robot.walker
         state = (BLOCKED if walker.is_blocked else walker.phase) if mode == WALKING else mode

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notice that the robots' time passes more slowly than it is to."""
+"""Detection of a real-time factor that stays too low."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PATIENCE_S = 5.0
 
 @dataclass(frozen=True)
 class Speed:
-    """Seconds of the robots' time in a real one: real-time factors."""
+    """Real-time factors: seconds of the robots' time per second of real time."""
 
     reached: float
     wanted: float
@@ -19,26 +19,26 @@ class Speed:
 
     @property
     def is_slow(self) -> bool:
-        """Whether less than 90 % of what is wanted is reached."""
+        """Whether less than 90 % of the wanted factor is reached."""
         return self.reached < SLOW_SHARE * self.wanted
 
 
 class Slowness:
-    """Tells a computer that is too busy from one that was busy for a moment."""
+    """Detector of a computer that stays too busy, which ignores short delays."""
 
     def __init__(self) -> None:
         self._since_s: float | None = None
 
     def complaint(self, speed: Speed | None, now_s: float) -> str:
         """
-        Return what is wrong, or '' if nothing is.
+        Return the message about a computer that is too busy; '' if it is not.
 
         Parameters
         ----------
         speed
-            How fast time passes; None while it is not known, as in a pause.
+            The real-time factors; None while they are not known, as in a pause.
         now_s
-            That of a steady clock.
+            Time of a steady clock.
 
         """
         if speed is None or not speed.is_slow:

@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell the robot's time by a clock that may be set, or stand still."""
+"""Message stamps: the robot's time in that of a clock that may be set or stand still."""
 
 from __future__ import annotations
 
 from typing import Optional
 
 MOST_OFF_S = 0.2
-"""A computer that was busy, or slept, makes the robot's time late for good: the stamps are not."""
+"""Maximum lag of the stamps; the robot's time itself lags for good after a stall or a suspend."""
 
 
 class Stamps:
-    """Turns moments of the robot's time, which are regular, into those of a clock."""
+    """Converter from the robot's time, which is regular, to the time of a clock."""
 
     def __init__(self) -> None:
-        """Begin with the robot's time as it is."""
         self._ahead_s = 0.0
         self._clock_s = 0.0
 
@@ -29,7 +28,7 @@ class Stamps:
         robot_s
             The moment to stamp, in the robot's time.
         clock_s
-            What the clock says now.
+            Current time of the clock.
 
         Returns
         -------

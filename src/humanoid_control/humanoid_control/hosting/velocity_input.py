@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The velocity that somebody wants the robot to walk at, for as long as they say so."""
+"""Velocity command of the walk, with a timeout."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ TIMEOUT_S = 0.5
 
 class VelocityInput:
     """
-    The newest velocity command, which expires unless it is repeated.
+    The latest velocity command, which expires unless it is repeated.
 
     Parameters
     ----------
     timeout_s
         How long a command is in force.
     clock
-        Tells the computer's time in s, by which the timeout must have passed, too; without it the
-        robot's time alone counts.
+        Returns the computer's time in s, by which the timeout must have passed as well; without it
+        only the robot's time counts.
 
     """
 
@@ -29,7 +29,7 @@ class VelocityInput:
 
     def accept(self, velocity: VelocityCommand) -> None:
         """
-        Take a velocity command, and restart the timeout.
+        Accept a velocity command, and restart the timeout.
 
         Parameters
         ----------
@@ -41,12 +41,12 @@ class VelocityInput:
         self._silence.heard()
 
     def clear(self) -> None:
-        """Forget what was wished."""
+        """Clear the velocity command."""
         self._silence.end()
 
     def at(self, now_s: float) -> VelocityCommand:
         """
-        Look up the velocity command in force; zero once the last one has expired.
+        Return the velocity command in force; zero once the last one has expired.
 
         Parameters
         ----------

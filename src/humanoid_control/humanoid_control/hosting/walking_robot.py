@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that walks, ready to be run."""
+"""Walking robot: its walker and its control."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from humanoid_description.robot import Robot
 
 @dataclass(frozen=True, eq=False)
 class WalkingRobotControl:
-    """The walker of a robot, and all that decides what the robot does."""
+    """The walker of a robot, and its control."""
 
     walker: Walker
     control: RobotControl
 
     @property
     def home_rad(self) -> dict[str, float]:
-        """Return the posture in which the robot stands, ready to walk."""
+        """Return the joint positions of a robot that stands ready to walk, by joint name."""
         home_rad = self.walker.robot.spread(self.walker.home.positions_rad)
         return dict(zip(self.walker.robot.joints, home_rad.tolist()))
 
@@ -52,18 +52,18 @@ class WalkingRobotControl:
         robot
             The model from its URDF.
         drives
-            The drives of all joints, in the order of observations and targets.
+            The actuators of all joints, in the order of observations and targets.
         walk
             The parameters of the walk, scaled to the size of the robot.
         clock
             The computer's clock: commands expire when the timeout has passed by it and by the
-            robot's time; by default the robot's time alone counts.
+            robot's time; by default only the robot's time counts.
         say
             Receives a message when a controller asks for targets that are not finite.
         able
             Maps a commanded velocity to what the robot can do, before the limits of the gait.
         imu
-            Errors of the inertial sensor, which make the odometry uncertain.
+            Noise of the IMU, which makes the odometry uncertain.
 
         """
         joints = tuple(drives)

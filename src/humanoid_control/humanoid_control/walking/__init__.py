@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walking on two legs, in numpy alone."""
+"""Bipedal walking control, in pure numpy."""
 
 from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.footsteps import Footstep

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hips of the legs on the ground hold the pelvis upright."""
+"""Attitude control of the pelvis by the hip torques of the stance legs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Attitude:
-    """How the pelvis is turned, and how fast it turns about its own axes."""
+    """Attitude of the pelvis, and its angular velocity in its own axes."""
 
     roll_rad: float
     pitch_rad: float
@@ -34,8 +34,8 @@ def hip_efforts(
     """
     Compute the hip torques that hold the pelvis upright and on its heading.
 
-    A PD law on the attitude for a leg that carries all of the weight: scale it by the share of
-    the load on each leg.
+    A PD law on the attitude for a leg that carries the whole weight: scale the torques by the
+    share of the load on each leg.
 
     Parameters
     ----------

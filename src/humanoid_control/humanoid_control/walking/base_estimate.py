@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the base is: leg odometry."""
+"""Leg odometry: the position and velocity of the base."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _SURE_LOAD = 0.2
-"""A foot that carries this share of the weight surely stands."""
+"""A foot that carries this fraction of the weight certainly stands on the ground."""
 _LEAST_TRUST = 0.02
-"""With less than this the robot is in the air, or falls: then the command has to do."""
+"""Below this total the robot is airborne or falling: the commanded shares are used instead."""
 
 
 @dataclass(frozen=True, eq=False)
 class BaseEstimate:
-    """The origin of the base in the odometry's frame."""
+    """Estimated position and velocity of the origin of the base, in the odom frame."""
 
     position_m: Array
     """(3,)"""

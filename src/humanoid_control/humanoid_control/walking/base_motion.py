@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the pelvis moves."""
+"""Motion of the base."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from humanoid_control.dynamics.frames import Frame, Twist
 
 @dataclass(frozen=True, eq=False)
 class BaseMotion:
-    """Where the base is in the odometry's frame and how it moves, measured or wanted."""
+    """Pose and twist of the base in the odom frame, measured or wanted."""
 
     frame: Frame
     twist: Twist

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a robot that stands holds its pelvis: upright, or bent forward and lower."""
+"""Body pose of a standing robot: upright, or bent and lowered."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from humanoid_control.walking.parameters import WalkParameters
 @dataclass(frozen=True)
 class BodyPose:
     """
-    How the pelvis is held.
+    Body pose: pitch of the pelvis and height of the centre of mass.
 
     Attributes
     ----------
     pitch_rad
-        How far it is bent forward.
+        Pitch of the pelvis, positive when it is bent forward.
     height_m
-        How high the centre of mass is, compared to a robot that stands upright; negative is lower.
+        Height of the centre of mass relative to an upright robot; negative is lower.
 
     """
 
@@ -61,16 +61,16 @@ UPRIGHT = BodyPose()
 
 @dataclass
 class BodyPoseFollower:
-    """Goes from one pose of the body to another, at a rate that the balance can follow."""
+    """Rate limiter for the body pose, so that the balance can follow."""
 
     parameters: WalkParameters
     pose: BodyPose = UPRIGHT
-    """How the pelvis is to be held now."""
+    """Present target of the body pose."""
     pitch_rate_rad_s: float = 0.0
 
     @property
     def is_upright(self) -> bool:
-        """Whether the robot may step."""
+        """Whether the body is upright enough to step."""
         p = self.parameters
         return (
             abs(self.pose.pitch_rad) < p.body_pose.upright_pitch_rad
@@ -100,5 +100,5 @@ class BodyPoseFollower:
 
 
 def _towards(start: float, end: float, most: float) -> float:
-    """Return what is on the way from one number to another, at most so far."""
+    """Move a value towards another by at most `most`."""
     return start + min(max(end - start, -most), most)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Going down softly: the joints give way, towards a posture that protects the robot."""
+"""Compliant fall: the joints yield, towards a posture that protects the robot."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ _ARM_ROLL_RAD = 0.4
 
 class Collapse:
     """
-    A compliant fall that is under way, and the rest after it.
+    Compliant fall in progress, and the limp state after it.
 
-    The servos only pull with a share of their stiffness, since their targets are near to where
-    the joints are; their damping is whole. So the knees give way and the robot sinks. Later the
-    share is zero: the robot lies still, and its joints can be moved by hand.
+    Targets near the measured positions reduce the stiffness of the servos to a fraction; their
+    damping is unchanged. The knees yield, and the robot sinks. Later the fraction is zero: the
+    robot lies still, and its joints can be moved by hand.
 
     Parameters
     ----------
     robot
-        The robot, whose joints give way.
+        The robot, whose joints become compliant.
     parameters : WalkParameters
-        The gait, which has the stiffness of a fall and how long that lasts.
+        Gait parameters, with the stiffness and the duration of a compliant fall.
     time_s
-        Time of the observation at which the fall begins.
+        Time of the observation at which the fall starts.
 
     Raises
     ------
@@ -71,7 +71,7 @@ class Collapse:
 
 
 def _protective_posture(robot: WalkingRobot) -> Array:
-    """Return the posture (n,): crouched, the arms before the body."""
+    """Compute the protective posture (n,): crouched, with the arms in front of the body."""
     posture = np.zeros(len(robot.body.joints))
     for side in SIDES:
         for joint, angle_rad in {**_CROUCHED_RAD, **_ARMS_RAD}.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the centre of mass is, from what the pendulum predicts and what is measured."""
+"""Observer of the centre of mass, with a pendulum model and leg odometry."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from humanoid_control.walking.planar import Point
 @dataclass
 class ComObserver:
     """
-    An observer of the linear inverted pendulum.
+    Observer of the centre of mass with a linear inverted pendulum model.
 
-    It predicts exactly, over any time, with the zero-moment point that was commanded, and then
-    takes over a share of the difference to the measurement that depends on the time passed.
+    It predicts with the commanded zero-moment point, exactly over any time, and then corrects a
+    fraction of the difference from the measurement that depends on the time passed.
     """
 
     pendulum: Pendulum
@@ -59,7 +59,7 @@ def blended(a: Motion, b: Motion, share: float) -> Motion:
     a, b
         The two motions, in the same frame.
     share
-        How far to go from `a` (0) to `b` (1).
+        Interpolation factor, from `a` (0) to `b` (1).
 
     """
     return Motion(

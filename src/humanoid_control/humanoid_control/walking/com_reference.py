@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the centre of mass is to go."""
+"""Reference motion of the centre of mass."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ from humanoid_control.walking.planar import Point
 @dataclass
 class ComReference:
     """
-    The motion of a pendulum over the commanded zero-moment point.
+    Reference motion of the centre of mass: a pendulum over the commanded zero-moment point.
 
-    It leaks to the measured motion: integrated alone it would run away from the robot.
+    It leaks to the measured motion: without that, the integrated motion would diverge from the
+    robot.
     """
 
     pendulum: Pendulum
@@ -56,5 +57,5 @@ class ComReference:
         return self.motion
 
     def _limited(self, distance_m: float) -> float:
-        """Keep a distance from the robot small."""
+        """Clamp a distance from the estimate to `most_distance_m`."""
         return max(-self.most_distance_m, min(self.most_distance_m, distance_m))

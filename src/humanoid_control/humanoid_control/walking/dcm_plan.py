@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The divergent component of motion for a planned way of the zero-moment point, in closed form.
+Divergent component of motion (DCM) for a planned ZMP trajectory, in closed form.
 
 J. Englsberger, C. Ott, A. Albu-Schaeffer, "Three-dimensional bipedal walking control based on
-divergent component of motion", IEEE Transactions on Robotics 31(2), 2015: it is unstable
-forwards and therefore computed backwards, from the place where the robot comes to rest.
+divergent component of motion", IEEE Transactions on Robotics 31(2), 2015: the DCM is unstable
+forwards in time and therefore computed backwards, from the point where the robot comes to rest.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from humanoid_control.walking.planar import Point
 
 @dataclass(frozen=True)
 class ZmpSegment:
-    """A time in which the zero-moment point goes evenly along a line."""
+    """Segment of a ZMP trajectory: uniform motion along a line."""
 
     duration_s: float
     start_m: Point
@@ -28,7 +28,7 @@ class ZmpSegment:
 
 @dataclass(frozen=True)
 class BalanceReference:
-    """Where the divergent component and the zero-moment point should be at a moment."""
+    """Reference of the divergent component of motion and the zero-moment point at a time."""
 
     dcm_m: Point
     zmp_m: Point
@@ -64,7 +64,7 @@ class DcmPlan:
 
     @property
     def segments(self) -> tuple[ZmpSegment, ...]:
-        """Return the segments."""
+        """Return the segments of the ZMP trajectory."""
         return self._segments
 
     @property
@@ -97,7 +97,7 @@ class DcmPlan:
         return BalanceReference(self._segments[-1].end_m, self._segments[-1].end_m)
 
     def _dcm(self, segment: ZmpSegment, time_s: float, dcm_at_end: Point) -> Point:
-        """Return the divergent component at a time within a segment."""
+        """Compute the DCM at a time within a segment."""
         speed = (segment.end_m - segment.start_m) / segment.duration_s
         ahead = speed / self._rate_1_s
         decay = math.exp(-self._rate_1_s * (segment.duration_s - time_s))

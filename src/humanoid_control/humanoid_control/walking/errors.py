@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What goes wrong in walking."""
+"""Exceptions of the walking package."""
 
 
 class WalkingError(ValueError):
-    """Something that nobody can walk with was given; the message says what, and why."""
+    """An input that walking cannot handle; the message states which, and why."""

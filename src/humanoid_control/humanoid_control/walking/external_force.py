@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Estimate what pushes the robot besides the ground.
+External force estimation by a momentum observer.
 
 The momentum of the robot changes by the forces at its feet, which are measured, and by those of
-whatever else it touches, which are not. An observer of the momentum finds the difference without
-differentiating: A. De Luca and R. Mattone, "Actuator failure detection and isolation using
+other contacts, which are not. A momentum observer estimates the difference without
+differentiation: A. De Luca and R. Mattone, "Actuator failure detection and isolation using
 generalized momenta", ICRA 2003, here for the linear momentum in the plane.
 """
 
@@ -18,13 +18,13 @@ from humanoid_control.walking.planar import Point
 
 @dataclass
 class ForceObserver:
-    """A low-pass filter of the horizontal force that acts elsewhere than on the soles."""
+    """Momentum observer of the horizontal external force that does not act on the soles."""
 
     mass_kg: float
     rate_1_s: float
-    """How fast the estimate follows."""
+    """Bandwidth of the estimate."""
     force_n: Point = field(init=False, default=0j)
-    """In the axes of the odometry: against the motion of a robot that walks into something."""
+    """In the axes of the odom frame; against the motion of a robot that walks into an obstacle."""
     _velocity_m_s: Point | None = field(init=False, default=None)
 
     def update(self, velocity_m_s: Point, ground_n: Point, passed_s: float) -> Point:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When nothing keeps the robot from falling any more."""
+"""Fall detection by the tilt and the height of the base."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ from humanoid_control.walking.walking_robot import WalkingRobot
 
 @dataclass(frozen=True)
 class Stance:
-    """How upright the robot is."""
+    """Stance of the robot: tilt and height of the base, and the load on the soles."""
 
     tilt_rad: float
-    """The angle between the base's z axis and the vertical."""
+    """Angle between the z axis of the base and the vertical."""
     tilting_rad_s: float
-    """How fast the base leans more: negative while it rights itself."""
+    """Rate of the tilt; negative while the robot rights itself."""
     height_m: float
-    """Of the base above the lower one of the soles."""
+    """Height of the base above the lower one of the soles."""
     load: float
-    """What the soles carry, as a share of the weight."""
+    """Normal force on the soles, as a fraction of the weight."""
 
     @classmethod
     def of(cls, robot: WalkingRobot, sensed: RobotState) -> Stance:
         """
-        Measure how upright the robot is.
+        Compute the stance from the estimated state of the robot.
 
         Parameters
         ----------
         robot
-            The robot, whose legs name the links of its soles.
+            The robot, with the sole links of its legs.
         sensed
-            What its sensors say at the moment.
+            Estimated state of the robot.
 
         """
         _, _, z = sensed.state.base_rotation.T.tolist()
@@ -54,7 +54,7 @@ class Stance:
 
 @dataclass(frozen=True)
 class FallDetector:
-    """Tells a fall from what the walk survives."""
+    """Fall detector by thresholds of the tilt and the height of the base."""
 
     parameters: WalkParameters
     standing_height_m: float
@@ -68,7 +68,7 @@ class FallDetector:
         Parameters
         ----------
         stance
-            How upright the robot is.
+            Tilt and height of the base.
 
         """
         p = self.parameters
@@ -85,7 +85,7 @@ class FallDetector:
         Parameters
         ----------
         stance
-            How upright the robot is.
+            Tilt and height of the base.
 
         """
         p = self.parameters

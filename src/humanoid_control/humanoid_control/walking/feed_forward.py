@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of the ground in the efforts of the joints."""
+"""Feed-forward joint torques of the ground reaction."""
 
 from __future__ import annotations
 

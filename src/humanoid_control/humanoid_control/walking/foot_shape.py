@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of a foot's sole that may carry load."""
+"""Supporting area of the soles of the feet."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class FootShape:
-    """A rectangle on the sole, and the point under which the load is planned, of a left foot."""
+    """Supporting rectangle and planned load point of a left sole; the right one mirrors it."""
 
     front_m: float
     back_m: float
@@ -45,7 +45,7 @@ class FootShape:
         Raises
         ------
         WalkingError
-            No link of the foot has a collision shape that is no mesh.
+            No link of the foot has a collision shape other than a mesh.
 
         """
         sole = robot.prefix + 'l_sole'
@@ -67,7 +67,7 @@ class FootShape:
 
     @classmethod
     def _within(cls, lowest: Array, highest: Array, parameters: WalkParameters) -> FootShape:
-        """Keep the margins from the edges."""
+        """Build the shape from the extent of the sole, reduced by the margins."""
         return cls(
             float(highest[0]) - parameters.posture.margin_length_m,
             float(lowest[0]) + parameters.posture.margin_length_m,

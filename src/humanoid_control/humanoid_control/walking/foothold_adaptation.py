@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Feet give way to the ground that they stand on."""
+"""Foothold adaptation to the tilt and the height of the ground."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from humanoid_control.walking.terrain import GroundPlane
 
 class FootholdAdaptation:
     """
-    Foothold adaptation: takes over the tilt and the height at which soles come to rest.
+    Foothold adaptation: moves footholds to the tilt and the height at which soles come to rest.
 
-    A sole that lands tilted is turned by the ground until it lies flat. Its target follows what is
-    measured, the faster the more weight it carries: the ankle then has no stiffness against the
-    ground, and the centre of pressure comes from the efforts alone. A sole in the air follows
-    nothing. That of a foot that touched but carries too little is pressed down.
+    A sole that lands tilted is rotated by the ground until it lies flat. Its target follows the
+    measurement, the faster the more weight it carries: the ankle then has no stiffness against the
+    ground, and the joint torques alone determine the centre of pressure. A sole in the air is not
+    adapted. A foot that has touched the ground but carries too little load is pressed down.
 
     Parameters
     ----------
     parameters : WalkParameters
-        The gait, which has the rates of the adaptation and the loads that count.
+        Gait parameters, with the rates and the load thresholds of the adaptation.
 
     """
 
@@ -68,7 +68,7 @@ class FootholdAdaptation:
     def _plane(
         self, side: int, told: GroundPlane, sole: SoleReading, share: float, passed_s: float
     ) -> GroundPlane:
-        """Return the plane in which a sole is to be from now on."""
+        """Compute the adapted ground plane of a foothold."""
         p, height_m = self._parameters, told.height_m
         if share <= 0.0 and sole.load < p.swing.touchdown_load:
             height_m -= p.terrain.press_m_s * passed_s
@@ -76,7 +76,7 @@ class FootholdAdaptation:
         rate_1_s = p.terrain.adapt_early_1_s if early else p.terrain.adapt_1_s
         rate_1_s *= min(1.0, max(0.0, sole.load) / p.terrain.adapt_load)
         turned = 1.0 - math.exp(-rate_1_s * passed_s)
-        # The base is where the feet that carry say; so only the others can be measured from it.
+        # The base is estimated from the loaded feet: only heights of the others can be measured.
         lifted = 1.0 - math.exp(-p.terrain.adapt_height_1_s * (1.0 - share) * passed_s)
         return GroundPlane(
             height_m + lifted * (sole.plane.height_m - height_m),

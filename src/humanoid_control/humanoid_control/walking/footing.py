@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the robot stands on: where its feet are, or were last."""
+"""Footholds, support polygon and load distribution of the feet."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Foothold:
-    """Where a sole stands, and on what."""
+    """Foothold: the pose of a sole on the ground, and the ground plane below it."""
 
     pose: PlanarPose
     plane: GroundPlane = LEVEL
 
     @property
     def sole_m(self) -> Array:
-        """Return where the origin of the sole is, (3,)."""
+        """Return the position (3,) of the origin of the sole."""
         point = self.pose.position_m
         return np.array([point.real, point.imag, self.plane.height_m])
 
 
 class Footing:
     """
-    Footholds of both feet, and what follows from them.
+    Present or last footholds of both feet, with their load points and support polygons.
 
     Parameters
     ----------
     shape
-        The part of a sole that may carry load, and where that is planned.
+        Supporting rectangle of a sole, and its planned load point.
     footholds
-        Of the left and the right foot, in the odom frame.
+        Footholds of the left and the right foot, in the odom frame.
 
     """
 
@@ -50,19 +50,19 @@ class Footing:
         self._polygons: dict[tuple[int, ...], SupportPolygon] = {}
 
     def __getitem__(self, side: int) -> Foothold:
-        """Return where a foot is."""
+        """Return the foothold of a foot."""
         return self._footholds[side]
 
     def put(self, side: int, foothold: Foothold) -> None:
         """
-        Replace the foothold of a foot, as when it has landed.
+        Replace the foothold of a foot, for example after its landing.
 
         Parameters
         ----------
         side
             Side of the foot.
         foothold
-            Where its sole stands, in the odom frame.
+            New foothold, in the odom frame.
 
         """
         self._footholds[side] = foothold
@@ -120,7 +120,7 @@ class Footing:
 
     @property
     def tilt(self) -> Point:
-        """Return the mean tilt of what the feet stand on."""
+        """Return the mean tilt of the ground below the feet."""
         left, right = self._footholds
         return (left.plane.tilt + right.plane.tilt) / 2
 
@@ -145,7 +145,7 @@ class Footing:
 
     @property
     def rest_point(self) -> Point:
-        """Return where the robot's weight rests when it stands on both feet."""
+        """Return the rest point of the load: the middle between the load points of both feet."""
         return (self.load_point(LEFT) + self.load_point(RIGHT)) / 2
 
     def polygon(self, sides: Sequence[int] = SIDES) -> SupportPolygon:
@@ -173,7 +173,7 @@ class Footing:
 
 @dataclass(frozen=True)
 class Loads:
-    """How the feet share the weight, and where the load acts under each."""
+    """Load distribution over the feet, and the centre of pressure under each."""
 
     shares: tuple[float, float]
     points_m: tuple[Point, Point]

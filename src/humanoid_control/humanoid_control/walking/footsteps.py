@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the feet go for a velocity."""
+"""Footstep planning for a velocity command."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from humanoid_control.walking.velocity_command import VelocityCommand
 
 @dataclass(frozen=True)
 class Footstep:
-    """A foot that is planned to stand somewhere."""
+    """Planned footstep: the side of the foot, and the pose of its sole."""
 
     side: int
     pose: PlanarPose
@@ -24,7 +24,7 @@ class Footstep:
 
 @dataclass(frozen=True)
 class FootstepPlanner:
-    """Puts one foot before the other, without crossing them."""
+    """Footstep planner that follows a velocity without crossing the feet."""
 
     parameters: WalkParameters
 
@@ -78,10 +78,10 @@ class FootstepPlanner:
         time_s: float | None = None,
     ) -> PlanarPose:
         """
-        Compute where one step at a velocity moves the middle between the feet.
+        Compute the middle between the feet after one step at a velocity.
 
         Sideways and in turns the foot on the side of the motion covers the distance of two steps,
-        and the other one closes up: so they never cross.
+        and the other one closes up, so that they never cross.
 
         Parameters
         ----------
@@ -164,7 +164,7 @@ class FootstepPlanner:
         self, landing: PlanarPose, support: int, command: VelocityCommand
     ) -> Iterator[Footstep]:
         """
-        Generate the footsteps from the swing foot's landing on, without end.
+        Generate an endless sequence of footsteps that starts with the landing of the swing foot.
 
         Parameters
         ----------

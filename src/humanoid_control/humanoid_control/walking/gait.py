@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The gait: from a velocity and the state of the robot to where its weight and feet go."""
+"""Gait: from a velocity and the state of the robot to references of balance and swing foot."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from humanoid_control.walking.velocity_command import VelocityCommand
 
 @dataclass(frozen=True)
 class GaitOutput:
-    """What the gait wants at a tick."""
+    """Output of the gait in a control period."""
 
     reference: BalanceReference
     zmp_m: Point
-    """The zero-moment point with feedback, within the support polygon."""
+    """Zero-moment point with feedback, within the support polygon."""
     turning: Turning
-    """Where the pelvis is to face."""
+    """Target heading of the pelvis."""
     swing: Swing | None
     sides: tuple[int, ...]
-    """The sides whose feet carry the robot."""
+    """Sides of the feet that carry the robot."""
 
 
 class Gait:
@@ -37,7 +37,7 @@ class Gait:
     Parameters
     ----------
     context
-        What the phases of the gait share; the robot begins standing on its footholds.
+        Context shared by the phases of the gait; the robot starts standing on its footholds.
 
     """
 
@@ -52,12 +52,12 @@ class Gait:
 
     @property
     def footsteps(self) -> Sequence[Footstep]:
-        """Return the steps that are planned."""
+        """Return the planned footsteps."""
         return self._phase.footsteps
 
     @property
     def is_blocked(self) -> bool:
-        """Whether something is in the way of the robot."""
+        """Whether an obstacle is in the way of the robot."""
         return self._context.guard.blockage is not None
 
     def command(self, velocity: VelocityCommand) -> None:
@@ -85,7 +85,7 @@ class Gait:
         -------
         GaitOutput
             References of balance, heading and swing foot in the odom frame, the zero-moment point
-            with feedback of the DCM, and the sides that carry the robot.
+            with feedback of the DCM, and the sides of the feet that carry the robot.
 
         """
         if self._context.heed_obstacles(now, self._phase.leg_in_air(now)):

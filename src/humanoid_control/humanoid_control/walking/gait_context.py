@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all phases of the gait share: its rules, the feet and the velocity."""
+"""Context shared by the phases of the gait: parameters, planners, footholds and velocity."""
 
 from __future__ import annotations
 
@@ -22,55 +22,54 @@ from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 @dataclass(frozen=True)
 class SoleReading:
-    """Where a sole is measured to be, and the weight on it."""
+    """Measured pose and load of a sole."""
 
     pose: PlanarPose
     plane: GroundPlane
     load: float
-    """As a share of the robot's weight."""
+    """Normal force on it, as a fraction of the weight of the robot."""
     drag: Point = 0j
-    """The horizontal force on it, as a share of the robot's weight."""
+    """Horizontal force on it, as a fraction of the weight of the robot."""
 
 
 @dataclass(frozen=True)
 class GaitInput:
-    """What the gait knows of the robot at a tick."""
+    """Estimates and measurements of a control period."""
 
     passed_s: float
-    """The time since the tick before."""
+    """Time since the last control period."""
     dcm_m: Point
     zmp_m: Point
-    """The zero-moment point in use, commanded at the tick before."""
+    """Zero-moment point in use, as commanded in the last control period."""
     soles: tuple[SoleReading, SoleReading]
     error_m: Point = 0j
-    """How far the divergent component was from its reference at the tick before."""
+    """Error of the divergent component of motion in the last control period."""
     force_n: Point = 0j
-    """What pushes the robot elsewhere than at its feet, horizontally."""
+    """Horizontal external force on the robot, other than at its feet."""
     touch: Touch = NOTHING
 
 
 @dataclass
 class GaitContext:
-    """The rules of the gait, the feet, and the velocity: as it is wanted and as it is now."""
+    """Context shared by the phases of the gait: parameters, planners, footholds and velocity."""
 
     parameters: WalkParameters
     pendulum: Pendulum
     footing: Footing
     wanted: VelocityCommand = STANDING
-    """The velocity that was asked for, within the limits of the gait ..."""
+    """Commanded velocity, clamped to the limits of the gait."""
     target: VelocityCommand = STANDING
-    """... what obstacles leave of it ..."""
+    """What obstacles allow of the commanded velocity, or that of a retreat."""
     command: VelocityCommand = STANDING
-    """... and the velocity now."""
+    """Present velocity, which approaches the target."""
     slope: Point = 0j
-    """The tilt of the ground ahead."""
+    """Expected tilt of the ground ahead."""
     planner: FootstepPlanner = field(init=False)
     adjuster: StepAdjuster = field(init=False)
     path: ReferencePath = field(init=False)
     guard: ObstacleGuard = field(init=False)
 
     def __post_init__(self) -> None:
-        """Make what plans with the parameters."""
         self.planner = FootstepPlanner(self.parameters)
         self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
         self.path = ReferencePath(self.planner)
@@ -78,21 +77,21 @@ class GaitContext:
 
     def heed_obstacles(self, now: GaitInput, leg: LegInAir | None) -> bool:
         """
-        Set the target velocity to what obstacles allow of the wanted one, or to a retreat.
+        Set the target velocity to what obstacles allow of the commanded one, or to a retreat.
 
-        At a new obstacle the present velocity becomes zero and the reference path starts anew.
+        At a new obstacle the present velocity becomes zero and the reference path restarts.
 
         Parameters
         ----------
         now
             Estimates and measurements of this control period.
         leg
-            The leg in the air whose contacts count; None if there is none.
+            Swing leg whose contacts count; None without one.
 
         Returns
         -------
         bool
-            Whether a new obstacle was met.
+            Whether a new obstacle was detected.
 
         """
         left, right = (self.planner.middle_beside(self.footing.pose(side), side) for side in SIDES)
@@ -135,7 +134,7 @@ class GaitContext:
 
     @property
     def is_stopping(self) -> bool:
-        """Tell whether the robot stands still as soon as its feet are side by side."""
+        """Whether the robot stops as soon as its feet are side by side."""
         return self.command.is_zero and self.target.is_zero
 
     def plan(self, segments: list[ZmpSegment]) -> DcmPlan:
@@ -157,7 +156,7 @@ class GaitContext:
 
     def footsteps(self, landing: PlanarPose, support: int) -> list[Footstep]:
         """
-        Plan the footsteps from the one that is under way until the robot rests.
+        Plan the footsteps from the one in progress until the robot rests.
 
         Parameters
         ----------
@@ -169,7 +168,7 @@ class GaitContext:
         Returns
         -------
         list of Footstep
-            The step under way and those that follow, at most `preview_steps` altogether.
+            The step in progress and those that follow, at most `preview_steps` in total.
 
         """
         steps: list[Footstep] = []

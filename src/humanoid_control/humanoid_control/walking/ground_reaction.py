@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the ground has to do to the robot."""
+"""Ground reaction force and its centre of pressure."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class GroundReaction:
-    """A force (3,) at a point of the ground, and a torque about the vertical through it."""
+    """Ground reaction: a force (3,) at a point of the ground, and a torque about the vertical."""
 
     force_n: Array
     point_m: Point
@@ -26,7 +26,7 @@ class GroundReaction:
         """
         Compute the ground reaction that is equivalent to a wrench on the base.
 
-        The force acts at the centre of pressure, where the ground exerts no torque but about the
+        The force acts at the centre of pressure, where the ground exerts a torque only about the
         vertical.
 
         Parameters
@@ -52,8 +52,8 @@ class GroundReaction:
         """
         Clamp the reaction to what the feet on the ground can exert.
 
-        The force is kept; its point moves into the support polygon. The torque that is cut turns
-        the robot, but does not move its centre of mass.
+        The force is kept; its point moves into the support polygon. The torque that is missing
+        rotates the robot, but does not move its centre of mass.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the base is turned in the frame of the odometry, from the inertial sensor."""
+"""Orientation of the base in the odom frame, from the IMU."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 class HeadingFrame:
     """
-    Heading of the odom frame, whose x axis points where the base faced first.
+    Heading of the odom frame, whose x axis is the first heading of the base.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class HeadingFrame:
         Parameters
         ----------
         orientation
-            Of the IMU in the world: a quaternion w, x, y, z of any length.
+            Orientation of the IMU in the world: a quaternion w, x, y, z of any norm.
 
         Returns
         -------

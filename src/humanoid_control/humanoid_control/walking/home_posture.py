@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The posture in which the robot stands, ready to walk."""
+"""Standing posture of the robot, ready to walk."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _ROUNDS = 8
-"""How often the feet are put under the centre of mass, which they move by little."""
+"""Iterations that put the feet below the centre of mass, which they shift slightly."""
 
 
 @dataclass(frozen=True, eq=False)
 class HomePosture:
-    """Knees a little bent, feet side by side, their load points under the centre of mass."""
+    """Standing posture: knees slightly bent, load points of the feet below the centre of mass."""
 
     positions_rad: Array
     """(n,)"""
     base_height_m: float
     com_height_m: float
     sole_forward_m: float
-    """Where the soles are before the base."""
+    """Position of the soles ahead of the base."""
 
     @classmethod
     def of(cls, robot: WalkingRobot, parameters: WalkParameters) -> HomePosture:
@@ -39,7 +39,7 @@ class HomePosture:
         Parameters
         ----------
         robot, parameters
-            The robot, and the gait of its size, which has the crouch, the step width and the arms.
+            The robot, and the gait parameters of its size, with crouch, step width and arms.
 
         Raises
         ------
@@ -75,7 +75,7 @@ def _place_legs(
     forward_m: float,
     height_m: float,
 ) -> None:
-    """Put the feet side by side, flat, so far before and below the base."""
+    """Put the feet side by side, flat, at an offset ahead of and below the base."""
     for side, leg in zip(SIDES, robot.legs):
         left_m = outwards(side) * parameters.footsteps.width_m / 2
         sole = Frame(np.array([forward_m, left_m, -height_m]), np.eye(3))
@@ -83,13 +83,13 @@ def _place_legs(
 
 
 def _com(robot: WalkingRobot, positions: Array) -> Array:
-    """Return the centre of mass seen from the base, upright."""
+    """Compute the centre of mass (3,) relative to the upright base."""
     still = np.zeros(len(positions))
     return robot.body.state(np.eye(3), np.zeros(3), positions, still).com_m
 
 
 def _stretched_height(robot: WalkingRobot) -> float:
-    """Return how high the base is on stretched legs."""
+    """Compute the height of the base on stretched legs."""
     still = np.zeros(len(robot.body.joints))
     state = robot.body.state(np.eye(3), np.zeros(3), still, still)
     return -float(state.position_m(robot.legs[0].sole)[2])

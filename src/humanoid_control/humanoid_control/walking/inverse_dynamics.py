@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The efforts of the joints that make up what is planned."""
+"""Inverse dynamics: the joint torques that realise the planned accelerations."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class JointTorques:
-    """What the joints exert, and how the feet share the weight thereby."""
+    """Joint torques, and the load distribution over the feet that results."""
 
     efforts_nm: Array
     """(n,)"""
@@ -37,7 +37,7 @@ class JointTorques:
 
 @dataclass(frozen=True, eq=False)
 class InverseDynamics:
-    """Computes efforts of a robot on its feet."""
+    """Inverse dynamics of a robot that stands on one or both feet."""
 
     robot: WalkingRobot
     parameters: WalkParameters
@@ -54,21 +54,21 @@ class InverseDynamics:
         """
         Compute the joint torques that realise the planned accelerations and hold the pelvis.
 
-        The ground reaction that this needs is cut to what the feet can exert: a centre of pressure
+        The required ground reaction is clamped to what the feet can exert: a centre of pressure
         within the support polygon, and a bounded torque about the vertical.
 
         Parameters
         ----------
         sensed
-            The estimated state of the robot.
+            Estimated state of the robot.
         base_m
             Position (3,) of the base: x and y in the odom frame, z above the level of the ground.
         output
-            The gait now: which feet carry the robot, and where the pelvis is to face.
+            Output of the gait: the feet that carry the robot, and the heading of the pelvis.
         plan
-            The planned accelerations, in the axes of the odom frame.
+            Planned accelerations, in the axes of the odom frame.
         body
-            The pitch at which the pelvis is to be held, and its rate.
+            Target pitch of the pelvis, and its rate.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the joints of a leg accelerate for an acceleration of its sole."""
+"""Joint accelerations of a leg for an acceleration of its sole."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _DAMPING = 0.01
-"""As a share of the leg's length: keeps rates finite where the leg is stretched."""
+"""Fraction of the leg length: keeps accelerations finite where the leg is stretched."""
 _ONE: Array = np.eye(6)
 
 
 @dataclass(frozen=True, eq=False)
 class LegMap:
     """
-    The map from accelerations of sole and base to those of the leg's joints.
+    Map from the accelerations of sole and base to those of the joints of a leg.
 
-    Those of sole and base are (6,): linear, then angular, in the axes of the world.
+    Accelerations of sole and base are (6,): linear, then angular, in the axes of the world.
     """
 
     indices: NDArray[np.intp]
     inverse: Array
     """(6, 6)"""
     carry: Array
-    """(6, 6) how the sole goes with the base"""
+    """(6, 6) map from the acceleration of the base to that of a sole fixed to it"""
     drift: Array
-    """(6,) the acceleration of the sole while base and joints do not accelerate"""
+    """(6,) acceleration bias of the sole: at zero acceleration of base and joints"""
 
     def accelerations(self, sole: Array, base: Array) -> Array:
         """
@@ -62,7 +62,7 @@ def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
     legs
         The legs, in the order of the result.
     state
-        The measured posture and motion of the robot.
+        Measured posture and motion of the robot.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
 
 
 def _leg_map(leg: Leg, state: BodyState, inverse: Array) -> LegMap:
-    """Return the map of a leg."""
+    """Build the acceleration map of a leg."""
     carry = _ONE.copy()
     carry[:3, 3:] = -skew(state.position_m(leg.sole))
     return LegMap(leg.indices, inverse, carry, state.drift(leg.sole))

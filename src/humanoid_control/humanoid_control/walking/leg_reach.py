@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How high the pelvis can be so that the legs reach the ground."""
+"""Height of the base at which the legs reach the ground."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ def reachable_height_m(
     Parameters
     ----------
     base
-        Its pose, in the same frame as the soles.
+        Pose of the base, in the same frame as the soles.
     legs
-        The geometry of the legs on the ground.
+        Geometry of the legs on the ground.
     soles_m
         Positions (3,) of their soles, which are level, one for each leg.
     reach
-        The share of its length to which a leg may be stretched.
+        Fraction of its length to which a leg may be stretched.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stop at what is in the way, step back from it, and go no further that way."""
+"""Obstacle reaction: stop on contact, step back, and block velocities towards the obstacle."""
 
 from __future__ import annotations
 
@@ -13,64 +13,64 @@ from humanoid_control.walking.planar import cross, dot, PlanarPose, Point
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 _ALONG = 0.5
-"""A velocity of which less than this share leads past the obstacle does not lead past it."""
+"""Fraction of a velocity that must lead along the obstacle for the robot to walk past it."""
 _STILL_M_S = 1e-3
 
 
 @dataclass(frozen=True)
 class LegInAir:
-    """A leg that swings."""
+    """Swing leg, and the push on it."""
 
     side: int
     push_nm: Point
-    """What pushes it: where to, and the moment about the hip."""
+    """Direction of the push, and its moment about the hip."""
     foot_m: Point
-    """Where the foot is."""
+    """Position of the foot."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """What the robot feels of things around it, in the axes of the odometry."""
+    """External forces and moments on the robot, in the axes of the odom frame."""
 
     force_n: Point = 0j
-    """The horizontal force on the whole robot, from outside."""
+    """Horizontal external force on the whole robot."""
     arms_nm: Sequence[Point] = ()
-    """What pushes the arms: where to, and the moments about the shoulders."""
+    """Directions of the pushes on the arms, and their moments about the shoulders."""
     leg: LegInAir | None = None
 
 
 @dataclass
 class Blockage:
-    """Something in the way of the robot, and what the robot has done about it."""
+    """Obstacle in the way of the robot, and the state of the retreat from it."""
 
     towards: Point
-    """The direction to it, a unit vector in the plane of the odometry."""
+    """Direction to it, a unit vector in the plane of the odom frame."""
     place_m: Point
-    """Where the robot met it: the middle between its feet, if the front one closed up."""
+    """Where the robot met it: the middle between its feet, with the front one beside the rear."""
     leg: LegInAir | None = None
-    """The leg that met it, if one did: no foot gets any further."""
+    """The leg that met it, if one did: no foot may land beyond that point."""
     elapsed_s: float = 0.0
     retreats: bool = True
     leans: bool = False
-    """Whether the robot's balance is off towards it: steps away from it would make that worse."""
+    """Whether the DCM is off towards it: steps away from it would increase that error."""
     let_go_s: float = 0.0
-    """For how long nobody has wanted to go there."""
+    """Time for which no velocity towards it has been commanded."""
 
 
 @dataclass(frozen=True)
 class _Travel:
-    """How the robot goes."""
+    """Direction of travel of the robot."""
 
     ahead: Point
-    """The direction, a unit vector in the plane of the odometry; zero if it goes nowhere."""
+    """Unit vector in the plane of the odom frame; zero without a linear velocity."""
     aside: float
-    """How much of the velocity is to the side."""
+    """Magnitude of its lateral component in the axes of the robot."""
     moves: bool
-    """Whether it goes or turns."""
+    """Whether the robot moves or turns."""
 
     @classmethod
     def of(cls, going: VelocityCommand, heading_rad: float) -> _Travel:
-        """Return the travel at a velocity."""
+        """Compute the direction of travel for a velocity and a heading."""
         speed = going.linear_m_s
         if abs(speed) < _STILL_M_S:
             return cls(0j, 0.0, abs(going.turn_rad_s) > _STILL_M_S)
@@ -78,14 +78,14 @@ class _Travel:
         return cls(along * cmath.rect(1.0, heading_rad), abs(along.imag), True)
 
     def against(self, push: Point) -> float:
-        """Return the part of a push that is against the motion."""
+        """Compute the component of a push against the direction of travel."""
         return -dot(push, self.ahead)
 
     def towards(self, push: Point) -> Point:
         """
-        Return the direction to what pushes.
+        Estimate the direction to an obstacle from its push.
 
-        Friction turns the push, and what is met is where the robot goes: take the middle.
+        Friction deflects the push, and the obstacle is where the robot goes: take the bisector.
         """
         both = self.ahead - push / abs(push)
         return both / abs(both)
@@ -93,16 +93,17 @@ class _Travel:
 
 class ObstacleGuard:
     """
-    Detect obstacles by the force against the motion, and turn the robot away from them.
+    Obstacle detection by the force against the motion, and retreat from obstacles.
 
-    The force is summed up with a memory that fades: a short push stays below the limit, an
-    obstacle that stays in the way soon exceeds it. Then the robot takes back its velocity, steps
-    back a little, and refuses to go that way until nobody wants it any more, or it is elsewhere.
+    The force is integrated with exponential forgetting: a short push stays below the threshold,
+    an obstacle that stays in the way soon exceeds it. The robot then stops, steps back a little,
+    and rejects velocities in that direction until none is commanded for a while, or until it is
+    elsewhere.
 
     Parameters
     ----------
     parameters : WalkParameters
-        The gait, which has the thresholds of contacts and how far the robot retreats.
+        Gait parameters, with the contact thresholds and the distance of the retreat.
 
     Attributes
     ----------
@@ -134,20 +135,20 @@ class ObstacleGuard:
         Parameters
         ----------
         contact
-            The forces and moments that act on the robot, in the axes of the odom frame.
+            External forces and moments on the robot, in the axes of the odom frame.
         stands
-            Where the robot would stand beside its left and its right foot, in the odom frame.
+            Poses of the robot if it stood beside its left and its right foot, in the odom frame.
         wanted, going
-            The velocity that is asked for, and that at which the robot goes, in its own axes.
+            Commanded velocity, and that at which the robot moves, in its own axes.
         error_m
-            The error of the divergent component of motion (DCM), in the axes of the odom frame.
+            Error of the divergent component of motion (DCM), in the axes of the odom frame.
         passed_s
-            The time since the last control period.
+            Time since the last control period.
 
         Returns
         -------
         bool
-            Whether the robot has just met an obstacle that it did not know.
+            Whether the robot has just met a new obstacle.
 
         """
         p, body = self._parameters, stands[0].halfway(stands[1])
@@ -163,7 +164,7 @@ class ObstacleGuard:
             return False
         self._impulse_ns = 0j
         if self.blockage and self.blockage.retreats and dot(hit, self.blockage.towards) < 0.0:
-            # There is something behind as well: stay between the two.
+            # There is an obstacle behind as well: stay between the two.
             self.blockage.retreats = False
             return True
         place_m = min((stand.position_m for stand in stands), key=lambda at_m: dot(at_m, hit))
@@ -177,7 +178,7 @@ class ObstacleGuard:
         Parameters
         ----------
         foot_m
-            Where the foot is to land, in the plane of the odom frame (m).
+            Planned foothold, in the plane of the odom frame (m).
 
         Returns
         -------
@@ -207,14 +208,14 @@ class ObstacleGuard:
         Parameters
         ----------
         wanted
-            The velocity that is asked for, in the axes of the robot.
+            Commanded velocity, in the axes of the robot.
         heading_rad
-            The yaw of the robot in the odom frame.
+            Yaw of the robot in the odom frame.
 
         Returns
         -------
         VelocityCommand
-            In the axes of the robot; unchanged without an obstacle, or if it leads away from it.
+            Velocity in the axes of the robot; unchanged without an obstacle, or away from it.
 
         """
         blockage = self.blockage
@@ -237,7 +238,7 @@ class ObstacleGuard:
         return replace(wanted, forward_m_s=along.real, left_m_s=along.imag)
 
     def _hits_leg(self, leg: LegInAir | None, travel: _Travel) -> Point | None:
-        """Return the direction to what stops the leg in the air, if anything does."""
+        """Compute the direction to an obstacle that stops the swing leg; None without one."""
         p, aside = self._parameters, travel.aside
         least_nm = (
             1.0 - aside
@@ -249,7 +250,7 @@ class ObstacleGuard:
         return None if known and known.side == leg.side else towards
 
     def _hits_arm(self, arms_nm: Sequence[Point], travel: _Travel) -> Point | None:
-        """Return the direction to what an arm touches, if one does and does not retreat yet."""
+        """Compute the direction to an obstacle that an arm touches; None without a new one."""
         for push_nm in arms_nm:
             against_nm = travel.against(push_nm) if travel.ahead else abs(push_nm)
             if travel.moves and against_nm > self._parameters.obstacles.arm_touch_nm:
@@ -258,12 +259,12 @@ class ObstacleGuard:
         return None
 
     def _retreats_from(self, towards: Point) -> bool:
-        """Tell whether the robot is on its way from something in this direction."""
+        """Check whether the robot is retreating from an obstacle in this direction."""
         blockage = self.blockage
         return blockage is not None and blockage.retreats and dot(towards, blockage.towards) > 0.0
 
     def _hits_body(self, travel: _Travel) -> Point | None:
-        """Return the direction to what has stopped the robot for a while, if anything has."""
+        """Compute the direction to an obstacle that has held up the robot; None without one."""
         least_ns = self._parameters.obstacles.bump_ns
         if not travel.moves or abs(self._impulse_ns) < least_ns:
             return None
@@ -278,11 +279,11 @@ class ObstacleGuard:
         wanted: VelocityCommand,
         passed_s: float,
     ) -> None:
-        """Go on with the retreat, and forget what nobody walks into any more."""
+        """Advance the retreat, and forget an obstacle that the robot no longer approaches."""
         p = self._parameters
         blockage.elapsed_s += passed_s
         ways_m = [stand.position_m - blockage.place_m for stand in stands]
-        # It will stand beside the foot that is farther away.
+        # The robot will stand beside the foot that is farther away.
         left_m = p.obstacles.retreat_m + min(dot(way_m, blockage.towards) for way_m in ways_m)
         if left_m < p.obstacles.retreat_m / 2 or blockage.elapsed_s > p.obstacles.retreat_s:
             blockage.retreats = False

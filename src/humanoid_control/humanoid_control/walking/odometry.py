@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the base is since the walk began, and how sure that is."""
+"""Odometry of the base, and its covariance."""
 
 from __future__ import annotations
 
@@ -11,57 +11,58 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-# What the legs are off by, besides what the inertial sensor says, as measured in
-# simulation by the benchmark odometry_errors.py.
+# Errors of the legs, besides those of the IMU, as measured in simulation by the benchmark
+# odometry_errors.py.
 _SLIP_M2_M = 2e-5
-"""How the variance of x and of y grows with the way."""
+"""Growth of the variance of x and of y with the distance travelled."""
 _RISE_M2_M = 1e-5
-"""How the variance of the height does: each foothold is a little off."""
+"""Growth of the variance of the height with it: each foothold is slightly off."""
 _SCALE = 1e-3
-"""By how much every step is too long or too short: a deviation that stays."""
+"""Standard deviation of the scale of all steps: a constant error."""
 _SMALLEST = 1e-6
 _STEP_M, _STEP_S = 0.02, 0.5
-"""Errors grow in steps of this size: between two of them they change too little to matter."""
+"""Distance and time between propagations of the covariance: it changes too little in between."""
 
 
 @dataclass(frozen=True, eq=False)
 class Odometry:
     """
-    Where the base is, by the legs and the inertial sensor.
+    Odometry of the base from the legs and the IMU, in the odom frame.
 
-    The frame has its origin on the ground where the base was first, and x where it faced.
+    The odom frame has its origin on the ground below the first position of the base, and its x
+    axis along the first heading.
     """
 
     pose: PlanarPose
     height_m: float
     orientation: tuple[float, float, float, float]
-    """Of the base, w, x, y, z."""
+    """Quaternion w, x, y, z of the base."""
     linear_velocity_m_s: Array
     """(3,) in the axes of the base."""
     angular_velocity_rad_s: Array
     """(3,) in the axes of the base."""
     covariance: Array
-    """(6, 6) of x, y, z in m and of the turns about x, y, z in rad, in the odometry's frame."""
+    """(6, 6) of x, y, z in m and of the rotations about x, y, z in rad, in the odom frame."""
 
 
 class Uncertainty:
     """
     Covariance of leg odometry whose heading drifts.
 
-    Dead reckoning: position errors are those of the legs, and those of the way that is taken in
-    the wrong direction while the heading is off. The heading is that of a sensor without a
-    compass, off by a constant rate and by a random walk. First-order propagation of the state x,
-    y, heading, rate of drift and scale of the steps: see Thrun, Burgard and Fox, "Probabilistic
-    Robotics" (2005), chapters 3 and 5. A sensor that takes level ground for a slope makes the
-    robot climb as long as it walks ahead, and sink on the way back: the error of the height goes
-    with the way in the axes of the robot, in which the bias of the sensor stays.
+    Dead reckoning: position errors are those of the legs, and those of travelling with a wrong
+    heading. The heading comes from an IMU without a compass, with a constant drift rate and a
+    random walk. First-order propagation of the state x, y, heading, drift rate and scale of the
+    steps: see Thrun, Burgard and Fox, "Probabilistic Robotics" (2005), chapters 3 and 5. A tilt
+    bias of the IMU makes the robot seem to climb as long as it walks forward, and to descend on
+    the way back: the error of the height is proportional to the displacement in the axes of the
+    robot, in which the bias is constant.
 
     Parameters
     ----------
     imu
-        How far the inertial sensor is off.
+        Errors of the IMU.
     height_m
-        Height of the base above the feet, over which an error of the tilt moves the base.
+        Height of the base above the feet, over which a tilt error displaces the base.
 
     """
 
@@ -78,14 +79,14 @@ class Uncertainty:
         """
         Propagate the covariance to a new pose of the base.
 
-        Small changes are accumulated until they are worth a step of the propagation.
+        Small changes are accumulated until they are worth a propagation.
 
         Parameters
         ----------
         pose
-            Of the base, in the plane of the odom frame (m, rad).
+            Pose of the base, in the plane of the odom frame (m, rad).
         time_s
-            When it was there, by a clock that never goes back.
+            Time of the pose, on a monotonic clock.
 
         """
         if self._last is None:
@@ -98,7 +99,7 @@ class Uncertainty:
             self._last, self._last_s = pose, time_s
 
     def _grow(self, way: Point, passed_s: float) -> None:
-        """Propagate the covariance over a piece of the way (m) that took some time."""
+        """Propagate the covariance over a displacement (m) and a duration."""
         step = np.eye(5)
         step[0, 2], step[1, 2] = -way.imag, way.real
         step[0, 4], step[1, 4] = way.real, way.imag
@@ -111,11 +112,11 @@ class Uncertainty:
 
     @property
     def covariance(self) -> Array:
-        """Return how sure the pose is, a matrix (6, 6) as in `Odometry`."""
+        """Return the covariance of the pose (6, 6), as in `Odometry`."""
         planar, result = (0, 1, 5), np.zeros((6, 6))
         result[np.ix_(planar, planar)] = self._p[:3, :3]
         tilt_rad2 = max(self._imu.tilt_rad**2, _SMALLEST)
-        # A base that leans is not where the legs below it say.
+        # A tilt error displaces the base above the feet.
         result[(0, 1), (0, 1)] += tilt_rad2 * self._height_m**2
         slope_m2 = (self._imu.tilt_bias_rad * abs(self._way_m)) ** 2
         result[(2, 3, 4), (2, 3, 4)] = (self._height_m2 + slope_m2, tilt_rad2, tilt_rad2)

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of the walk, in groups: what a reader tunes together stands together."""
+"""Gait parameters, in groups of parameters that are tuned together."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-from humanoid_common.parameters import parameter
+from humanoid_common.parameters import parameter, ParameterError
 from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
 
 _POWER = 'humanoid_control.power'
-"""Where a field keeps the power of the robot's size with which it grows."""
+"""Metadata key of the power of the robot's size with which a field scales."""
 _MOST_CHANGE = 4.0
-"""How many times as large, or as small, as by default a parameter may be."""
+"""Factor by which a parameter may be above or below its default."""
 
 
 def _growing(power: float, value: float, description: str) -> float:
-    """Declare a parameter that grows with a power of the robot's size."""
+    """Declare a parameter that scales with a power of the robot's size."""
     return parameter(
         value,
         description,
@@ -34,7 +34,7 @@ def _fixed(value: float, description: str) -> float:
 
 
 def _share(value: float, description: str) -> float:
-    """Declare a part of something, above 0 and up to 1."""
+    """Declare a fraction, from 0.01 to 1."""
     return parameter(value, description, at_least=0.01, at_most=1.0, read_only=True)
 
 
@@ -56,7 +56,7 @@ def _rate(value: float, description: str) -> float:
 
 @dataclass(frozen=True)
 class TimingParameters:
-    """When feet are lifted and put down."""
+    """Durations of single and double support."""
 
     swing_s: float = _time(0.36, 'Duration of single support: one foot carries the robot.')
     shift_s: float = _time(0.10, 'Duration of double support, in which the weight shifts.')
@@ -72,13 +72,13 @@ class TimingParameters:
 
     @property
     def step_s(self) -> float:
-        """Return the time from step to step."""
+        """Return the duration of a step: double support, then single support."""
         return self.shift_s + self.swing_s
 
 
 @dataclass(frozen=True)
 class FootstepParameters:
-    """Where feet are put down."""
+    """Limits of footsteps, preview, and tracking of the reference path."""
 
     width_m: float = _length(0.18, 'Lateral distance of the feet.')
     least_width_m: float = _length(0.14, 'Least lateral distance of the feet.')
@@ -115,7 +115,7 @@ class FootstepParameters:
 
 @dataclass(frozen=True)
 class VelocityParameters:
-    """How fast the robot walks, and how fast that changes."""
+    """Limits of the velocity and the acceleration of the gait."""
 
     forward_limit_m_s: float = _speed(0.5, 'Greatest forward velocity.')
     backward_limit_m_s: float = _speed(0.3, 'Greatest backward velocity.')
@@ -130,7 +130,7 @@ class VelocityParameters:
 
     @property
     def limits(self) -> VelocityLimits:
-        """Return the greatest velocities."""
+        """Return the velocity limits."""
         return VelocityLimits(
             self.forward_limit_m_s,
             self.backward_limit_m_s,
@@ -146,7 +146,7 @@ class VelocityParameters:
         Parameters
         ----------
         time_s
-            How long the robot accelerates at its limits.
+            Time for which the robot accelerates at its limits.
 
         Returns
         -------
@@ -163,7 +163,7 @@ class VelocityParameters:
 
 @dataclass(frozen=True)
 class PostureParameters:
-    """How the robot holds itself while it walks."""
+    """Posture of the robot while it stands and walks."""
 
     crouch_m: float = _length(0.05, 'How far the hips are below their height on straight legs.')
     leg_reach: float = _share(
@@ -198,7 +198,7 @@ class PostureParameters:
 
 @dataclass(frozen=True)
 class BodyPoseParameters:
-    """How a robot that stands bends and lowers its body when it is told to."""
+    """Limits and rates of the commanded body pose of a standing robot."""
 
     bend_rad: float = _fixed(0.5, 'Greatest forward pitch.')
     bend_back_rad: float = _fixed(0.1, 'Greatest backward pitch.')
@@ -213,7 +213,7 @@ class BodyPoseParameters:
 
 @dataclass(frozen=True)
 class BalanceParameters:
-    """How errors of the divergent component of motion (DCM) and of the attitude are corrected."""
+    """Feedback control of the divergent component of motion (DCM) and of the attitude."""
 
     dcm_gain: float = _fixed(
         1.6, 'How far the zero-moment point moves, in multiples of the error of the DCM.'
@@ -246,7 +246,7 @@ class BalanceParameters:
 
 @dataclass(frozen=True)
 class StepAdjustmentParameters:
-    """How the place and the time of a landing are adjusted to catch the robot."""
+    """Adjustment of the position and the timing of a landing to catch the robot."""
 
     until_s: float = _time(0.06, 'Time before a landing from which on its place is kept.')
     dead_band_m: float = _length(0.005, 'Adjustment below which the place is kept.')
@@ -265,10 +265,19 @@ class StepAdjustmentParameters:
         0.03, 'By how much the width of a step may be cut before the step is hurried instead.'
     )
 
+    def __post_init__(self) -> None:
+        """Check the rates."""
+        if self.hurry_rates[0] != 1.0 or sorted(set(self.hurry_rates)) != [*self.hurry_rates]:
+            raise ParameterError(
+                f"Parameter 'hurry_rates' is {[*self.hurry_rates]}, but must begin with 1.0 and "
+                'grow from each rate to the next.',
+                'hurry_rates',
+            )
+
 
 @dataclass(frozen=True)
 class SwingParameters:
-    """How a foot moves through the air, and when it counts as landed."""
+    """Swing foot trajectory, and detection of touchdown."""
 
     height_m: float = _length(0.055, 'How high the swing foot is lifted.')
     early_arrival: float = _share(
@@ -311,7 +320,7 @@ class SwingParameters:
 
 @dataclass(frozen=True)
 class TerrainParameters:
-    """How feet and pelvis adapt to ground that is not level."""
+    """Adaptation of feet and pelvis to ground that is not level."""
 
     adapt_early_1_s: float = _rate(
         25.0, 'Rate at which a loaded sole adapts to the tilt of the ground at first.'
@@ -347,7 +356,7 @@ class TerrainParameters:
 
 @dataclass(frozen=True)
 class FallParameters:
-    """When the robot counts as fallen, how it falls, and how it stands up."""
+    """Fall detection, compliant fall, and standing up."""
 
     tilt_rad: float = _fixed(0.6, 'Tilt beyond which the robot falls.')
     foresight_s: float = _time(0.2, 'Time within which a tilt that is reached counts already.')
@@ -367,7 +376,7 @@ class FallParameters:
 
 @dataclass(frozen=True)
 class ObstacleParameters:
-    """How the robot notices what it bumps into, and how it gives way."""
+    """Detection of obstacles by contact, and retreat from them."""
 
     force_rate_1_s: float = _rate(8.0, 'Bandwidth of the estimate of external forces.')
     bump_ns: float = _growing(
@@ -414,7 +423,7 @@ class ObstacleParameters:
 
 @dataclass(frozen=True)
 class JointParameters:
-    """What the walk asks of joints at most."""
+    """Limits of the joint velocities and accelerations that the walk commands."""
 
     velocity_limit_rad_s: float = _rate(12.0, 'Greatest velocity of a joint.')
     acceleration_limit_rad_s2: float = _growing(-1.0, 250.0, 'Greatest acceleration of a joint.')
@@ -423,10 +432,10 @@ class JointParameters:
 @dataclass(frozen=True)
 class WalkParameters:
     """
-    The walk of the robot at scale 1; `scaled` gives that of another size.
+    Gait parameters of the robot at scale 1; `scaled` returns those of another size.
 
-    A robot of scale s is dynamically similar: times grow with sqrt(s), lengths with s, speeds
-    with sqrt(s) (Froude's law; humanoid_description/config/scaling.yaml says more).
+    A robot of scale s is dynamically similar: times scale with sqrt(s), lengths with s, velocities
+    with sqrt(s) (Froude's law; see humanoid_description/config/scaling.yaml for details).
     """
 
     timing: TimingParameters = TimingParameters()
@@ -444,17 +453,17 @@ class WalkParameters:
 
     def scaled(self, scale: float) -> WalkParameters:
         """
-        Scale the gait to a robot of another size (Froude similarity).
+        Scale the gait parameters to a robot of another size (Froude similarity).
 
         Parameters
         ----------
         scale
-            The size of that robot, relative to the one of these parameters.
+            Size of that robot, relative to the one of these parameters.
 
         Returns
         -------
         WalkParameters
-            The gait of that robot; this one stays as it is.
+            Gait parameters of that robot; these are not modified.
 
         Raises
         ------
@@ -469,7 +478,7 @@ class WalkParameters:
 
 
 def _grown(values: Any, scale: float) -> Any:
-    """Scale the fields of a dataclass by their powers, also those of its groups."""
+    """Scale the fields of a dataclass by their powers of the size, including nested groups."""
     changed = {}
     for entry in fields(values):
         value = getattr(values, entry.name)

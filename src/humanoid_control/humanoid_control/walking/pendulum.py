@@ -4,7 +4,7 @@ The linear inverted pendulum: the centre of mass at constant height above the ze
 
 S. Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001, and the divergent component
 of motion of T. Takenaka et al., IROS 2009 (the capture point): with c'' = w^2 (c - p) the point
-xi = c + c'/w runs away from p as exp(w t), while c follows xi by itself.
+xi = c + c'/w diverges from p as exp(w t), while c converges to xi by itself.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ GRAVITY_M_S2 = 9.81
 
 @dataclass(frozen=True)
 class Motion:
-    """Where the centre of mass is above the ground plane, and how it moves there."""
+    """Horizontal position and velocity of the centre of mass."""
 
     position_m: Point = 0j
     velocity_m_s: Point = 0j
@@ -27,13 +27,13 @@ class Motion:
 
 @dataclass(frozen=True)
 class Pendulum:
-    """A pendulum of some height."""
+    """Linear inverted pendulum of constant height."""
 
     height_m: float
 
     @property
     def rate_1_s(self) -> float:
-        """Return w, the rate at which the pendulum falls."""
+        """Return w = sqrt(g / h), the rate at which the pendulum diverges."""
         return math.sqrt(GRAVITY_M_S2 / self.height_m)
 
     def dcm(self, motion: Motion) -> Point:
@@ -55,7 +55,7 @@ class Pendulum:
 
     def after(self, motion: Motion, zmp: Point, time_s: float) -> Motion:
         """
-        Predict the motion of the centre of mass over a zero-moment point that stands still.
+        Predict the motion of the centre of mass over a constant zero-moment point.
 
         The solution is exact, for any time.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The phases of the gait: the robot stands, steps, or comes to rest."""
+"""Phases of the gait: standing, stepping and stopping."""
 
 from __future__ import annotations
 
@@ -17,33 +17,33 @@ from humanoid_control.walking.swing_foot import Swing
 from humanoid_control.walking.turning import Turning
 
 STAND = 'stand'
-"""The name of the phase in which nothing moves."""
+"""Name of the phase in which the robot stands still."""
 _SETTLED_S = 0.3
-"""A robot that just begins to stand does not step against pushes yet."""
+"""Time after which a robot that stands steps to catch pushes."""
 _REST_S = 0.1
-"""How long it waits at the end of coming to rest."""
+"""Additional time at the end of stopping."""
 _RESUMABLE = 0.5
-"""Until which share of coming to rest it may walk on."""
+"""Fraction of the stopping time in which the robot may walk on."""
 
 
 class Phase(Protocol):
-    """A part of the gait."""
+    """Interface of a phase of the gait."""
 
     @property
     def name(self) -> str:
-        """Return what users call it."""
+        """Return the name shown to users."""
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Return the sides whose feet carry the robot."""
+        """Return the sides of the feet that carry the robot."""
 
     @property
     def turning(self) -> Turning:
-        """Return where the pelvis is to face."""
+        """Return the target heading of the pelvis."""
 
     @property
     def footsteps(self) -> Sequence[Footstep]:
-        """Return the steps that are planned."""
+        """Return the planned footsteps."""
 
     def replan(self, now: GaitInput) -> None:
         """
@@ -52,18 +52,18 @@ class Phase(Protocol):
         Parameters
         ----------
         now
-            What the gait knows of the robot at this tick.
+            Estimates and measurements of this control period.
 
         """
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
         """
-        Get the leg that swings freely, and what pushes it.
+        Get the leg that swings freely, and the push on it.
 
         Parameters
         ----------
         now
-            What the gait knows of the robot at this tick.
+            Estimates and measurements of this control period.
 
         Returns
         -------
@@ -79,12 +79,12 @@ class Phase(Protocol):
         Parameters
         ----------
         now
-            What the gait knows of the robot at this tick.
+            Estimates and measurements of this control period.
 
         Returns
         -------
         Phase
-            The phase from now on: this one or one that follows.
+            The present phase: this one or its successor.
 
         """
 
@@ -95,7 +95,7 @@ class Phase(Protocol):
         Parameters
         ----------
         now
-            What the gait knows of the robot at this tick.
+            Estimates and measurements of this control period.
 
         Returns
         -------
@@ -109,13 +109,12 @@ class Phase(Protocol):
 
 
 class _OnBothFeet:
-    """What standing and coming to rest have in common."""
+    """Base class of the phases with both feet on the ground: standing and stopping."""
 
     sides: tuple[int, ...] = SIDES
     footsteps: Sequence[Footstep] = ()
 
     def __init__(self, context: GaitContext) -> None:
-        """Begin now."""
         self._context = context
         self._elapsed_s = 0.0
 
@@ -125,19 +124,19 @@ class _OnBothFeet:
         return Turning(self._context.footing.middle.yaw_rad)
 
     def swing(self) -> Swing | None:
-        """Return that no foot swings."""
+        """Return None: no foot swings."""
         return None
 
     def replan(self, now: GaitInput) -> None:
-        """Do nothing: where the weight goes does not depend on the velocity."""
+        """Do nothing: the ZMP trajectory does not depend on the velocity."""
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
-        """Return nothing: both feet are on the ground."""
+        """Return None: both feet are on the ground."""
         return None
 
 
 class Standing(_OnBothFeet):
-    """The robot stands; it steps for a velocity, or when it is pushed hard."""
+    """Phase in which the robot stands, until a velocity is commanded or it is pushed hard."""
 
     name = STAND
 
@@ -179,38 +178,38 @@ class Standing(_OnBothFeet):
         Parameters
         ----------
         now
-            As for `Phase.reference`; it does not matter here.
+            As for `Phase.reference`; not used here.
 
         """
         rest_point = self._context.footing.rest_point
         return BalanceReference(rest_point, rest_point)
 
     def _first_support(self) -> int:
-        """Return the foot that stays: not that on the side where the robot goes."""
+        """Select the support foot of the first step: opposite to the direction of motion."""
         target = self._context.target
         return RIGHT if (target.left_m_s or target.turn_rad_s) > 0.0 else LEFT
 
     def _off_balance(self, dcm: Point) -> Point:
-        """Return how far the divergent component is from rest, ahead and to the left."""
+        """Compute the offset of the DCM from the rest point, ahead and to the left."""
         feet = self._context.footing
         return PlanarPose(feet.rest_point, feet.middle.yaw_rad).local(dcm)
 
     def _is_pushed(self, off: Point) -> bool:
-        """Tell whether the robot has to step to stay upright."""
+        """Check whether the robot has to step to stay upright."""
         p = self._context.parameters
         return abs(off.real) > p.balance.push_forward_m or abs(off.imag) > p.balance.push_left_m
 
 
 class Stepping:
     """
-    Phase in which one foot swings, after the weight has gone to the other one.
+    Phase in which one foot swings, after the weight has shifted to the other one.
 
     Parameters
     ----------
     step
-        The step that is to be done.
+        The step to execute.
     context
-        What the phases of the gait share.
+        Context shared by the phases of the gait.
 
     """
 
@@ -222,17 +221,17 @@ class Stepping:
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Return the sides whose feet carry the robot."""
+        """Return the sides of the feet that carry the robot."""
         return self._step.sides
 
     @property
     def turning(self) -> Turning:
-        """Return where the pelvis is to face."""
+        """Return the target heading of the pelvis."""
         return self._step.turning
 
     @property
     def footsteps(self) -> Sequence[Footstep]:
-        """Return the steps that are planned."""
+        """Return the planned footsteps."""
         return self._step.footsteps
 
     def replan(self, now: GaitInput) -> None:
@@ -249,12 +248,12 @@ class Stepping:
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
         """
-        Get the leg that swings freely, and what pushes it.
+        Get the leg that swings freely, and the push on it.
 
         Parameters
         ----------
         now
-            As for `Phase.leg_in_air`, which also says what is returned.
+            As for `Phase.leg_in_air`, which also describes the result.
 
         """
         return self._step.leg_in_air(now)
@@ -304,7 +303,7 @@ class Stepping:
         return self._step.swing()
 
     def _may_rest(self) -> bool:
-        """Tell whether the feet stand well and the robot is calm."""
+        """Check whether the feet are side by side and the error of the DCM is small."""
         step, feet = self._step, self._context.footing
         stands_well = self._context.planner.is_parallel(
             feet.pose(step.support), step.support, feet.pose(step.side)
@@ -314,12 +313,12 @@ class Stepping:
 
 class Stopping(_OnBothFeet):
     """
-    Phase in which both feet are down, and the weight goes to the middle between them.
+    Phase in which both feet are down, and the weight shifts to the middle between them.
 
     Parameters
     ----------
     context
-        What the phases of the gait share.
+        Context shared by the phases of the gait.
     last_landed
         Side of the foot that landed last, which carries the robot first if it walks on.
     zmp
@@ -337,7 +336,7 @@ class Stopping(_OnBothFeet):
 
     def advance(self, now: GaitInput) -> Phase:
         """
-        Come to rest, or walk on if a velocity is commanded soon enough.
+        Continue to stop, or walk on if a velocity is commanded soon enough.
 
         Parameters
         ----------
@@ -369,7 +368,7 @@ class Stopping(_OnBothFeet):
         Parameters
         ----------
         now
-            As for `Phase.reference`; it does not matter here.
+            As for `Phase.reference`; not used here.
 
         """
         return self._plan.at(self._elapsed_s)

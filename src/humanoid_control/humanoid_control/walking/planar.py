@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The ground plane, in which most of walking happens.
+Planar geometry: points, vectors and poses in the ground plane.
 
-A point or vector of the plane is a complex number x + iy: the pendulum's equations hold for both
-axes alike, and one line of arithmetic serves them at once. A turn is a factor of length one.
+A point or vector of the plane is a complex number x + iy: the equations of the pendulum are the
+same for both axes, and one expression covers both. A rotation is a factor of magnitude one.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from humanoid_control.dynamics.rotations import wrap_angle
 
 Point = complex
-"""x + iy; the unit is said where it is used."""
+"""x + iy; the unit is stated where it is used."""
 
 
 def dot(a: Point, b: Point) -> float:
@@ -55,9 +55,9 @@ def limited(value: float, lower: float, upper: float) -> float:
     Parameters
     ----------
     value
-        What is clamped.
+        Value to clamp.
     lower, upper
-        The limits; the lower one must not be above the upper one.
+        Limits; the lower one must not be above the upper one.
 
     """
     return lower if value < lower else upper if value > upper else value
@@ -65,7 +65,7 @@ def limited(value: float, lower: float, upper: float) -> float:
 
 @dataclass(frozen=True)
 class PlanarPose:
-    """Where something is on the ground, and which way it faces."""
+    """Pose in the ground plane: position and heading."""
 
     position_m: Point = 0j
     yaw_rad: float = 0.0
@@ -77,7 +77,7 @@ class PlanarPose:
         Parameters
         ----------
         forward_m, left_m
-            How far before and to the left of the pose the point lies.
+            Coordinates of the point, ahead and to the left of the pose.
 
         Returns
         -------
@@ -99,7 +99,7 @@ class PlanarPose:
         Returns
         -------
         Point
-            How far before (real) and to the left (imaginary) of the pose it lies, in m.
+            Coordinates ahead (real) and to the left (imaginary) of the pose, in m.
 
         """
         return self.seen(point - self.position_m)
@@ -116,7 +116,7 @@ class PlanarPose:
         Returns
         -------
         Point
-            How far ahead (real) and to the left (imaginary) it points, in the same unit.
+            Components ahead (real) and to the left (imaginary), in the same unit.
 
         """
         return vector * cmath.rect(1.0, -self.yaw_rad)
@@ -133,7 +133,7 @@ class PlanarPose:
         Returns
         -------
         PlanarPose
-            Its heading halves the shorter turn between the two.
+            Midpoint; its heading halves the shorter turn between the two.
 
         """
         turn_rad = wrap_angle(other.yaw_rad - self.yaw_rad)
@@ -146,7 +146,7 @@ class PlanarPose:
         Parameters
         ----------
         offset_m
-            In the axes of the frame in which the pose is given.
+            Offset in the axes of the frame in which the pose is given.
 
         """
         return PlanarPose(self.position_m + offset_m, self.yaw_rad)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The accelerations of the whole robot that follow from what is planned."""
+"""Whole-body accelerations that realise the planned ones."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class PlannedAcceleration:
-    """What is planned, in the axes of the world."""
+    """Planned accelerations, in the axes of the world."""
 
     com_m_s2: Array
-    """(3,)"""
+    """(3,) of the centre of mass"""
     turn_rad_s2: Array
-    """(3,) of the base"""
+    """(3,) angular, of the base"""
     soles: Sequence[Array]
     """(6,) each, left and right: linear, then angular"""
     joints_rad_s2: Array
@@ -34,25 +34,25 @@ def whole_acceleration(
     """
     Compute the accelerations of root and joints that realise the planned ones.
 
-    The legs follow the soles; the root moves so that the centre of mass, to which the legs in
-    the air add their part, gets its acceleration.
+    The legs follow the soles; the root accelerates so that the centre of mass, including the
+    contribution of the legs, gets its planned acceleration.
 
     Parameters
     ----------
     state
-        The measured posture and motion of the robot.
+        Measured posture and motion of the robot.
     legs
-        The acceleration maps of the legs, left and right.
+        Acceleration maps of the legs, left and right.
     plan
-        What is planned.
+        Planned accelerations.
     limit_rad_s2
-        The greatest acceleration of a joint in the legs; they get no more.
+        Greatest acceleration of a leg joint, to which the results are clamped.
 
     Returns
     -------
     tuple of Array
-        The acceleration of the root (6,), linear in m/s2, then angular in rad/s2, in the axes of
-        the world; and those of the joints (n,) in rad/s2.
+        Acceleration of the root (6,), linear in m/s2, then angular in rad/s2, in the axes of the
+        world; and accelerations of the joints (n,) in rad/s2.
 
     """
     base, joints = np.zeros(6), plan.joints_rad_s2.copy()
@@ -82,7 +82,7 @@ def within(values: Array, limit: float) -> Array:
     values
         An array of any shape.
     limit
-        The greatest magnitude of an entry, in the same unit.
+        Greatest magnitude of an element, in the same unit.
 
     """
     limited: Array = np.minimum(np.maximum(values, -limit), limit)

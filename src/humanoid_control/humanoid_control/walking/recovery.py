@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the robot does from a fall until it stands again."""
+"""Fall recovery: from a fall until the robot stands again."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from humanoid_control.walking.walking_robot import WalkingRobot
 
 class Recovery:
     """
-    Fall recovery: takes over when the robot falls, and gives the robot back when it stands.
+    Fall recovery: takes control when the robot falls, and returns it when the robot stands.
 
-    It cannot get up from the ground by itself. Whoever holds it upright above its feet, by hand,
-    by a hoist or by putting it there, makes it take the posture of standing; when its feet then
+    The robot cannot get up from the ground by itself. When it is held upright above its feet, by
+    hand or by a hoist, or is placed there, it moves to the standing posture; when its feet then
     carry it, it is ready to walk.
 
     Parameters
@@ -25,9 +25,9 @@ class Recovery:
     robot
         The robot.
     home
-        The posture of standing, and the height of the base in it.
+        Standing posture, and the height of the base in it.
     parameters : WalkParameters
-        The gait, which has the limits by which a fall is detected and the durations.
+        Gait parameters, with the thresholds of fall detection and the durations.
 
     """
 
@@ -48,16 +48,16 @@ class Recovery:
         Parameters
         ----------
         time_s
-            The time of the robot's clock.
+            Time of the observation.
         stance
-            How upright the robot is, and what its feet carry.
+            Tilt and height of the base, and the load on the feet.
         positions_rad
-            Of the joints (n,), as measured.
+            Measured joint positions (n,).
 
         Returns
         -------
         JointTargets or None
-            What the joints (n,) are to do; None if the robot stands by itself.
+            Targets of the joints (n,); None if the robot stands by itself.
 
         """
         self._action = self._next(time_s, stance, positions_rad)
@@ -68,7 +68,7 @@ class Recovery:
     def _next(
         self, time_s: float, stance: Stance, positions_rad: Array
     ) -> Collapse | Rising | None:
-        """Return what follows from how upright the robot is."""
+        """Select the next action from the stance of the robot."""
         action = self._action
         if isinstance(action, Collapse):
             if self._detector.can_stand(stance):
@@ -81,5 +81,5 @@ class Recovery:
         return action
 
     def _carries_itself(self, time_s: float, rising: Rising, stance: Stance) -> bool:
-        """Tell whether the robot is ready and its feet carry it."""
+        """Check whether the robot is in the standing posture and its feet carry it."""
         return rising.is_done(time_s) and stance.load > self._parameters.fall.standing_load

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The way that the robot was told to go, from which its steps stray."""
+"""Path tracking: the commanded path, from which the steps deviate."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from humanoid_control.walking.velocity_command import VelocityCommand
 
 class ReferencePath:
     """
-    Path tracking: where the middle between the feet would be if all steps landed as planned.
+    Reference path: the middle between the feet as if all steps landed as planned.
 
-    Steps that land a little off would add up to a drift; so each one is planned from a place
-    between where the robot is and this reference path. The path stays near the robot: a push that
-    moves it farther is not made up for.
+    The errors of landings would add up to a drift; therefore each step is planned from a pose
+    between that of the robot and this path. The path stays near the robot: larger displacements,
+    as by a push, are not corrected.
 
     Parameters
     ----------
     planner
-        Plans the footsteps; its parameters have the gain and the limits of the tracking.
+        Footstep planner; its parameters have the gain and the limits of the tracking.
 
     """
 
@@ -29,7 +29,7 @@ class ReferencePath:
         self._middle: PlanarPose | None = None
 
     def restart(self) -> None:
-        """Forget the way: the next one begins where the robot is."""
+        """Discard the path: the next one starts where the robot is."""
         self._middle = None
 
     def corrected(self, middle: PlanarPose) -> PlanarPose:
@@ -37,7 +37,7 @@ class ReferencePath:
         Correct the start of the next step towards the reference path.
 
         The first call starts the path. It is kept within `path_distance_m` and `path_turn_rad`
-        of the robot, so that large pushes are not made up for.
+        of the robot, so that larger displacements by pushes are not corrected.
 
         Parameters
         ----------

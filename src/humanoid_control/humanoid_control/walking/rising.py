@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From any posture to that in which the robot stands, while somebody holds it upright."""
+"""Joint motion from any posture to the standing one, while the robot is held upright."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 
 class Rising:
     """
-    Minimum-jerk motion of the joints to the posture of standing (Flash and Hogan, 1985).
+    Minimum-jerk motion of the joints to the standing posture (Flash and Hogan, 1985).
 
     Parameters
     ----------
     start_rad, home_rad
-        Joint positions (n,) at the start, as measured, and in the posture of standing.
+        Joint positions (n,) at the start, as measured, and in the standing posture.
     parameters : WalkParameters
-        The gait, which has the duration.
+        Gait parameters, with the duration.
     time_s
         Time of the observation at which the motion starts.
 
@@ -39,7 +39,7 @@ class Rising:
         Parameters
         ----------
         time_s
-            The time now, by the same clock as at the start.
+            Present time, on the same clock as the start.
 
         """
         return time_s - self._start_s >= self._duration_s
@@ -51,12 +51,12 @@ class Rising:
         Parameters
         ----------
         time_s
-            The time now, by the same clock as at the start.
+            Present time, on the same clock as the start.
 
         Returns
         -------
         JointTargets
-            Of the joints (n,), without efforts.
+            Positions and velocities (n,); efforts are zero.
 
         """
         t = min(1.0, (time_s - self._start_s) / self._duration_s)

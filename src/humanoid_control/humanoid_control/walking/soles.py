@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the soles are measured to be."""
+"""Measured poses and loads of the soles."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def soles_below(
     robot, sensed
         The robot, and its estimated state.
     parameters : WalkParameters
-        The gait, which has the steepest tilt that counts as ground.
+        Gait parameters, with the maximum tilt of the ground.
 
     Returns
     -------
@@ -59,23 +59,23 @@ def footing_below(
     """
     Compute the footholds of both feet for a base above a point of level ground.
 
-    The middle between the heights of the soles counts as the level of the ground, zero.
+    The mean height of the soles is taken as the level of the ground, zero.
 
     Parameters
     ----------
     start_m
-        The point below the base, in the plane of the odom frame.
+        Point below the base, in the plane of the odom frame.
     robot, shape
-        The robot, and the part of its soles that may carry load.
+        The robot, and the supporting rectangle of its soles.
     parameters : WalkParameters
-        The gait, which has the steepest tilt that counts as ground.
+        Gait parameters, with the maximum tilt of the ground.
     sensed
-        The estimated state of the robot.
+        Estimated state of the robot.
 
     Returns
     -------
     Footing
-        The feet in the odom frame.
+        Footholds of both feet, in the odom frame.
 
     """
     base_m = np.array([start_m.real, start_m.imag, 0.0])
@@ -93,7 +93,7 @@ def footing_below(
 def _reading(
     side: int, base_m: Array, robot: WalkingRobot, sensed: RobotState, most_tilt_rad: float
 ) -> SoleReading:
-    """Return one of the soles."""
+    """Compute the pose and the load of one sole."""
     sole = robot.legs[side].sole
     x, y, z = (base_m + sensed.state.position_m(sole)).tolist()
     rotation = sensed.state.rotation(sole)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the walk makes of an observation."""
+"""State estimation from observations."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from humanoid_control.walking.walking_robot import WalkingRobot
 
 @dataclass(frozen=True, eq=False)
 class RobotState:
-    """The robot at a moment, its base turned as in the frame of the odometry."""
+    """Estimated state of the robot at a time, with the heading relative to the odom frame."""
 
     time_s: float
     state: BodyState
     attitude: Attitude
     loads: tuple[float, float]
-    """The weight on the soles, as shares of the robot's weight."""
+    """Normal forces on the soles, as fractions of the weight of the robot."""
     drags: tuple[Point, Point]
-    """The horizontal forces of the ground, or of what else they touch, on the soles, likewise."""
+    """Horizontal forces on the soles, of the ground or an obstacle, as fractions of the weight."""
     efforts_nm: Array
-    """(n,) what the drives exert"""
+    """(n,) measured actuator torques"""
     acceleration_m_s2: Array
-    """(3,) of the inertial sensor, in the axes of the odometry, without gravity"""
+    """(3,) acceleration of the IMU without gravity, in the axes of the odom frame"""
 
 
 class StateEstimator:
@@ -43,7 +43,7 @@ class StateEstimator:
     Parameters
     ----------
     robot
-        The robot, with the dynamics of its body and how the inertial sensor sits in it.
+        The robot, with the model of its dynamics and the mounting of its IMU.
 
     """
 
@@ -59,18 +59,17 @@ class StateEstimator:
         Parameters
         ----------
         observation
-            Of the n joints that count for walking, as `WalkingRobot.own` returns it.
+            Observation of the n joints that walking uses, as `WalkingRobot.own` returns it.
 
         Returns
         -------
         RobotState
-            The robot state in the axes of the odom frame: x is the first heading of the base.
+            State in the axes of the odom frame, whose x axis is the first heading of the base.
 
         Raises
         ------
         WalkingError
-            What the joints, the inertial sensor or the feet say has the wrong shape or is not
-            finite.
+            A measurement of the joints, the IMU or the feet has the wrong shape or is not finite.
 
         """
         _check('angular_velocity_rad_s', observation.angular_velocity_rad_s, (3,))
@@ -98,14 +97,14 @@ class StateEstimator:
         )
 
     def _acceleration(self, rotation: Array, observation: Observation) -> Array:
-        """Return the acceleration (3,) of the inertial sensor; it measures gravity as well."""
+        """Compute the acceleration (3,) of the IMU in the odom frame, with gravity removed."""
         specific = self._robot.imu_in_base @ observation.linear_acceleration_m_s2
         acceleration: Array = rotation @ specific
         acceleration[2] -= GRAVITY_M_S2
         return acceleration
 
     def _drags(self, state: BodyState, forces_n: Array) -> tuple[Point, Point]:
-        """Return the horizontal parts of forces (2, 3), which are in the axes of the soles."""
+        """Compute the horizontal parts of forces (2, 3) on the soles, given in their axes."""
         left, right = (
             state.rotation(leg.sole) @ force / self._weight_n
             for leg, force in zip(self._robot.legs, forces_n)
@@ -114,7 +113,7 @@ class StateEstimator:
 
 
 def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
-    """Reject a wrong shape and what is not finite."""
+    """Reject a wrong shape or non-finite values."""
     if values.shape != shape:
         raise WalkingError(f'{name} has the shape {values.shape}, but {shape} is needed.')
     # The sum is finite only if all are.

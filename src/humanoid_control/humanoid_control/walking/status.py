@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the walk tells others."""
+"""Status of the walk."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from humanoid_control.walking.planar import PlanarPose, Point
 
 @dataclass(frozen=True, eq=False)
 class WalkStatus:
-    """The walk at a moment; points are on the ground in the frame of the odometry."""
+    """Status of the walk at a time; points are in the ground plane of the odom frame."""
 
     phase: str
     """'stand', 'walk', 'stop', 'fallen' or 'stand_up'."""
     support: tuple[int, ...]
-    """The sides whose feet carry the robot: 0 left, 1 right; none while it is down."""
+    """Sides of the feet that carry the robot: 0 left, 1 right; empty while it is down."""
     feet: tuple[PlanarPose, PlanarPose]
-    """Where the soles stand, or stood last."""
+    """Present or last footholds, left and right."""
     footsteps: Sequence[Footstep]
-    """The landings that are planned, the next one first."""
+    """Planned landings, the next one first."""
     odometry: Odometry
     dcm_m: Point
     dcm_reference_m: Point
     zmp_m: Point
-    """The zero-moment point that is commanded."""
+    """Commanded zero-moment point."""
     zmp_reference_m: Point

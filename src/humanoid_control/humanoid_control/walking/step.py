@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A step: the weight goes to one foot, and the other one swings to where it lands."""
+"""A step: the weight shifts to one foot, and the other one swings to its landing."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from humanoid_control.walking.terrain import GroundPlane
 from humanoid_control.walking.turning import smooth_turn, Turning
 
 _INSTANT_S = 1e-4
-"""The plan is asked for a moment before the end of a step until the foot has landed."""
+"""Until the foot has landed, the plan is evaluated no later than this before the step ends."""
 
 
 class Step:
     """
-    The step that is under way, with a clock that may run faster to catch the robot.
+    The step in progress, with a clock that may run faster to catch the robot.
 
     Parameters
     ----------
     context
-        What the phases of the gait share.
+        Context shared by the phases of the gait.
     support
         Side of the foot that carries the robot; the other one swings.
     shift_s
-        How long the weight takes to the support foot, with both feet on the ground.
+        Duration of double support, in which the weight shifts to the support foot.
     zmp
         Zero-moment point in use at the start (m), in the odom frame.
 
@@ -41,7 +41,7 @@ class Step:
     landing
         Pose at which the swing foot lands, in the odom frame.
     elapsed_s, rate
-        Time of the step's own clock, and how many times as fast as real it runs.
+        Time on the clock of the step, and the rate of that clock relative to real time.
     error_m
         Distance of the divergent component of motion from its reference.
 
@@ -76,7 +76,7 @@ class Step:
 
     @property
     def end_s(self) -> float:
-        """Return the time at which the foot lands by plan."""
+        """Return the planned time of the landing, on the clock of the step."""
         return self._shift_s + self._context.parameters.timing.swing_s
 
     @property
@@ -85,35 +85,35 @@ class Step:
 
     @property
     def duration_s(self) -> float:
-        """Return how long it has taken in fact, apart from a longer or shorter begin."""
+        """Return the actual duration, with the weight shift counted at its regular duration."""
         return self._real_s + self._context.parameters.timing.shift_s - self._shift_s
 
     @property
     def swing_phase(self) -> float:
-        """Return which share of the swing has passed: 0 on both feet, above 1 if it is late."""
+        """Return the phase of the swing: 0 in double support, 1 at its end, above 1 if late."""
         return max(0.0, self.elapsed_s - self._shift_s) / self._context.parameters.timing.swing_s
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Return the sides whose feet carry the robot."""
+        """Return the sides of the feet that carry the robot."""
         return SIDES if self.elapsed_s < self._shift_s else (self.support,)
 
     @property
     def footsteps(self) -> list[Footstep]:
-        """Return the steps that are planned, this one first."""
+        """Return the planned footsteps, this one first."""
         return self._context.footsteps(self.landing, self.support)
 
     def advance(self, passed_s: float) -> None:
         """
         Advance the clock of the step by one control period.
 
-        While control was interrupted, the swing foot got no targets. It must not catch up in
-        haste: the step waits for it.
+        During a gap in control the swing foot received no targets. It must not rush to catch up:
+        the step waits for it.
 
         Parameters
         ----------
         passed_s
-            The time since the last control period.
+            Time since the last control period.
 
         """
         p, before_s = self._context.parameters, self.elapsed_s
@@ -140,14 +140,14 @@ class Step:
             return
         blockage = self._context.guard.blockage
         if blockage and blockage.leg is not None:
-            # It is not where it was to be.
+            # The foot is not where it was planned to be.
             self._foot = SwingFoot(now.soles[self.side].pose)
         self._planned_for = self._context.is_stopping
         self._nominal = self.landing = self._in_time(self._next_landing())
         self._nominal_plan = self._plan = self._planned(self._nominal)
 
     def _in_time(self, landing: PlanarPose) -> PlanarPose:
-        """Return a landing that the foot reaches without haste: haste throws the robot over."""
+        """Limit a landing to what the foot can reach in time: a faster swing topples the robot."""
         if self.swing_phase <= 0.0:
             return landing
         start_m = self._foot.pose.position_m
@@ -159,7 +159,7 @@ class Step:
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
         """
-        Get the leg that swings, if only an obstacle can push it now.
+        Get the swing leg, if only an obstacle can push it now.
 
         Parameters
         ----------
@@ -184,13 +184,13 @@ class Step:
         """
         Detect the touchdown of the swing foot, early or late, and the loss of that contact.
 
-        The foot stays where it touches the ground until the step ends. What gives way under it, or
-        was only grazed, was not the ground: the foot goes on.
+        The foot stays where it touches the ground until the step ends. A contact that is lost was
+        not the ground: it gave way, or the foot only grazed it, and the swing resumes.
 
         Parameters
         ----------
         now
-            What the gait knows of the robot at this tick.
+            Estimates and measurements of this control period.
 
         """
         sole = now.soles[self.side]
@@ -206,7 +206,7 @@ class Step:
         self._context.footing.put(self.side, Foothold(sole.pose, plane))
 
     def _notice_loss(self, sole: SoleReading, passed_s: float) -> None:
-        """Let the foot swing on if it no longer touches anything before it should have landed."""
+        """Resume the swing if the foot loses contact before its planned landing."""
         p = self._context.parameters
         bears = sole.load > p.swing.lost_load or self.swing_phase > 1.0
         self._lost_s = 0.0 if bears else self._lost_s + passed_s
@@ -221,12 +221,12 @@ class Step:
 
     def has_landed(self, now: GaitInput) -> bool:
         """
-        Check whether the foot can take the weight, or should have long ago.
+        Check whether the foot can take the weight, or its landing is overdue.
 
         Parameters
         ----------
         now
-            What the gait knows of the robot at this tick.
+            Estimates and measurements of this control period.
 
         """
         p, phase = self._context.parameters, self.swing_phase
@@ -240,7 +240,7 @@ class Step:
         Parameters
         ----------
         now
-            As for `Phase.reference`, which also says what is returned.
+            As for `Phase.reference`, which also describes the result.
 
         """
         self._replan_if_stopping_changed()
@@ -253,7 +253,7 @@ class Step:
 
     @property
     def turning(self) -> Turning:
-        """Return the mean heading of the feet on its way from lift-off to landing."""
+        """Return the mean heading of the feet, interpolated from lift-off to landing."""
         support = self._context.footing.pose(self.support)
         before, after = support.halfway(self._lift_off), support.halfway(self.landing)
         turning = smooth_turn(before.yaw_rad, after.yaw_rad, self.elapsed_s, self.end_s)
@@ -286,13 +286,13 @@ class Step:
 
     @property
     def _arrival_s(self) -> float:
-        """How long it takes the foot to be above its landing."""
+        """Return the time until the foot is above its landing."""
         p, in_air_s = self._context.parameters, self.elapsed_s - self._shift_s
         return (p.swing.early_arrival * p.timing.swing_s - in_air_s) / self.rate
 
     @property
     def _rise_m(self) -> float:
-        """Return how much higher the ground is expected at the landing than at the lift-off."""
+        """Return the expected height of the ground at the landing above that at the lift-off."""
         footing, slope = self._context.footing, self._context.slope
         way_m = self.landing.position_m - footing.pose(self.support).position_m
         landing_m = footing[self.support].plane.height_beside(way_m, slope)
@@ -300,19 +300,19 @@ class Step:
 
     @property
     def _is_late(self) -> bool:
-        """Tell whether the foot should have landed long ago."""
+        """Whether the landing is overdue."""
         return self.elapsed_s > self.end_s + self._context.parameters.swing.late_touchdown_s
 
     def _touches(self, sole: SoleReading) -> bool:
-        """Tell whether the foot meets the ground while it goes down."""
+        """Detect contact of the descending foot with the ground."""
         p, phase = self._context.parameters, self.swing_phase
         enough = p.swing.touch_load if phase > p.swing.gentle_phase else p.swing.touchdown_load
-        # Friction on the front of an obstacle is no ground.
+        # Friction on the front of an obstacle is not ground contact.
         is_below = abs(sole.drag) < sole.load
         return phase > p.swing.touchdown_phase and sole.load > enough and is_below
 
     def _next_landing(self) -> PlanarPose:
-        """Return where the foot lands by plan, on the reference path unless it stops."""
+        """Plan the landing of the foot, corrected to the reference path unless the robot stops."""
         planner, support = self._context.planner, self._context.footing.pose(self.support)
         start = planner.middle_beside(support, self.support)
         if not self._context.is_stopping:
@@ -322,21 +322,21 @@ class Step:
         return PlanarPose(self._context.guard.kept_off(landing.position_m), landing.yaw_rad)
 
     def _planned(self, landing: PlanarPose) -> DcmPlan:
-        """Return the plan from the begin of the step to rest for a landing."""
+        """Plan the DCM from the start of the step until the robot rests, for a landing."""
         steps = self._context.footsteps(landing, self.support)
         return self._context.plan(
             self._context.step_segments(self.support, steps, self._start_m, self._shift_s)
         )
 
     def _replan_if_stopping_changed(self) -> None:
-        """Plan the rest of the way anew when it has become the last step, or no longer is."""
+        """Replan the DCM when the robot has started to stop, or no longer stops."""
         if self._context.is_stopping != self._planned_for:
             self._planned_for = self._context.is_stopping
             self._nominal_plan = self._planned(self._nominal)
             self._plan = self._planned(self.landing)
 
     def _adjust(self, now: GaitInput, time_s: float) -> None:
-        """Move and hurry the landing as far as the robot needs it."""
+        """Adjust the position and the timing of the landing to the error of the DCM."""
         support = self._context.footing.pose(self.support)
         residual = Residual.of(
             self._nominal_plan.at(time_s),

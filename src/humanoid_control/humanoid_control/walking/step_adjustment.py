@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Where and when a step has to land to catch the robot.
+Step adjustment: the position and the timing of a landing that catches the robot.
 
-What the feet on the ground cannot take out of the error of the divergent component grows until
-the end of the step, and the landing has to move as far (the capture point). If that is out of
-reach, the step is hurried: the error grows for a shorter time. After M. Khadiv et al., "Walking
-control based on step timing adaptation", IEEE Transactions on Robotics 36(3), 2020.
+The error of the divergent component of motion (DCM) that the feet on the ground cannot correct
+grows until the end of the step, and the landing has to move by as much (the capture point). If
+that is out of reach, the step is hurried: the error grows for a shorter time. After M. Khadiv et
+al., "Walking control based on step timing adaptation", IEEE Transactions on Robotics 36(3), 2020.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _UNTOUCHED_M = 1e-6
 
 @dataclass(frozen=True)
 class Adjustment:
-    """A landing, and how much faster than planned the step goes."""
+    """Adjusted landing, and the rate of the step relative to the plan."""
 
     landing: PlanarPose
     rate: float
@@ -33,14 +33,14 @@ class Adjustment:
 
 @dataclass(frozen=True)
 class StepAdjuster:
-    """Moves and hurries landings."""
+    """Adjusts the position and the timing of landings to the error of the DCM."""
 
     planner: FootstepPlanner
     rate_1_s: float
 
     @property
     def parameters(self) -> WalkParameters:
-        """Return the gait."""
+        """Return the gait parameters."""
         return self.planner.parameters
 
     def adjusted(
@@ -53,26 +53,26 @@ class StepAdjuster:
         rate: float,
     ) -> Adjustment:
         """
-        Adjust where and when a step lands so that it catches the robot.
+        Adjust the position and the timing of a landing so that the step catches the robot.
 
         Parameters
         ----------
         nominal
-            Where the foot lands by plan, in the odom frame.
+            Planned pose of the landing, in the odom frame.
         support, side
-            The pose of the foot that carries the robot, in the odom frame, and its side.
+            Pose of the foot that carries the robot, in the odom frame, and its side.
         residual
-            The error of the DCM, and what the ZMP does against it.
+            Error of the DCM, and the shift of the ZMP that counters it.
         remaining_s
-            The time to the end of the step, as planned.
+            Time to the planned end of the step, on its own clock.
         rate
-            How many times faster than planned the step runs already; it is never slowed down.
+            Present rate of the step relative to the plan; it is never reduced.
 
         Returns
         -------
         Adjustment
-            The landing in the odom frame, within reach and with the planned heading, and the rate
-            of the step.
+            Landing in the odom frame, within reach and with the planned heading, and the rate of
+            the step.
 
         """
         for rate in (r for r in self.parameters.step_adjustment.hurry_rates if r >= rate):
@@ -86,7 +86,7 @@ class StepAdjuster:
         return Adjustment(landing, rate)
 
     def _is_near(self, wanted: Point, reached: Point) -> bool:
-        """Tell whether little had to be cut."""
+        """Check whether the reachable landing is close enough to the wanted one."""
         cut, p = wanted - reached, self.parameters
         return (
             abs(cut.real) < p.step_adjustment.unreachable_length_m
@@ -94,21 +94,21 @@ class StepAdjuster:
         )
 
     def _calls_for_hurry(self, residual: Residual) -> bool:
-        """Tell whether the robot is so far off that a step may be hurried."""
+        """Check whether the error of the DCM is so large that a step may be hurried."""
         return abs(residual.error_m) >= self.parameters.step_adjustment.hurry_error_m
 
 
 @dataclass(frozen=True)
 class Residual:
-    """The error of the divergent component, and what the zero-moment point does against it."""
+    """Error of the DCM and the ZMP shift that counters it, in the axes of the support foot."""
 
     error_m: Point
     wanted_m: Point
-    """The shift of the zero-moment point that feedback asks for; all seen from the support."""
+    """Shift of the zero-moment point that feedback asks for."""
     shift_m: Point
-    """The shift that the feet on the ground allow."""
+    """Shift that the feet on the ground allow."""
     yaw_rad: float
-    """How the support is turned."""
+    """Heading of the support foot."""
 
     @classmethod
     def of(
@@ -120,20 +120,20 @@ class Residual:
         support: PlanarPose,
     ) -> Residual:
         """
-        Compute the error of the DCM, and the shift of the ZMP against it.
+        Compute the error of the DCM, and the shift of the ZMP that counters it.
 
         Parameters
         ----------
         reference
-            Where DCM and ZMP should be, in the plane of the odom frame (m).
+            Reference of DCM and ZMP, in the plane of the odom frame (m).
         dcm
-            The divergent component of motion, in the same plane (m).
+            Divergent component of motion, in the same plane (m).
         gain
-            How far the ZMP goes for each metre of the error.
+            Shift of the ZMP for each metre of the error.
         polygon
-            Where the feet on the ground allow the ZMP to be.
+            Support polygon of the feet on the ground, which limits the ZMP.
         support
-            The pose of the foot that carries the robot, in the odom frame.
+            Pose of the foot that carries the robot, in the odom frame.
 
         Returns
         -------
@@ -153,9 +153,9 @@ class Residual:
         Parameters
         ----------
         growth
-            The factor by which an error that nothing counters grows until the landing.
+            Factor by which an uncorrected error grows until the landing.
         parameters : WalkParameters
-            The gait, which has the dead band.
+            Gait parameters, with the dead band.
 
         Returns
         -------
@@ -173,7 +173,7 @@ class Residual:
 
 
 def _beyond(left: float, wanted: float, shift: float, dead_band: float) -> float:
-    """Return what an axis leaves to the landing: nothing while the feet do all that is wanted."""
+    """Compute the error that an axis leaves to the landing; zero while the ZMP suffices."""
     if abs(wanted) <= abs(shift) + _UNTOUCHED_M:
         return 0.0
     return math.copysign(max(0.0, abs(left) - dead_band), left)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The area in which the ground can carry the robot."""
+"""Support polygon of the feet on the ground."""
 
 from __future__ import annotations
 
@@ -75,6 +75,6 @@ class SupportPolygon:
 
 
 def _on_edge(start: Point, edge: Point, point: Point) -> Point:
-    """Return the point of an edge that is closest to a point."""
+    """Project a point onto an edge."""
     share = dot(point - start, edge) / dot(edge, edge)
     return start + limited(share, 0.0, 1.0) * edge

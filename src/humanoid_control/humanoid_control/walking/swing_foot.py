@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The way of the foot through the air."""
+"""Swing foot trajectory."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SoleMotion:
-    """Where a sole is to be, and how it is to move."""
+    """Target pose of a sole, with its velocity and acceleration."""
 
     pose: PlanarPose
     plane: GroundPlane = LEVEL
@@ -30,14 +30,14 @@ class SoleMotion:
 
     @property
     def acceleration(self) -> Array:
-        """Return how it accelerates, (6,): linear in m/s2, then angular in rad/s2."""
+        """Return the acceleration: linear in m/s2, then angular in rad/s2 (6,)."""
         along = self.acceleration_m_s2
         return np.array([along.real, along.imag, self.climb_m_s2, 0.0, 0.0, self.turn_rad_s2])
 
 
 @dataclass(frozen=True)
 class Swing:
-    """The sole that is in the air."""
+    """Target of the swing foot."""
 
     side: int
     sole: SoleMotion
@@ -46,10 +46,10 @@ class Swing:
 @dataclass
 class SwingFoot:
     """
-    A foot on its way to a landing that may move.
+    Horizontal swing foot trajectory to a landing that may move.
 
-    From where it is and how it moves it follows the polynomial of fifth order that is at rest
-    above the landing at the time of arrival, planned anew at every tick.
+    In every control period it is replanned from the present position, velocity and acceleration:
+    a fifth-order polynomial that comes to rest above the landing at the time of arrival.
     """
 
     pose: PlanarPose
@@ -65,11 +65,11 @@ class SwingFoot:
         Parameters
         ----------
         landing
-            Where the foot is to land, in the odom frame; it may change from call to call.
+            Target pose of the landing, in the odom frame; it may change from call to call.
         remaining_s
-            The time from the start of the control period to the arrival above the landing.
+            Time from the start of the control period to the arrival above the landing.
         passed_s
-            The length of the control period.
+            Duration of the control period.
 
         """
         if remaining_s <= passed_s:
@@ -91,13 +91,13 @@ class SwingFoot:
 
 @dataclass(frozen=True)
 class Lift:
-    """How a foot goes up and down: it leaves and lands gently, and reaches for late ground."""
+    """Vertical swing foot trajectory: gentle lift-off and landing, then down to late ground."""
 
     height_m: float
     duration_s: float
     reach_m_s: float
     deepest_m: float = math.inf
-    """How far below where the ground was expected the foot reaches."""
+    """Greatest depth below the expected ground to which the foot reaches."""
 
     def at(self, time_s: float, rise_m: float = 0.0) -> tuple[float, float, float]:
         """
@@ -106,9 +106,9 @@ class Lift:
         Parameters
         ----------
         time_s
-            The time since lift-off.
+            Time since lift-off.
         rise_m
-            How much higher the landing is expected than the lift-off.
+            Expected height of the landing above the lift-off.
 
         Returns
         -------
@@ -136,7 +136,7 @@ class Lift:
 def _quintic(
     start: tuple[Point, Point, Point], duration: float, time: float
 ) -> tuple[Point, Point, Point]:
-    """Return way, velocity and acceleration of the polynomial that ends at rest after a way."""
+    """Evaluate displacement, velocity and acceleration of a quintic that ends at rest."""
     way, velocity, acceleration = start
     # In units of the duration.
     v, a, u = velocity * duration, acceleration * duration**2, time / duration

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of the ground: a piece of it under each foot, and what lies ahead."""
+"""Ground model: planes below the feet, the ground level, and the drift of the height."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class GroundPlane:
-    """A plane piece of ground, or a sole on it."""
+    """Ground plane below a foot, or the plane of a sole."""
 
     height_m: float = 0.0
-    """Of the origin of the sole that stands on it."""
+    """Height of the origin of a sole that stands on it."""
     tilt: Point = 0j
-    """The horizontal part of its unit normal: where water would run."""
+    """Horizontal part of its unit normal, which points downhill."""
 
     def rotation(self, yaw_rad: float) -> Array:
         """
@@ -32,7 +32,7 @@ class GroundPlane:
         Parameters
         ----------
         yaw_rad
-            The heading of the sole before it is tilted, in the odom frame.
+            Heading of the sole before it is tilted, in the odom frame.
 
         Returns
         -------
@@ -43,7 +43,7 @@ class GroundPlane:
         x, y = self.tilt.real, self.tilt.imag
         z = math.sqrt(max(0.0, 1.0 - x * x - y * y))
         k = 1.0 / (1.0 + z)
-        # The shortest turn that takes the vertical to the normal (Rodrigues).
+        # The shortest rotation from the vertical to the normal (Rodrigues).
         leaning = np.array(
             [[1.0 - k * x * x, -k * x * y, x], [-k * x * y, 1.0 - k * y * y, y], [-x, -y, z]]
         )
@@ -57,14 +57,14 @@ class GroundPlane:
         Parameters
         ----------
         offset_m
-            How far away the point is, horizontally, in the axes of the odom frame.
+            Horizontal offset of the point, in the axes of the odom frame.
         tilt
-            Of the ground between the two, as `GroundPlane.tilt`.
+            Tilt of the ground between the two, as `GroundPlane.tilt`.
 
         Returns
         -------
         float
-            Height in m, from the same zero as that of the plane.
+            Height in m, with the same zero as that of the plane.
 
         """
         return self.height_m - dot(tilt, offset_m)
@@ -75,14 +75,14 @@ LEVEL = GroundPlane()
 
 def tilt_of(rotation: Array, most_rad: float) -> Point:
     """
-    Compute the tilt of a sole, limited to what ground may have.
+    Compute the tilt of a sole, clamped to the maximum slope of the ground.
 
     Parameters
     ----------
     rotation
         Rotation matrix (3, 3) from the sole to the odom frame.
     most_rad
-        The steepest angle between the sole and the horizontal.
+        Greatest angle between the sole and the horizontal.
 
     Returns
     -------
@@ -98,11 +98,11 @@ def tilt_of(rotation: Array, most_rad: float) -> Point:
 @dataclass
 class GroundLevel:
     """
-    How high the ground is above which the pendulum swings.
+    Low-pass filter of the ground level below the pendulum.
 
-    It goes to the height of the feet, as they carry the weight, and gives way to where the
-    centre of mass is measured: a landing that is too high or low gives no jolt. It stays near
-    the feet, so that a robot which sinks does not take it along.
+    It follows the height of the feet, weighted by their load, and leaks to the level that the
+    measured centre of mass implies, so that a landing that is too high or too low causes no jolt.
+    It stays near the feet, so that a robot that sinks does not drag it down.
     """
 
     rate_1_s: float
@@ -117,11 +117,11 @@ class GroundLevel:
         Parameters
         ----------
         feet_m
-            The height of the feet that carry.
+            Mean height of the feet, weighted by their load.
         below_com_m
-            Where the ground would be if the centre of mass were as high as planned.
+            Ground level at which the measured centre of mass would be at its planned height.
         passed_s
-            The time since the last control period.
+            Time since the last control period.
 
         """
         to_feet = 1.0 - math.exp(-self.rate_1_s * passed_s)
@@ -134,18 +134,18 @@ class GroundLevel:
 
 class LevelFloor:
     """
-    Height correction that takes footholds about as high as those before for one level floor.
+    Height correction that treats successive footholds of about the same height as a level floor.
 
-    Odometry by the legs is a little off at each foothold, and an inertial sensor that takes level
-    ground for a slope makes the robot climb as long as it walks ahead: without this, the height
-    of the floor drifts by centimetres in a home. A foot that stands higher or lower than where it
-    stood before, by more than a tolerance, is on a step or on a slope. Left and right are not
-    compared: a sensor that leans aside sees one of them higher all the time.
+    Leg odometry has a small error at each foothold, and an IMU with a pitch bias makes the robot
+    seem to climb as long as it walks forward: without this correction, the height of the floor
+    drifts by centimetres in a home. A foot that stands higher or lower than its previous
+    foothold, by more than a tolerance, is on a step or on a slope. Left and right are not
+    compared: with a roll bias of the IMU, one of them always seems higher.
 
     Parameters
     ----------
     tolerance_m
-        How much higher or lower than before a foothold on the same floor may seem to be.
+        Greatest apparent difference in height between successive footholds on the same floor.
 
     """
 
@@ -156,14 +156,14 @@ class LevelFloor:
 
     def update(self, heights_m: Sequence[float], in_air: int | None) -> None:
         """
-        Learn the drift of the height from a foot that has just taken the weight.
+        Estimate the drift of the height from a foot that has just taken the weight.
 
         Parameters
         ----------
         heights_m
-            Of both feet, left and right, as odometry has them.
+            Heights of both feet by odometry, left and right.
         in_air
-            The side whose foot swings, so that the other one carries; None on both feet.
+            Side of the swing foot; the other one carries. None if both feet are on the ground.
 
         """
         if in_air is None or self._support == other(in_air):
@@ -181,12 +181,12 @@ class LevelFloor:
         Parameters
         ----------
         shares
-            Of the feet in the weight, left and right; they sum up to 1.
+            Load distribution, left and right; the sum is 1.
 
         Returns
         -------
         float
-            In m, to be added to a height that odometry has.
+            Correction in m, to be added to a height by odometry.
 
         """
         return sum(share * rise_m for share, rise_m in zip(shares, self._rise_m))

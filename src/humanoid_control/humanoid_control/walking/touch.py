@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Feel with which limbs the robot touches something.
+Contact detection for the limbs, by external joint torques.
 
-What the drives exert accelerates the limbs and holds them against gravity; inverse dynamics says
-how much of it. The rest is what the limbs touch: A. De Luca et al., "Collision detection and safe
+Actuator torques accelerate the limbs and hold them against gravity; inverse dynamics computes
+that part. The residual is due to contacts: A. De Luca et al., "Collision detection and safe
 reaction with the DLR-III lightweight manipulator arm", IROS 2006, here with accelerations from
-differences, a low-pass filter behind them, and a root that moves as the inertial sensor says.
+finite differences, a low-pass filter after them, and the motion of the root from the IMU.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True)
 class Touch:
     """
-    How limbs are pushed, left and right: where to, and the moment (Nm) about hip or shoulder.
+    Push on each limb, left and right: its direction, and the moment (N m) about hip or shoulder.
 
-    A foot on the ground pushes its leg as well; so legs count while they are in the air.
+    The ground pushes a stance leg as well: the moment of a leg is valid only while it swings.
     """
 
     legs_nm: tuple[Point, Point] = (0j, 0j)
@@ -43,14 +43,14 @@ NOTHING = Touch()
 
 class TouchObserver:
     """
-    Contact observer: compares the efforts of all joints with what their motion needs.
+    Contact observer: compares the measured joint torques with inverse dynamics.
 
     Parameters
     ----------
     robot
-        The robot, with the dynamics of its body.
+        The robot, with the model of its dynamics.
     parameters : WalkParameters
-        The gait, which has the rates of the low-pass filters and the longest gap.
+        Gait parameters, with the rates of the low-pass filters and the longest gap.
 
     Raises
     ------
@@ -67,18 +67,18 @@ class TouchObserver:
         self._last: RobotState | None = None
         self._outside_nm: Array = np.zeros(len(robot.body.joints))
         self._borne_nm: Array = np.zeros_like(self._outside_nm)
-        """(n,) what arms bore while the robot stood: a load, and a hand that is bent."""
+        """(n,) external torques of the arms while the robot stood: a payload, or a bent hand."""
 
     def rest(self, sensed: RobotState) -> None:
         """
-        Learn what load the arms bear while the robot stands.
+        Estimate the payload of the arms while the robot stands.
 
-        All other contacts are forgotten: a robot that stands cannot walk into anything.
+        All other contacts are discarded: a robot that stands cannot walk into anything.
 
         Parameters
         ----------
         sensed
-            The estimated state of the robot.
+            Estimated state of the robot.
 
         """
         self._follow(self._borne_nm, sensed, self._parameters.obstacles.touch_load_rate_1_s)
@@ -92,12 +92,12 @@ class TouchObserver:
         Parameters
         ----------
         sensed
-            The estimated state of the robot.
+            Estimated state of the robot.
 
         Returns
         -------
         Touch
-            In the plane of the odom frame; zero at the first observation and after a gap.
+            Moments in the plane of the odom frame; zero at the first observation and after a gap.
 
         """
         if not self._follow(self._outside_nm, sensed, self._parameters.obstacles.touch_rate_1_s):
@@ -108,7 +108,7 @@ class TouchObserver:
         return Touch((legs[0], legs[1]), (arms[0], arms[1]))
 
     def _follow(self, followed_nm: Array, sensed: RobotState, rate_1_s: float) -> bool:
-        """Let an estimate (n,) follow what comes from outside; return whether that is known."""
+        """Low-pass filter the external torques into an estimate (n,); False if unknown."""
         last, self._last = self._last, sensed
         passed_s = sensed.time_s - last.time_s if last else 0.0
         if last is None or not 0.0 < passed_s <= self._parameters.obstacles.touch_gap_s:
@@ -119,16 +119,16 @@ class TouchObserver:
 
     def _moment(self, pitch: int, roll: int, ahead: Point, borne_nm: Array | float) -> Point:
         """
-        Return the moment of a horizontal force below a joint, in the direction of the force.
+        Compute the moment of a horizontal force below a joint, in the direction of the force.
 
-        What is borne anyway is no such force.
+        The payload is subtracted first.
         """
         outside_nm = self._outside_nm - borne_nm
         return complex(-outside_nm[pitch], outside_nm[roll]) * ahead
 
 
 def _outside(last: RobotState, now: RobotState, passed_s: float) -> Array:
-    """Return the mean efforts (n,) between two moments that come from outside."""
+    """Compute the mean external torques (n,) between two states, by inverse dynamics."""
     state = now.state
     turned = state.base_angular_velocity_rad_s - last.state.base_angular_velocity_rad_s
     base = np.concatenate([now.acceleration_m_s2, turned / passed_s])
@@ -139,5 +139,5 @@ def _outside(last: RobotState, now: RobotState, passed_s: float) -> Array:
 
 
 def _joints(robot: WalkingRobot, pitch: str, roll: str) -> Sequence[tuple[int, int]]:
-    """Return the indices of two joints, left and right, among all."""
+    """Return the indices of a pitch and a roll joint, for the left and the right side."""
     return [(robot.index(f'{side}_{pitch}'), robot.index(f'{side}_{roll}')) for side in NAMES]

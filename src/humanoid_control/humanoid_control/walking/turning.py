@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the pelvis faces, and how fast that changes."""
+"""Heading of the pelvis, and its rate."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def smooth_turn(from_rad: float, to_rad: float, time_s: float, duration_s: float
     Parameters
     ----------
     from_rad, to_rad
-        The headings at the start and at the end.
+        Headings at the start and at the end.
     time_s, duration_s
-        The time since the start, and that of the whole turn.
+        Time since the start, and duration of the whole turn.
 
     Returns
     -------
     Turning
-        The heading and its rate at that time; later it stays at the end.
+        Heading and rate at that time; constant after the end.
 
     """
     turn_rad, share = wrap_angle(to_rad - from_rad), min(1.0, time_s / duration_s)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How fast the robot is to go, and how fast it can."""
+"""Velocity commands, and the velocity limits of the gait."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from humanoid_control.walking.planar import limited, Point
 
 @dataclass(frozen=True)
 class VelocityCommand:
-    """A velocity of the body in its own axes: forward, to the left, anticlockwise."""
+    """Velocity command in the axes of the robot: forward, to the left, anticlockwise."""
 
     forward_m_s: float = 0.0
     left_m_s: float = 0.0
     turn_rad_s: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no number."""
+        """Reject non-finite components."""
         if not all(map(math.isfinite, astuple(self))):
             raise WalkingError(
                 f'The velocity (forward {self.forward_m_s:g} m/s, left {self.left_m_s:g} m/s, '
@@ -29,12 +29,12 @@ class VelocityCommand:
 
     @property
     def linear_m_s(self) -> Point:
-        """Return the velocity without the turn."""
+        """Return the linear velocity: forward (real), to the left (imaginary)."""
         return complex(self.forward_m_s, self.left_m_s)
 
     @property
     def is_zero(self) -> bool:
-        """Tell whether the robot is to stand."""
+        """Whether all components are zero, so that the robot stands."""
         return not (self.forward_m_s or self.left_m_s or self.turn_rad_s)
 
     def times(self, factor: float) -> VelocityCommand:
@@ -44,7 +44,7 @@ class VelocityCommand:
         Parameters
         ----------
         factor
-            What they are multiplied by.
+            Scale factor of all components.
 
         """
         return VelocityCommand(
@@ -58,7 +58,7 @@ class VelocityCommand:
         Parameters
         ----------
         target
-            The velocity to go to; it is reached exactly.
+            Target velocity; it is reached exactly.
         most
             The largest change of each component, not negative.
 
@@ -75,7 +75,7 @@ STANDING = VelocityCommand()
 
 @dataclass(frozen=True)
 class VelocityLimits:
-    """The speeds that the gait can do: each one alone, and together in the sum of their shares."""
+    """Velocity limits of the gait: for each component, and for the sum of shares of these."""
 
     forward_m_s: float
     backward_m_s: float
@@ -85,14 +85,15 @@ class VelocityLimits:
 
     def applied(self, command: VelocityCommand) -> VelocityCommand:
         """
-        Limit a velocity to what the gait can do.
+        Clamp a velocity to the limits of the gait.
 
-        Each component is clamped; if the shares then sum up to too much, all are scaled alike.
+        Each component is clamped; if the sum of the shares then exceeds its limit, all components
+        are scaled down by the same factor.
 
         Parameters
         ----------
         command
-            The velocity that is asked for.
+            Commanded velocity, in the axes of the robot.
 
         """
         single = VelocityCommand(
@@ -105,12 +106,12 @@ class VelocityLimits:
 
     def shares(self, command: VelocityCommand) -> float:
         """
-        Compute the sum of the shares that a velocity takes of the limits.
+        Compute the sum of the components of a velocity, each as a share of its limit.
 
         Parameters
         ----------
         command
-            The velocity, in the axes of the robot.
+            Velocity, in the axes of the robot.
 
         Returns
         -------
@@ -127,6 +128,6 @@ class VelocityLimits:
 
 
 def _nearer(value: float, target: float, most: float) -> float:
-    """Return the value moved to the target by at most so much; it arrives exactly."""
+    """Move a value towards a target by at most `most`; the target is reached exactly."""
     step = target - value
     return target if abs(step) <= most else value + math.copysign(most, step)

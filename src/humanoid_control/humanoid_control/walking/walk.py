@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A walk: from where the robot stands, tick by tick, to the targets of its joints."""
+"""Control loop of a walk: from the estimated state of the robot to joint targets."""
 
 from __future__ import annotations
 
@@ -39,29 +39,29 @@ Array = NDArray[np.float64]
 
 class Walk:
     """
-    A walk that has begun: the estimate of the robot, the gait and the references.
+    Walk in progress: the estimates of the robot, the gait and the references.
 
-    It begins with both feet on the ground, where they are.
+    It starts with both feet on the ground, wherever they are.
 
     Parameters
     ----------
     robot, shape, home
-        The robot, the part of its soles that may carry load, and its posture of standing.
+        The robot, the supporting rectangle of its soles, and its standing posture.
     parameters : WalkParameters
-        The gait.
+        Gait parameters.
     sensed
-        The estimated state of the robot at the start.
+        Estimated state of the robot at the start.
     start_m
-        The point of the ground below the base at the start, in the odom frame.
+        Point of the ground below the base at the start, in the odom frame.
 
     Attributes
     ----------
     base
-        Position and velocity of the base in the odom frame, as estimated.
+        Estimated position and velocity of the base, in the odom frame.
     com
-        Horizontal motion of the centre of mass in the odom frame, as estimated.
+        Estimated horizontal motion of the centre of mass, in the odom frame.
     output
-        What the gait wants in this period; None before the first `update`.
+        Output of the gait in this control period; None before the first `update`.
 
     Raises
     ------
@@ -102,7 +102,7 @@ class Walk:
         self._force = ForceObserver(robot.body.mass_kg, parameters.obstacles.force_rate_1_s)
         self._touch = TouchObserver(robot, parameters)
         self.body = BodyPoseFollower(parameters)
-        """How the pelvis is to be held now."""
+        """Body pose, which follows the commanded one at limited rates."""
         self._wanted_pose, self._velocity = UPRIGHT, STANDING
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
@@ -115,42 +115,42 @@ class Walk:
 
     @property
     def dcm_m(self) -> Point:
-        """Return the divergent component of motion, as estimated."""
+        """Return the estimated divergent component of motion."""
         return self._pendulum.dcm(self.com)
 
     @property
     def footing(self) -> Footing:
-        """Return where the feet stand."""
+        """Return the footholds of the feet."""
         return self._footing
 
     @property
     def height_m(self) -> float:
-        """Return how high the base is, above the floor on which the walk began."""
+        """Return the height of the base above the floor on which the walk started."""
         return float(self.base.position_m[2]) + self._floor.rise_m(self._shares)
 
     def command(self, velocity: VelocityCommand, pose: BodyPose) -> None:
         """
-        Set the velocity at which to go, and the pose in which to hold the body while standing.
+        Set the velocity command, and the body pose to hold while standing.
 
         A robot that is bent straightens up before its first step.
 
         Parameters
         ----------
         velocity
-            In the axes of the robot; the gait keeps its limits.
+            Velocity in the axes of the robot; the gait clamps it to its limits.
         pose
-            How the pelvis is to be held, within what the robot can do.
+            Target pose of the body, within the limits of the robot.
 
         """
         self._velocity, self._wanted_pose = velocity, pose
         self._obey()
 
     def _obey(self) -> None:
-        """Tell the gait the velocity, as soon as the body is upright."""
+        """Pass the velocity command to the gait; zero until the body is upright."""
         self.gait.command(self._velocity if self.body.is_upright else STANDING)
 
     def _hold_body(self, passed_s: float) -> None:
-        """Bring the body to where it is to be; it comes up when the robot is to step."""
+        """Move the body towards the commanded pose, or upright if the robot is to step."""
         stands = self.gait.phase == STAND and self._velocity.is_zero
         was_upright = self.body.is_upright
         self.body.update(self._wanted_pose if stands else UPRIGHT, passed_s)
@@ -164,12 +164,12 @@ class Walk:
         Parameters
         ----------
         sensed
-            The estimated state of the robot.
+            Estimated state of the robot.
 
         Returns
         -------
         JointTargets
-            Of the n joints that count for walking, with feed-forward torques.
+            Targets of the n joints that walking uses, with feed-forward torques.
 
         """
         passed_s = sensed.time_s - self._last_s
@@ -210,12 +210,13 @@ class Walk:
         """
         Update the base estimate of a robot that is down.
 
-        It stays where it was in the plane, turned as measured, with its lowest link on the ground.
+        It keeps its position in the plane, with the measured orientation and its lowest link on
+        the ground.
 
         Parameters
         ----------
         sensed
-            The estimated state of the robot.
+            Estimated state of the robot.
 
         """
         self._last_s, self.sensed = sensed.time_s, sensed
@@ -226,14 +227,14 @@ class Walk:
         self.base = BaseEstimate(position, np.zeros(3))
 
     def _estimate(self, passed_s: float) -> None:
-        """Find base and centre of mass from the feet that carried weight until now."""
+        """Estimate the base, the centre of mass and the external force."""
         state = self.sensed.state
         shares = carrying(self._shares, self.sensed.loads)
         self.base = base_on(self._footing, shares, self._robot, state)
         measured = self.base.com_motion(state)
         self.com = self._observer.update(measured, self._zmp_m, passed_s)
         swing = self.output.swing if self.output else None
-        # What a foot meets in the air is not the ground.
+        # A force on the swing foot is not one of the ground.
         drag = sum(
             drag
             for side, drag in enumerate(self.sensed.drags)
@@ -243,7 +244,7 @@ class Walk:
         self._force.update(measured.velocity_m_s, weight_n * drag, passed_s)
 
     def _felt(self) -> Touch:
-        """Return what the limbs touch; who stands walks into nothing."""
+        """Estimate the contacts of the limbs; none while the robot stands."""
         if self.gait.phase == STAND:
             self._touch.rest(self.sensed)
             return NOTHING
@@ -252,7 +253,7 @@ class Walk:
     def _give_way(
         self, soles: tuple[SoleReading, SoleReading], output: GaitOutput, passed_s: float
     ) -> None:
-        """Adapt to the ground under the feet."""
+        """Adapt the footholds and the ground level to the ground below the feet."""
         in_air = output.swing.side if output.swing else None
         shares = loads_for(self._footing, output.sides, output.zmp_m).shares
         self._adaptation.update(self._footing, soles, shares, in_air, passed_s)
@@ -266,12 +267,12 @@ class Walk:
 
     @property
     def _base_above_ground_m(self) -> Array:
-        """Return where the base is (3,), above the level of the ground."""
+        """Return the position (3,) of the base, with z above the ground level."""
         above_m: Array = self.base.position_m - (0.0, 0.0, self._level.height_m)
         return above_m
 
     def _wanted_base(self, com: Motion, output: GaitOutput) -> BaseMotion:
-        """Return the base that has the centre of mass where it is wanted."""
+        """Compute the motion of the base that gives the centre of mass its reference motion."""
         body = self.body
         height_m = self._pendulum.height_m + self._level.height_m + body.pose.height_m
         base = base_below(
@@ -288,7 +289,7 @@ class Walk:
         return within_reach(base, self._robot, self._footing, output.sides, reach)
 
     def _planned(self, output: GaitOutput, motion: JointMotion) -> PlannedAcceleration:
-        """Return what is planned: a pendulum, upright, over feet that stand or swing."""
+        """Compute the planned accelerations: pendulum, upright base, stance and swing feet."""
         along = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
         soles = [np.zeros(6), np.zeros(6)]
         if output.swing:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walking: from observations to what the joints are to do."""
+"""Walking controller: from observations to joint targets."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ from humanoid_description.robot import Robot
 @dataclass(eq=False)
 class Walker:
     """
-    Makes a robot stand and walk.
+    Controller that makes a robot stand and walk.
 
-    Give it an observation at every tick, at any rate and also after ticks that were missed. It
-    begins with the first one, from wherever the feet stand then.
+    Call `update` with an observation in every control period, at any rate; periods may be missed.
+    The walk starts with the first observation, from wherever the feet stand then.
     """
 
     robot: WalkingRobot
@@ -50,7 +50,6 @@ class Walker:
     _recovery: Recovery = field(init=False)
 
     def __post_init__(self) -> None:
-        """Begin."""
         self._estimator = StateEstimator(self.robot)
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._recovery = Recovery(self.robot, self.home, self.parameters)
@@ -70,20 +69,20 @@ class Walker:
         Parameters
         ----------
         robot, drives
-            The robot, and the drives of its joints by their names.
+            The robot, and the actuators of its joints by joint name.
         joints
-            All driven joints, in the order of observations and targets.
+            All actuated joints, in the order of observations and targets.
         parameters : WalkParameters
-            The gait; `WalkParameters().scaled(scale)` for a robot of another size.
+            Gait parameters; `WalkParameters().scaled(scale)` for a robot of another size.
         imu
-            How far the inertial sensor is off, which makes odometry uncertain.
+            Errors of the IMU, from which the covariance of the odometry is computed.
 
         Raises
         ------
         WalkingError
-            A joint has no drive, or a foot has no collision shape.
+            A joint has no actuator, or a foot has no collision shape.
         DynamicsError
-            The robot lacks a joint that walking needs, or has legs of another build.
+            The robot lacks a joint that walking needs, or the kinematics of a leg are different.
 
         """
         walking = WalkingRobot.of(robot, drives, joints)
@@ -96,7 +95,7 @@ class Walker:
         )
 
     def reset(self) -> None:
-        """Forget everything: the robot has been put somewhere, and odometry begins anew."""
+        """Reset all state, after the robot has been placed elsewhere; odometry starts again."""
         self._estimator = StateEstimator(self.robot)
         self._recovery = Recovery(self.robot, self.home, self.parameters)
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
@@ -105,7 +104,7 @@ class Walker:
         self._velocity, self._body = STANDING, UPRIGHT
 
     def restart(self) -> None:
-        """Begin anew from where the feet are at the next tick; odometry goes on."""
+        """Restart the walk from where the feet are at the next update; odometry continues."""
         if self._walk:
             x, y, _ = self._walk.base.position_m.tolist()
             self._start_m = complex(x, y)
@@ -114,19 +113,19 @@ class Walker:
 
     @property
     def velocity(self) -> VelocityCommand:
-        """Return the velocity at which to go; none after a reset, a restart or a fall."""
+        """Return the commanded velocity; zero after a reset, a restart or a fall."""
         return self._velocity
 
     def command(self, velocity: VelocityCommand) -> None:
         """
-        Set the velocity at which to go.
+        Set the velocity command.
 
-        Any velocity but zero also resets the pose of the body to upright.
+        A velocity other than zero also resets the body pose to upright.
 
         Parameters
         ----------
         velocity
-            In the axes of the robot; it is limited to what the gait can do, and zero stops.
+            Velocity in the axes of the robot; the gait clamps it to its limits. Zero stops.
 
         """
         self._velocity = velocity
@@ -137,17 +136,17 @@ class Walker:
 
     @property
     def pose(self) -> BodyPose:
-        """Return how the body is to be held; upright after a reset, a restart or a fall."""
+        """Return the commanded body pose; upright after a reset, a restart or a fall."""
         return self._body
 
     def hold(self, pose: BodyPose) -> None:
         """
-        Hold the body in a pose until the robot is to go somewhere.
+        Hold a body pose until a velocity other than zero is commanded.
 
         Parameters
         ----------
         pose
-            How the pelvis is to be held; it is limited to what the robot can do.
+            Target pose of the body; it is clamped to the limits of the robot.
 
         Raises
         ------
@@ -163,23 +162,22 @@ class Walker:
         """
         Compute the joint targets until the next control period.
 
-        An observation that is not newer than the last one gives the same targets again.
+        For an observation that is not newer than the last one, the same targets are returned.
 
         Parameters
         ----------
         observation
-            Of all driven joints.
+            Observation of all actuated joints.
 
         Returns
         -------
         JointTargets
-            Of all driven joints, in the same order.
+            Targets of all actuated joints, in the same order.
 
         Raises
         ------
         WalkingError
-            The observation has the wrong lengths, or what `StateEstimator.read` needs of it is not
-            finite.
+            An array of the observation has the wrong length, or `StateEstimator.read` rejects it.
 
         """
         last_s = self._walk.sensed.time_s if self._walk else None
@@ -198,22 +196,22 @@ class Walker:
 
     @property
     def has_fallen(self) -> bool:
-        """Tell whether the robot lies, falls or is being put onto its feet."""
+        """Whether the robot is falling, lies on the ground or is standing up."""
         return self._recovery.phase is not None
 
     @property
     def is_blocked(self) -> bool:
-        """Whether something is in the way, which the robot does not walk into any further."""
+        """Whether an obstacle blocks the way of the robot."""
         walk = self._walk
         return walk is not None and walk.gait.is_blocked and not self.has_fallen
 
     def freeze(self) -> None:
-        """Bend no further."""
+        """Hold the present body pose instead of moving to the commanded one."""
         if self._walk:
             self.hold(self._walk.body.pose)
 
     def _begin(self, sensed: RobotState) -> Walk:
-        """Begin to walk from where the feet are."""
+        """Start a walk from where the feet are."""
         self._walk = Walk(
             self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
         )
@@ -223,7 +221,7 @@ class Walker:
     def _recover(
         self, walk: Walk, sensed: RobotState, positions_rad: Array
     ) -> JointTargets | None:
-        """Return the targets of a robot that has fallen; None if it walks, maybe from now on."""
+        """Advance the fall recovery; return its targets, or None if the robot walks (again)."""
         was_down = self.has_fallen
         stance = Stance.of(self.robot, sensed)
         targets = self._recovery.update(sensed.time_s, stance, positions_rad)
@@ -235,16 +233,16 @@ class Walker:
 
     @property
     def phase(self) -> str | None:
-        """Return what the robot does, as in `WalkStatus`; None before the first tick."""
+        """Return the phase, as in `WalkStatus`; None before the first update."""
         return (self._recovery.phase or self._walk.gait.phase) if self._walk else None
 
     @property
     def status(self) -> WalkStatus | None:
-        """Return where the walk is; None before the first tick."""
+        """Return the status of the walk; None before the first update."""
         walk, phase = self._walk, self.phase
         if walk is None or phase is None:
             return None
-        # A robot that lies has no plan: nothing carries it, and its references are where it is.
+        # A robot that is down has no plan: no foot carries it, and its references are its state.
         output = None if self.has_fallen else walk.output
         return WalkStatus(
             phase=phase,
@@ -259,12 +257,12 @@ class Walker:
         )
 
     def _pose(self, walk: Walk) -> PlanarPose:
-        """Return where the base is in the plane."""
+        """Return the pose of the base in the plane of the odom frame."""
         x, y, _ = walk.base.position_m.tolist()
         return PlanarPose(complex(x, y), walk.sensed.attitude.yaw_rad)
 
     def _odometry(self, walk: Walk) -> Odometry:
-        """Return where the base is and how it moves."""
+        """Build the odometry: pose, velocities and covariance of the base."""
         state = walk.sensed.state
         to_base = state.base_rotation.T
         return Odometry(

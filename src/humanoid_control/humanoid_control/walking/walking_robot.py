@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What walking needs to know of a robot."""
+"""Walking model of a robot."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 HAND_JOINTS = ('wrist', 'gripper')
-"""A joint whose name contains one of these does not count for walking."""
+"""Walking does not use joints whose names contain one of these."""
 
 
 @dataclass(frozen=True, eq=False)
 class Leg:
-    """A leg: its joints among all, and its inverse kinematics."""
+    """Leg of a robot: its joint group, and its geometry for inverse kinematics."""
 
     group: JointGroup
     geometry: LegGeometry
@@ -44,7 +44,7 @@ class Leg:
         Raises
         ------
         DynamicsError
-            The robot has no such leg, or one of another build.
+            The robot has no such leg, or its kinematics are different.
 
         """
         geometry = LegGeometry.of(robot, NAMES[side])
@@ -52,22 +52,22 @@ class Leg:
 
     @property
     def sole(self) -> str:
-        """Return the link under its foot."""
+        """Return the name of its sole link."""
         return self.geometry.sole
 
     @property
     def indices(self) -> NDArray[np.intp]:
-        """Return the indices (6,) of its joints among all, from the hip down."""
+        """Return the indices of its joints among all, from the hip down (6,)."""
         return self.group.indices
 
 
 @dataclass(frozen=True, eq=False)
 class WalkingRobot:
     """
-    A robot with two legs, as arrays in the order of the n joints that count for walking.
+    Bipedal robot, with arrays in the order of the n joints that walking uses.
 
-    Wrists and grippers do not: they weigh, but the walk takes them as fixed at zero. `own` and
-    `whole` go from the arrays of all joints to those of the walk, and back.
+    Wrists and grippers are excluded: they have mass, but are assumed to be fixed at zero. `own`
+    and `whole` convert the arrays of all joints to those of the walk, and back.
     """
 
     body: BodyModel
@@ -76,28 +76,28 @@ class WalkingRobot:
     imu_in_base: Array
     """(3, 3)"""
     joints: tuple[str, ...]
-    """The names of all driven joints, in the order of observations and targets."""
+    """Names of all actuated joints, in the order of observations and targets."""
     indices: NDArray[np.intp]
-    """(n,) where those of the walk are among them."""
+    """(n,) indices among them of the joints that walking uses."""
 
     @classmethod
     def of(cls, robot: Robot, drives: Mapping[str, Drive], joints: Sequence[str]) -> WalkingRobot:
         """
-        Build the model of a robot that walking needs.
+        Build the walking model of a robot.
 
         Parameters
         ----------
         robot, drives
-            The robot, and the drives of its joints by their names: they have the armatures.
+            The robot, and the actuators of its joints by joint name, with their armatures.
         joints
-            All driven joints, in the order of observations and targets.
+            All actuated joints, in the order of observations and targets.
 
         Raises
         ------
         WalkingError
-            A joint has no drive.
+            A joint has no actuator.
         DynamicsError
-            The robot lacks a leg, or has legs of another build.
+            The robot lacks a leg, or the kinematics of a leg are different.
 
         """
         undriven = [name for name in joints if name not in drives]
@@ -114,22 +114,22 @@ class WalkingRobot:
 
     def own(self, observation: Observation) -> Observation:
         """
-        Select the joints that count for walking from an observation.
+        Select the joints that walking uses from an observation.
 
         Parameters
         ----------
         observation
-            Of all driven joints.
+            Observation of all actuated joints.
 
         Returns
         -------
         Observation
-            Of the n joints that count for walking.
+            Observation of the n joints that walking uses.
 
         Raises
         ------
         WalkingError
-            The observation is not one of all joints.
+            An array of the observation has the wrong length.
 
         """
         whole, count = len(self.joints), len(self.indices)
@@ -150,17 +150,17 @@ class WalkingRobot:
 
     def whole(self, targets: JointTargets) -> JointTargets:
         """
-        Expand the targets of the walk to all driven joints.
+        Expand the targets of the walk to all actuated joints.
 
         Parameters
         ----------
         targets
-            Of the n joints that count for walking.
+            Targets of the n joints that walking uses.
 
         Returns
         -------
         JointTargets
-            Of all driven joints; those that do not count for walking go to zero.
+            Targets of all actuated joints; zero for those that walking does not use.
 
         """
         if len(self.indices) == len(self.joints):
@@ -173,17 +173,17 @@ class WalkingRobot:
 
     def spread(self, values: Array) -> Array:
         """
-        Expand values of the joints that count for walking to all driven joints.
+        Expand values of the joints that walking uses to all actuated joints.
 
         Parameters
         ----------
         values
-            Of the joints that count for walking (n,).
+            Values (n,) of the joints that walking uses.
 
         Returns
         -------
         Array
-            One value for each of `joints`; the others are zero.
+            One value for each of `joints`; zero for those that walking does not use.
 
         """
         spread = np.zeros(len(self.joints))
@@ -202,7 +202,7 @@ class WalkingRobot:
         Raises
         ------
         DynamicsError
-            There is no such joint, or it does not count for walking.
+            There is no such joint, or walking does not use it.
 
         """
         return self.body.index(self.prefix + joint)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the pelvis is to be, and how it is to move."""
+"""Target motion of the base."""
 
 from __future__ import annotations
 
@@ -29,21 +29,22 @@ def base_below(
     pitch_rate_rad_s: float = 0.0,
 ) -> BaseMotion:
     """
-    Compute the motion of the base that puts the centre of mass where it is wanted.
+    Compute the motion of the base that gives the centre of mass its target motion.
 
     Parameters
     ----------
     wanted
-        The motion of the centre of mass over the ground, in the odom frame.
+        Target motion of the centre of mass over the ground, in the odom frame.
     height_m
-        How high the centre of mass is to be, in the odom frame.
+        Target height of the centre of mass, in the odom frame.
     turning
-        Where the base is to face, and the rate of that.
+        Target heading of the base, and its rate.
     com, base, state
-        The estimates of the centre of mass, the base and the posture: they say where in the robot
-        its centre of mass is.
+        Estimates of the centre of mass, the base and the posture: they give the position of the
+        centre of mass relative to the base.
     pitch_rad, pitch_rate_rad_s
-        How far the base is bent forward, and how fast that changes; upright by default.
+        Target pitch of the base, positive when it is bent forward, and its rate; upright by
+        default.
 
     Returns
     -------
@@ -57,7 +58,7 @@ def base_below(
     from_base = np.array([com.position_m.real, com.position_m.imag, 0.0]) - base.position_m
     from_base[2] = state.com_m[2]
     to_com = upright @ from_base
-    # The joints move the centre of mass within the base, whose own turning carries it.
+    # Velocity of the centre of mass in the base by the joints, without the rotation of the base.
     shifting = upright @ (
         state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
     )
@@ -77,18 +78,18 @@ def within_reach(
     Parameters
     ----------
     base
-        The motion that is wanted, in the odom frame.
+        Target motion of the base, in the odom frame.
     robot
-        The robot, which has the geometry of the legs.
+        The robot, with the geometry of its legs.
     footing, sides
-        Where the feet are, and the sides of those that carry the robot.
+        Footholds of the feet, and the sides of those that carry the robot.
     reach
-        The share of its length to which a leg may be stretched.
+        Fraction of its length to which a leg may be stretched.
 
     Returns
     -------
     BaseMotion
-        The same motion, lower if need be.
+        The same motion, lowered if necessary.
 
     """
     legs = [robot.legs[side].geometry for side in sides]

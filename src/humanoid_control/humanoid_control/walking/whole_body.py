@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where all joints go: legs from pelvis and soles, arms from the legs."""
+"""Whole-body inverse kinematics: legs from pelvis and soles, arms from the legs."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class JointMotion:
     velocities_rad_s: Array
     """(n,)"""
     accelerations_rad_s2: Array
-    """(n,); those of the legs are zero here: they follow from the soles"""
+    """(n,); zero for the legs, whose accelerations follow from those of the soles"""
 
 
 class WholeBody:
@@ -43,10 +43,10 @@ class WholeBody:
     robot
         The robot, with the geometry of its legs.
     home
-        The posture of standing: the shoulders swing about it, and other joints above the
-        legs keep it.
+        Standing posture: the shoulders swing about it, and the other joints above the legs
+        keep it.
     parameters : WalkParameters
-        The gait, which says how far the arms swing.
+        Gait parameters, with the gain of the arm swing.
 
     Raises
     ------
@@ -67,17 +67,17 @@ class WholeBody:
         """
         Compute the motion of all joints: inverse kinematics of the legs, and swinging arms.
 
-        Legs on the ground move the pelvis where it is wanted. A foot in the air is placed relative
-        to the measured pelvis, so that it lands where planned even if the pelvis is elsewhere.
+        The stance legs move the pelvis to its target. The swing foot is placed relative to the
+        measured pelvis, so that it lands where planned even if the pelvis is elsewhere.
 
         Parameters
         ----------
         wanted, measured
-            How the base is to move, and how it moves, in the odom frame.
+            Target motion and measured motion of the base, in the odom frame.
         footing
-            Where the feet stand.
+            Footholds of the feet.
         swing
-            The target of the foot in the air, if one is.
+            Target of the swing foot; None without one.
 
         """
         positions: Array = self._home.positions_rad.copy()
@@ -95,7 +95,7 @@ class WholeBody:
     def _move_leg(
         self, side: int, base: BaseMotion, sole: SoleMotion, joints: JointMotion
     ) -> None:
-        """Set the joints of a leg so that its sole is in a place."""
+        """Set the joints of a leg by inverse kinematics for a sole target."""
         leg, point, speed = self._robot.legs[side], sole.pose.position_m, sole.velocity_m_s
         place = np.array([point.real, point.imag, sole.plane.height_m])
         velocity = np.array([speed.real, speed.imag, sole.climb_m_s])
@@ -107,7 +107,7 @@ class WholeBody:
         joints.velocities_rad_s[leg.indices] = leg_rates(leg.geometry, posture, frame, twist)
 
     def _swing_arms(self, soles: Sequence[SoleMotion], joints: JointMotion) -> None:
-        """Let each arm go with the opposite foot, so that their turns about z cancel."""
+        """Swing each arm with the opposite foot, so that their yaw momenta cancel."""
         left, right = soles[LEFT], soles[RIGHT]
         middle = left.pose.halfway(right.pose)
         ahead_m = 2.0 * middle.local(left.pose.position_m).real

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks of a robot's model."""
+"""Checks of robot models."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ['Outcome', 'check_robot']
 
 def check_robot(robot: Robot) -> list[Outcome]:
     """
-    Run the checks on a robot model; later ones build on what earlier ones have shown.
+    Run the checks on a robot model; later ones depend on the results of earlier ones.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def check_robot(robot: Robot) -> list[Outcome]:
 
 
 def _obstacle(robot: Robot, group: Iterable[Check], before: list[Outcome]) -> str:
-    """Return why checks are to be skipped, if they are."""
+    """Return the reason to skip a group of checks; empty if there is none."""
     if group in (NAMES, SHAPE) and robot.name != NAME:
         return f"the robot '{robot.name}' is not the humanoid"
     if any(outcome.defects for outcome in before):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the links have the mass and the inertia of real bodies."""
+"""Check that the masses and inertia tensors of links are physically consistent."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from humanoid_description.checks.outcome import Check, count
 from humanoid_description.robot import Body, Link, named, Robot
 import numpy as np
 
-# Rounding of moments that are written with few digits, as a part of the largest one.
+# Relative tolerance for principal moments that are rounded to few digits.
 ROUNDING = 1e-3
 
 
@@ -40,7 +40,7 @@ def look_at_masses(robot: Robot) -> tuple[str, Iterable[str]]:
 
 def look_at_inertia(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Find inertia tensors that no rigid body has.
+    Find inertia tensors that no rigid body can have.
 
     The principal moments must be positive and obey the triangle inequality.
 
@@ -61,7 +61,7 @@ def look_at_inertia(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _wrong_moments(link: Link, body: Body) -> Iterator[str]:
-    """Yield a sentence if the principal moments are impossible."""
+    """Yield a message if the principal moments are impossible."""
     low, middle, high = np.linalg.eigvalsh(body.inertia_kgm2)
     if not low > 0:
         yield (
@@ -100,7 +100,7 @@ def look_at_moving_links(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _has_mass(robot: Robot, name: str) -> bool:
-    """Tell whether a link, or one that is fixed to it, has a body."""
+    """Check whether a link, or one that is fixed to it, has a body."""
     waiting = [name]
     while waiting:
         link = waiting.pop()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the humanoid should be, with legs and without."""
+"""Nominal values of the humanoid, with and without legs, and measurements of a model."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ import numpy as np
 NAME = 'humanoid'
 SOLES = ('l_sole', 'r_sole')
 LEG_FRAMES = ('l_ankle', 'r_ankle', *SOLES)
-# What must be called so by REP 120.
+# Frame names of REP 120.
 BODY_FRAMES = ('base_link', 'torso', 'gaze', 'l_wrist', 'r_wrist', 'l_gripper', 'r_gripper')
-# How even a sole is, as a part of the feet's extent.
+# Flatness tolerance of a sole, as a fraction of the extent of the feet.
 LEVEL = 1e-3
 LEG_JOINTS = ('hip', 'knee', 'ankle')
 HAND_JOINTS = ('wrist_yaw', 'wrist_pitch', 'gripper')
@@ -23,7 +23,7 @@ HAND_JOINTS = ('wrist_yaw', 'wrist_pitch', 'gripper')
 
 @dataclass(frozen=True)
 class Build:
-    """The humanoid at scale 1: its height over what it stands on, and its mass."""
+    """Nominal values of the humanoid at scale 1: height above the ground, mass and frames."""
 
     height_m: float
     mass_kg: float
@@ -34,12 +34,12 @@ class Build:
 WHOLE = Build(1.35, 42.8, BODY_FRAMES + LEG_FRAMES, SOLES)
 UPPER_BODY = Build(0.68, 26.2, BODY_FRAMES, ('base_link',))
 HANDS_KG = 0.5
-"""What two hands weigh more than the stumps without them."""
+"""The mass of two hands in excess of that of the stumps without them."""
 
 
 def has_legs(robot: Robot) -> bool:
     """
-    Whether the model has any joint of a leg.
+    Check whether the model has any leg joint.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def has_legs(robot: Robot) -> bool:
 
 def has_hands(robot: Robot) -> bool:
     """
-    Whether the model has any driven joint of a wrist or gripper.
+    Check whether the model has any driven wrist or gripper joint.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def build_of(robot: Robot) -> Build:
     Parameters
     ----------
     robot
-        The model, whose joints tell whether it has legs and hands.
+        The model, whose joints determine whether it has legs and hands.
 
     """
     build = WHOLE if has_legs(robot) else UPPER_BODY

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the humanoid is what others rely on: its names, size, weight and stand."""
+"""Check the names, symmetry, height, mass, stability and reach of the humanoid."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from humanoid_description.kinematics import poses
 from humanoid_description.robot import Robot
 from humanoid_description.scaling import load_scaling
 
-# Of height and mass: the model is exact, but a file may be written with few digits.
+# Relative, for height and mass: the model is exact, but a file may be rounded to few digits.
 TOLERANCE = 0.01
 
 
@@ -102,7 +102,7 @@ def look_at_ground_contact(robot: Robot) -> tuple[str, Iterable[str]]:
 
 def look_at_height(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Check that the height is one that the model can have at some scale.
+    Check that the height is within the range that the scale of the model allows.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the joints can move, and know how far."""
+"""Check the types, axes, limits and mimic rules of joints."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LIMITED = ('revolute', 'prismatic')
 
 def look_at_kinds(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Find joints of an unknown type, or whose axis is zero.
+    Find joints of an unknown type or with a zero axis.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def look_at_kinds(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _wrong_kind(joint: Joint) -> Iterator[str]:
-    """Yield a sentence if type or axis are wrong."""
+    """Yield messages on a wrong type or axis."""
     if joint.kind not in KINDS:
         hint = did_you_mean(joint.kind, KINDS) or f'The types are {", ".join(KINDS)}.'
         where = named(joint)
@@ -45,7 +45,7 @@ def _wrong_kind(joint: Joint) -> Iterator[str]:
 
 def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Find joint limits that are missing, exchanged, or let nothing move.
+    Find missing or swapped joint limits, and effort and velocity limits that are not positive.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _wrong_limits(joint: Joint) -> Iterator[str]:
-    """Yield sentences on the limits of one joint."""
+    """Yield messages on the limits of one joint."""
     limits, where = joint.limits, named(joint)
     if limits is None:
         yield (
@@ -85,13 +85,13 @@ def _wrong_limits(joint: Joint) -> Iterator[str]:
 
 
 def _shown(value: float | None) -> str:
-    """Return a value with its article."""
+    """Format the value of a limit for a message."""
     return 'no' if value is None else f'{value:g} as'
 
 
 def look_at_mimics(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Find mimic joints whose leader does not move, and circles of them.
+    Find mimic joints whose leader is missing or cannot move, and cycles of mimic joints.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def look_at_mimics(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _wrong_leader(robot: Robot, name: str, leader: str) -> Iterator[str]:
-    """Yield a sentence if what a joint follows has no position."""
+    """Yield a message if the leader of a mimic joint does not exist or has no position."""
     what = f"{named(robot.joint[name])} mimics '{leader}', which"
     if leader not in robot.joint:
         hint = did_you_mean(leader, robot.joint.keys() - {name}) or 'Correct the name.'
@@ -120,7 +120,7 @@ def _wrong_leader(robot: Robot, name: str, leader: str) -> Iterator[str]:
 
 
 def _circles(robot: Robot, mimics: Mapping[str, str]) -> Iterator[str]:
-    """Yield a sentence that names the joints which follow no joint outside of a circle."""
+    """Yield a message that lists the mimic joints that lead to a cycle."""
     circling = [name for name in mimics if _leads_nowhere(mimics, name)]
     if circling:
         names = ', '.join(f"'{name}'" for name in circling)
@@ -132,7 +132,7 @@ def _circles(robot: Robot, mimics: Mapping[str, str]) -> Iterator[str]:
 
 
 def _leads_nowhere(mimics: Mapping[str, str], name: str) -> bool:
-    """Tell whether a joint follows others without an end."""
+    """Check whether the leaders of a mimic joint lead to a cycle."""
     for _ in mimics:
         if name not in mimics:
             return False

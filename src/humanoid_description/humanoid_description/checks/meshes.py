@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the files of meshes are there."""
+"""Check that mesh files exist."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from humanoid_description.robot import line_of, Link, Robot, Shape
 
 def look_at_meshes(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Find mesh files that are missing; those on other machines are not looked for.
+    Find missing mesh files; remote ones are not checked.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def _meshes(link: Link) -> Iterator[Shape]:
 
 
 def _missing(link: Link, folder: Path) -> Iterator[str]:
-    """Yield a sentence for every mesh of a link that is not there."""
+    """Yield a message for every missing mesh file of a link."""
     for file in dict.fromkeys(shape.file for shape in _meshes(link)):
         where = f"{line_of(link)}The mesh '{file}' of link '{link.name}'"
         try:
@@ -53,13 +53,13 @@ def _missing(link: Link, folder: Path) -> Iterator[str]:
 
 
 def _is_remote(file: str) -> bool:
-    """Tell whether only another machine can say if there is such a file."""
+    """Check whether the URI of a mesh refers to another machine."""
     scheme, separator, _ = file.partition('://')
     return bool(separator) and scheme not in ('file', 'package')
 
 
 def _path(file: str, folder: Path) -> Path:
-    """Return where a mesh is; a path without a scheme begins in the folder of the URDF."""
+    """Resolve the path of a mesh; without a scheme it is relative to the folder of the URDF."""
     scheme, separator, rest = file.partition('://')
     if not separator:
         return folder / file
@@ -70,7 +70,7 @@ def _path(file: str, folder: Path) -> Path:
 
 
 def _share(package: str) -> Path:
-    """Return the folder that a package shares, or say that there is no such package."""
+    """Return the share directory of a package; raise DescriptionError if it does not exist."""
     from ament_index_python.packages import (
         get_package_share_directory,
         get_packages_with_prefixes,
@@ -88,7 +88,7 @@ def _share(package: str) -> Path:
 
 
 def _reason(path: Path) -> str:
-    """Say why a path is no file, and which one is meant perhaps."""
+    """Explain why a path is not a file, and suggest a similar one."""
     if path.is_dir():
         return f"'{path}' is a folder."
     if not path.parent.is_dir():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the right side mirrors the left one."""
+"""Check that the right side mirrors the left one."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def counterpart(name: str, prefix: str) -> str | None:
     Parameters
     ----------
     name
-        That of a link or joint.
+        The name of a link or joint.
     prefix
         The prefix of all names of the robot, which comes before `left_`, `l_` and their like.
 
@@ -60,7 +60,7 @@ def counterpart(name: str, prefix: str) -> str | None:
 
 
 def _alone(robot: Robot, names: set[str], kind: str) -> Iterator[str]:
-    """Yield a sentence for every part that the other side lacks."""
+    """Yield a message for every link or joint without a counterpart on the other side."""
     for name in sorted(names):
         other = counterpart(name, robot.prefix)
         if other and other not in names:
@@ -76,7 +76,7 @@ def _pairs(robot: Robot, names: set[str]) -> Iterator[tuple[str, str]]:
 
 
 def _is_mirrored(left: Array, right: Array) -> bool:
-    """Tell whether a matrix of the right side, 4 x 4 or 3 x 3, mirrors that of the left."""
+    """Check whether a matrix of the right side, (4, 4) or (3, 3), mirrors that of the left."""
     size = len(left)
     mirror = MIRROR[:size, :size]
     tolerance = TOLERANCE * max(1e-3, float(np.abs(left).max()))
@@ -84,7 +84,7 @@ def _is_mirrored(left: Array, right: Array) -> bool:
 
 
 def _unlike_joints(left: Joint, right: Joint) -> Iterator[str]:
-    """Yield sentences on what differs between two joints."""
+    """Yield messages on the differences between two joints."""
     both = f"Joints '{left.name}' and '{right.name}'"
     if left.kind != right.kind:
         yield f'{both} are of different types, {left.kind} and {right.kind}.'
@@ -95,9 +95,9 @@ def _unlike_joints(left: Joint, right: Joint) -> Iterator[str]:
 
 
 def _move_alike(left: Joint, right: Joint) -> bool:
-    """Tell whether axis and limits of two joints allow mirrored motions."""
+    """Check whether the axes and limits of two joints allow mirrored motions."""
     mirrored = MIRROR[:3, :3] @ left.axis
-    # A mirrored turn goes the other way round; a mirrored shift does not.
+    # Mirroring reverses the direction of a rotation, but not that of a translation.
     turned = mirrored if left.kind == 'prismatic' else -mirrored
     if np.allclose(right.axis, turned):
         return left.limits == right.limits
@@ -105,13 +105,13 @@ def _move_alike(left: Joint, right: Joint) -> bool:
 
 
 def _opposite(joint: Joint) -> Limits | None:
-    """Return the limits of the same joint if its axis pointed the other way."""
+    """Return the limits of the same joint with its axis reversed."""
     limits = joint.limits
     return limits and Limits(-limits.upper, -limits.lower, limits.effort, limits.velocity)
 
 
 def _unlike_links(left: Link, right: Link) -> Iterator[str]:
-    """Yield sentences on what differs between two links."""
+    """Yield messages on the differences between two links."""
     both = f"Links '{left.name}' and '{right.name}'"
     ours, theirs = left.body, right.body
     if ours is None or theirs is None:
@@ -130,26 +130,26 @@ def _unlike_links(left: Link, right: Link) -> Iterator[str]:
 
 
 def _centre(body: Body) -> Array:
-    """Return the pose of the centre of mass, without its turn."""
+    """Return the pose of the centre of mass, without its rotation."""
     pose = np.eye(4)
     pose[:3, 3] = body.pose[:3, 3]
     return pose
 
 
 def _inertia(body: Body) -> Array:
-    """Return the inertia in the axes of the link."""
+    """Rotate the inertia tensor to the axes of the link."""
     turn = body.pose[:3, :3]
     inertia: Array = turn @ body.inertia_kgm2 @ turn.T
     return inertia
 
 
 def _point(pose: Array) -> str:
-    """Return a place as a text."""
+    """Format the position of a pose."""
     return '({:g}, {:g}, {:g})'.format(*np.round(pose[:3, 3], 6))
 
 
 def _range(joint: Joint) -> str:
-    """Return the limits of a joint as a text."""
+    """Format the limits and the axis of a joint."""
     limits = joint.limits
     if limits is None:
         return 'none'
@@ -160,5 +160,5 @@ def _range(joint: Joint) -> str:
 
 
 def _axis(joint: Joint) -> str:
-    """Return an axis as a text."""
+    """Format the axis of a joint."""
     return '({:g}, {:g}, {:g})'.format(*joint.axis)

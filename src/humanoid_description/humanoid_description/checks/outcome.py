@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a check has found."""
+"""Checks and their outcomes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def count(number: int, noun: str) -> str:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The value that a check looked at, and sentences on the defects or on why it was skipped."""
+    """The value that a check found, messages on the defects, and why it was skipped, if so."""
 
     title: str
     found: str = ''
@@ -43,19 +43,19 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Check:
-    """A question about a robot: returns the value to show, and a sentence for every defect."""
+    """A check of a robot: returns the value for the report, and a message for each defect."""
 
     title: str
     look: Callable[[Robot], tuple[str, Iterable[str]]]
 
     def __call__(self, robot: Robot) -> Outcome:
-        """Answer the question."""
+        """Run the check."""
         found, defects = self.look(robot)
         return Outcome(self.title, found, tuple(defects))
 
     def skip(self, why: str) -> Outcome:
         """
-        Leave the check undone.
+        Skip the check.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far the hands reach."""
+"""Check the reach of the hands."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from humanoid_description.robot import Array, Joint, Robot
 import numpy as np
 
 ARMS = (('left', 'l_gripper', 1.0), ('right', 'r_gripper', -1.0))
-# How much of the arm's length a hand must reach forward, as a part.
+# Minimum forward reach of a hand, as a fraction of the arm length.
 FORWARD = 0.8
 SAMPLES = 6000
 
 
 @dataclass(frozen=True)
 class Reach:
-    """What a hand reaches: forward of the shoulder, and sideways to the middle plane in front."""
+    """Reach of a hand: forward of the shoulder, and distance to the sagittal plane in front."""
 
     arm_m: float
     forward_m: float
@@ -48,7 +48,7 @@ def look_at_reach(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _too_short(side: str, reach: Reach) -> Iterator[str]:
-    """Yield sentences on what a hand should reach."""
+    """Yield messages if the reach of a hand is too short."""
     if reach.forward_m < FORWARD * reach.arm_m:
         yield (
             f'The {side} hand reaches only {reach.forward_m:.2f} m forward of the shoulder, with '
@@ -62,7 +62,7 @@ def _too_short(side: str, reach: Reach) -> Iterator[str]:
 
 
 def _reach(robot: Robot, frame: str, sign: float) -> Reach:
-    """Return what the hand of a side reaches; the sign is that of the side's y."""
+    """Compute the reach of the hand of a side; the sign is that of the side's y."""
     joints = chain(robot, robot.prefix + frame, robot.prefix + 'torso')
     shoulder, arm_m = joints[0].pose[:3, 3], _length(joints[1:])
     hands = pose_along(joints, _postures(joints))[..., :3, 3].reshape(-1, 3)
@@ -73,12 +73,12 @@ def _reach(robot: Robot, frame: str, sign: float) -> Reach:
 
 
 def _length(joints: list[Joint]) -> float:
-    """Return the length of a chain."""
+    """Compute the length of a chain."""
     return float(sum(np.linalg.norm(joint.pose[:3, 3]) for joint in joints))
 
 
 def _postures(joints: list[Joint]) -> dict[str, Array]:
-    """Return positions that cover the ranges of all joints."""
+    """Sample the ranges of all joints on a grid."""
     driven = [joint for joint in joints if joint.is_driven]
     count = max(3, round(SAMPLES ** (1 / max(1, len(driven)))))
     grid = np.meshgrid(*(_samples(joint, count) for joint in driven))
@@ -86,7 +86,7 @@ def _postures(joints: list[Joint]) -> dict[str, Array]:
 
 
 def _samples(joint: Joint, count: int) -> Array:
-    """Return positions from one end of a range to the other, and zero."""
+    """Sample the range of a joint evenly, and add zero."""
     limits = joint.limits
     if limits is None or joint.kind == 'continuous':
         return np.linspace(-np.pi, np.pi, count)

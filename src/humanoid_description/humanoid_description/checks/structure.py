@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether links and joints make a tree."""
+"""Check that links and joints form a tree."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from humanoid_description.robot import line_of, repeated, Robot
 
 def look_at_names(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Count links and joints, and find names that are not unique or name nothing.
+    Count links and joints, and find duplicate names and unknown links.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def look_at_names(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _repeated_names(robot: Robot) -> Iterator[str]:
-    """Yield a sentence for every name that occurs twice."""
+    """Yield a message for every duplicate name."""
     for kind, parts in (('link', robot.links), ('joint', robot.joints)):
         for name in repeated(part.name for part in parts):
             last = [part for part in parts if part.name == name][-1]
@@ -39,7 +39,7 @@ def _repeated_names(robot: Robot) -> Iterator[str]:
 
 
 def _unknown_links(robot: Robot) -> Iterator[str]:
-    """Yield a sentence for every joint that names a link that is not there."""
+    """Yield a message for every parent or child link of a joint that does not exist."""
     for joint in robot.joints:
         for role, link in (('parent', joint.parent), ('child', joint.child)):
             if link not in robot.link:
@@ -102,7 +102,7 @@ def look_at_tree(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def _several_parents(robot: Robot) -> Iterator[str]:
-    """Yield a sentence for every link that several joints hold."""
+    """Yield a message for every link with several parent joints."""
     for link in repeated(joint.child for joint in robot.joints):
         holding = [joint for joint in robot.joints if joint.child == link]
         names = ', '.join(f"'{joint.name}'" for joint in holding)
@@ -111,7 +111,7 @@ def _several_parents(robot: Robot) -> Iterator[str]:
 
 
 def _loops(robot: Robot) -> Iterator[str]:
-    """Yield a sentence that names the links which lead to no root."""
+    """Yield a message that lists the links in or below a kinematic loop."""
     names = [link.name for link in robot.links if _depth(robot, link.name) is None]
     if names:
         links = ', '.join(f"'{name}'" for name in names)
@@ -120,7 +120,7 @@ def _loops(robot: Robot) -> Iterator[str]:
 
 
 def _depth(robot: Robot, link: str) -> int | None:
-    """Return how many joints lead to a link from its root, or None if they do from no root."""
+    """Return the number of joints from the root to a link; None if there is no root above it."""
     for depth in range(len(robot.joints) + 1):
         if link not in robot.joint_above:
             return depth

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated world as a backend of the controllers."""
+"""MuJoCo simulation as a backend of the controllers."""
 
 from humanoid_simulation.backend.contacts import Contact
 from humanoid_simulation.backend.entities import EntityState

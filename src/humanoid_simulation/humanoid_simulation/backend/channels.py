@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How what a robot measures is put into one array, but for the orientation."""
+"""Layout of a robot's measurements in one flat array; the orientation is kept apart."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Channels:
-    """The parts of an array of so many values; feet are left, right."""
+    """Slices of the measurement array, by quantity; feet in the order left, right."""
 
     positions: slice
     velocities: slice
@@ -20,13 +20,13 @@ class Channels:
 
     @property
     def size(self) -> int:
-        """Return how many values there are."""
+        """Return the number of values in the array."""
         return int(self.torques.stop)
 
 
 def channels_of(joints: int) -> Channels:
     """
-    Divide the measurements of a robot among the slices of one array.
+    Assign the measurements of a robot to slices of one array.
 
     Parameters
     ----------

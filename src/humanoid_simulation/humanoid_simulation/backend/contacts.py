@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What touches what."""
+"""Contact points between bodies."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ import numpy as np
 @dataclass(frozen=True, eq=False)
 class Contact:
     """
-    A point at which two bodies touch, in world axes.
+    A contact point between two bodies, in world axes.
 
-    The normal (3,) points from the first body to the second one; the force (3,) is that of the
-    first on the second.
+    The normal (3,) points from the first body to the second; the force (3,) is the one that the
+    first exerts on the second.
     """
 
     body1: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots and things as bodies that float in the world."""
+"""States and bounding boxes of the robots and objects in the world."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ import mujoco
 import numpy as np
 
 FARTHEST_M = 1e4
-"""Beyond so far, numbers are too coarse for contacts."""
+"""Largest coordinate; beyond it, floating-point numbers are too coarse for contacts."""
 FASTEST_M_S, FASTEST_RAD_S = 1e3, 1e3
 _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
-"""Of a cube around the origin, (8, 3)."""
+"""Corners of the cube from -1 to 1 along each axis, (8, 3)."""
 
 
 def _zero() -> Array:
-    """Return the vector zero."""
+    """Return a zero vector (3,)."""
     return np.zeros(3)
 
 
 @dataclass(frozen=True, eq=False)
 class EntityState:
     """
-    Where the origin of an entity is in the world, and how it moves.
+    Pose, velocity and acceleration of the origin of an entity, in the world frame.
 
     The orientation is a unit quaternion w, x, y, z; velocities and accelerations are in world
-    axes. Accelerations are told only: they follow from forces.
+    axes. Accelerations are only reported, never set: they follow from forces.
     """
 
     position_m: Array
@@ -46,7 +46,7 @@ class EntityState:
     angular_acceleration_rad_s2: Array = field(default_factory=_zero)
 
     def __post_init__(self) -> None:
-        """Refuse what is no state."""
+        """Check shapes, finite values and the norm of the quaternion."""
         sizes = {
             'position_m': 3,
             'orientation': 4,
@@ -89,7 +89,7 @@ class Entities:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Return the names: first of what floats."""
+        """Return the names of all entities; those that can be moved come first."""
         return tuple(self._bodies)
 
     def named(self, name: str) -> str:
@@ -104,7 +104,7 @@ class Entities:
         Returns
         -------
         str
-            The name that the other methods take.
+            The name that the other methods accept.
 
         Raises
         ------
@@ -118,12 +118,12 @@ class Entities:
 
     def state(self, name: str) -> EntityState:
         """
-        Measure the true pose, velocity and acceleration of an entity, in the world frame.
+        Read the true pose, velocity and acceleration of an entity, in the world frame.
 
         Parameters
         ----------
         name
-            Name of the entity, as from `named`; one that is fixed is at rest.
+            Name of the entity, as returned by `named`; a fixed one is at rest.
 
         """
         data = self._data
@@ -148,7 +148,7 @@ class Entities:
         Parameters
         ----------
         name
-            Name of the entity, as from `named`; the body of a robot is its base.
+            Name of the entity, as returned by `named`; the body of a robot is its base.
 
         Returns
         -------
@@ -167,12 +167,12 @@ class Entities:
 
     def put(self, name: str, state: EntityState) -> None:
         """
-        Set the pose and the velocity of an entity; what follows from them is left to be computed.
+        Set the pose and velocity of an entity; derived quantities are not recomputed.
 
         Parameters
         ----------
         name
-            Name of the entity, as from `named`.
+            Name of the entity, as returned by `named`.
         state
             The state of its origin in the world frame; accelerations are ignored.
 
@@ -194,7 +194,7 @@ class Entities:
 
 def check_bounds(state: EntityState) -> None:
     """
-    Check that a state is within what the physics can compute with.
+    Check that a state is within the bounds of the physics.
 
     Parameters
     ----------
@@ -204,7 +204,7 @@ def check_bounds(state: EntityState) -> None:
     Raises
     ------
     SimulationError
-        It is beyond one of them.
+        The state exceeds one of these bounds.
 
     """
     for kind, array, most in (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the numbers of a floating body are in those of the world."""
+"""Indices of a floating body in `qpos` and `qvel`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Floating:
-    """Parts of the position, and of the velocity: linear in the world, angular in the body."""
+    """Slices of `qpos` and `qvel`: linear velocity in world axes, angular in body axes."""
 
     position: slice
     orientation: slice

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hoists that are at work in a world."""
+"""The active hoists of a world."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ import mujoco
 import numpy as np
 
 _ABOVE_M = 0.5
-"""From so far above a base the ground below it is looked for."""
+"""Height above the base from which a ray is cast down to find the ground."""
 _WORLD_ALONE = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)
-"""The groups of geoms that are no robot's."""
+"""The geom groups of that ray: the world without robots."""
 
 
 class Hoists:
     """
-    The hoists at work in a world, at most one for each robot.
+    The active hoists of a world, at most one for each robot.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Hoists:
 
     def begin(self, base: int, standing_m: float, state: Callable[[], EntityState]) -> None:
         """
-        Start to lift a robot, in place of a hoist that has it already.
+        Start lifting a robot; a hoist that is already lifting it is replaced.
 
         Parameters
         ----------
@@ -71,12 +71,12 @@ class Hoists:
         self._working[base] = (hoist, state)
 
     def clear(self) -> None:
-        """Let go of everything at once."""
+        """Release all robots immediately."""
         self._working = {}
 
     def is_lifting(self, base: int) -> bool:
         """
-        Whether a robot hangs on a hoist.
+        Check whether a hoist is lifting a robot.
 
         Parameters
         ----------
@@ -88,7 +88,7 @@ class Hoists:
 
     def act(self, period_s: float) -> None:
         """
-        Apply the wrenches of all hoists in the coming period, and drop those that are done.
+        Apply the wrenches of all hoists for the coming period, and remove finished hoists.
 
         Parameters
         ----------
@@ -105,7 +105,7 @@ class Hoists:
                 self._wrenches.add(wrench, always=True)
 
     def _ground_m(self, position_m: Array) -> float:
-        """Return how high the ground is below a place."""
+        """Find the height of the ground below a position by ray casting; 0 without a hit."""
         start = position_m + (0.0, 0.0, _ABOVE_M)
         geom, down = np.zeros(1, dtype=np.int32), np.array([0.0, 0.0, -1.0])
         far_m = mujoco.mj_ray(self._model, self._data, start, down, _WORLD_ALONE, 1, -1, geom)

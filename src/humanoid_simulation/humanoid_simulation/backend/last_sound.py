@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The last state of a world that meant something."""
+"""Backup of the last valid simulation state."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 _FASTEST = 1e4
-"""The norm of all velocities, m/s and rad/s, beyond which a state means nothing."""
+"""Norm of `qvel`, in m/s and rad/s, above which a state counts as diverged."""
 
 
 class LastSound:
@@ -18,7 +18,7 @@ class LastSound:
     Parameters
     ----------
     data
-        The state of MuJoCo, of which a copy is kept at once.
+        The MuJoCo state, which is copied immediately.
 
     """
 
@@ -27,18 +27,18 @@ class LastSound:
         self._qpos, self._qvel = data.qpos.copy(), data.qvel.copy()
 
     def keep(self) -> None:
-        """Keep the present state."""
+        """Save the current state."""
         np.copyto(self._qpos, self._data.qpos)
         np.copyto(self._qvel, self._data.qvel)
 
     @property
     def is_lost(self) -> bool:
-        """Tell whether velocities are beyond all bounds, or no numbers."""
+        """Whether the velocities have diverged or are not finite."""
         qvel = self._data.qvel
         return not float(qvel @ qvel) < _FASTEST * _FASTEST
 
     def restore(self) -> None:
-        """Go back; what follows from the state is left to be computed."""
+        """Restore the saved state; derived quantities are not recomputed."""
         data = self._data
         data.qpos[:], data.qvel[:] = self._qpos, self._qvel
         data.qacc[:] = data.qacc_warmstart[:] = 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the numbers of a robot are in those of the world."""
+"""Indices of a robot in the arrays of a MuJoCo model."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ Indices = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Indices into arrays of MuJoCo: of the base, of n joints and of sensors."""
+    """Indices of the base, of n joints and of the sensors in MuJoCo's arrays."""
 
     floating: Floating
     positions: Indices
     velocities: Indices
     servos: Indices
     followers: Indices
-    """The positions of joints that mimic others."""
+    """Indices in `qpos` of the mimic joints."""
     followed: Indices
-    """The positions of these."""
+    """Indices in `qpos` of the joints that they mimic."""
     follower_velocities: Indices
     acceleration: slice
     base: int
     feet: tuple[int, int]
     soles: tuple[int, int]
     imu_mount: Array
-    """How the unit is turned on the base: a quaternion (4,)."""
+    """Orientation of the inertial measurement unit in the base frame, a quaternion (4,)."""
 
 
 def layout_of(model: Any, description: RobotDescription, robot: str) -> Layout:
@@ -48,7 +48,7 @@ def layout_of(model: Any, description: RobotDescription, robot: str) -> Layout:
     model
         The compiled world.
     description
-        The kind of the robot.
+        Description of the robot.
     robot
         Its name; '' if it has none.
 
@@ -84,7 +84,7 @@ def layout_of(model: Any, description: RobotDescription, robot: str) -> Layout:
 def _mimicking(
     model: Any, description: RobotDescription, robot: str
 ) -> tuple[Indices, Indices, Indices]:
-    """Return the positions of thumbs, those of the fingers that they mirror, and velocities."""
+    """Find the indices of thumbs and of their fingers in `qpos`, and of thumbs in `qvel`."""
     hands = [in_world(robot, f'{description.prefix}{side}') for side in description.hands]
     thumbs, fingers = (
         [model.joint(hand + name) for hand in hands] for name in ('_gripper_thumb', '_gripper')
@@ -97,7 +97,7 @@ def _mimicking(
 
 
 def _mount(model: Any, body: int, base: int) -> Array:
-    """Return how a body is turned that is fixed to the base."""
+    """Compute the orientation in the base frame of a body that is fixed to the base."""
     mount = np.array([1.0, 0.0, 0.0, 0.0])
     while body != base:
         if body == 0 or model.body_jntnum[body]:

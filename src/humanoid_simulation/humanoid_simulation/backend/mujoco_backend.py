@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots in a world that MuJoCo computes."""
+"""Backend that simulates robots in MuJoCo."""
 
 from __future__ import annotations
 
@@ -35,28 +35,28 @@ import numpy as np
 
 class MujocoBackend:
     """
-    Implementation of `humanoid_control.backends.Backend` in a world that MuJoCo simulates.
+    Implementation of `humanoid_control.backends.Backend` by a MuJoCo simulation.
 
-    The robots begin in the keyframe `home`. The warning handler of MuJoCo is replaced, for the
-    whole process: an unstable state is found by a check after each step instead.
+    The robots start in the keyframe `home`. MuJoCo's warning handler is replaced for the whole
+    process: an unstable state is detected by a check after each step instead.
 
     Parameters
     ----------
     description
-        The kind of all robots; None is the humanoid in its original size, without hands.
+        Description shared by all robots; None is the humanoid in its original size, without hands.
     scene
         Floor and objects; by default a flat floor.
     placements
-        The name of each robot, and where on the ground it begins.
+        The name of each robot, and its initial pose on the ground.
     settings
         Physics steps, sensor noise with its seed, latency, and extrapolation of targets.
     keyframes
-        The postures that `reset` knows, `home` among them; None takes the installed ones.
+        The postures for `reset`, including `home`; None loads the installed ones.
 
     Raises
     ------
     SimulationError
-        Such a world cannot be built, or `home` is missing or sets a joint that no robot has.
+        The world cannot be built, or `home` is missing or sets a joint that no robot has.
 
     """
 
@@ -99,59 +99,59 @@ class MujocoBackend:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Return the names of the driven joints; all robots have the same."""
+        """Return the names of the driven joints, the same for all robots."""
         return self._joints
 
     @property
     def period_s(self) -> float:
-        """Return the time of a step."""
+        """Return the control period: the simulated time of a step."""
         return self._settings.period_s
 
     @property
     def time_s(self) -> float:
-        """Return the time that has passed."""
+        """Return the simulated time since the start."""
         return self._periods * self.period_s
 
     @property
     def model(self) -> Any:
-        """Return the compiled model, for those who draw the world."""
+        """Return the compiled MuJoCo model, for rendering."""
         return self._model
 
     @property
     def data(self) -> Any:
-        """Return the state of the world, to be read by those who draw it."""
+        """Return the MuJoCo state, for rendering; treat it as read-only."""
         return self._data
 
     @property
     def scene(self) -> Scene:
-        """Return the scene as it is now, things where their homes are."""
+        """Return the current scene, with objects at their initial poses."""
         return self._scene
 
     @property
     def entities(self) -> tuple[str, ...]:
-        """Return the names of the robots and of all things."""
+        """Return the names of the robots and of all objects."""
         return self._entities.names
 
     def observe(self) -> Mapping[str, Observation]:
-        """Return what the sensors of every robot say now, the same until time passes."""
+        """Return the measurements of every robot; they stay the same until time passes."""
         return {name: robot.observe() for name, robot in self._robots.items()}
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
         """
-        Advance the simulation by one control period, as `Backend.step` says.
+        Advance the simulation by one control period, see `Backend.step`.
 
-        Targets are checked first: if some are wrong, none are taken, and no time passes. If the
-        physics becomes unstable, the last state that was stable is restored.
+        Targets are validated first: if any is invalid, none is applied and no time passes. If
+        the physics becomes unstable, the last stable state is restored.
 
         Parameters
         ----------
         targets
-            By the names of robots; a robot without any keeps those that it had.
+            Joint targets by robot name; a robot without any continues with its last ones.
 
         Raises
         ------
         SimulationError
-            There is no such robot, its targets are wrong, or the physics has become unstable.
+            There is no such robot, its targets are invalid, or the physics has become unstable.
 
         """
         for name, wanted in targets.items():
@@ -168,17 +168,17 @@ class MujocoBackend:
 
     def reset(self, keyframe: str = 'home') -> None:
         """
-        Reset robots and objects to where they began, at rest; time goes on.
+        Reset robots and objects to their initial poses, at rest; time continues.
 
         Parameters
         ----------
         keyframe
-            Name of the posture in which the robots begin again.
+            Name of the posture in which the robots start again.
 
         Raises
         ------
         SimulationError
-            There is no such keyframe; all is as before then.
+            There is no such keyframe; nothing is changed then.
 
         """
         posture = named('keyframe', keyframe, self._keyframes)
@@ -192,7 +192,7 @@ class MujocoBackend:
 
     def change_scene(self, scene: Scene) -> None:
         """
-        Switch to another scene; robots, and objects that are in both of them, stay as they are.
+        Switch to another scene; robots, and objects that are in both scenes, keep their states.
 
         Parameters
         ----------
@@ -202,7 +202,7 @@ class MujocoBackend:
         Raises
         ------
         SimulationError
-            There can be no such world; all is as before then.
+            The world cannot be built; nothing is changed then.
 
         """
         before = self._model, self._data
@@ -219,7 +219,7 @@ class MujocoBackend:
         self._look_again()
 
     def close(self) -> None:
-        """Give back what is held; nothing else may be called after it."""
+        """Release all resources; the backend cannot be used afterwards."""
         self._robots = {}
 
     def entity(self, name: str) -> str:
@@ -241,7 +241,7 @@ class MujocoBackend:
 
     def entity_state(self, entity: str) -> EntityState:
         """
-        Measure the true pose, velocity and acceleration of an entity, in the world frame.
+        Read the true pose, velocity and acceleration of an entity, in the world frame.
 
         Parameters
         ----------
@@ -260,7 +260,7 @@ class MujocoBackend:
         """
         Compute the bounding box of an entity, along its own axes.
 
-        That of a robot includes all links, so that it changes with the posture.
+        For a robot it includes all links, so it changes with the posture.
 
         Parameters
         ----------
@@ -270,7 +270,7 @@ class MujocoBackend:
         Returns
         -------
         tuple[Array, Array]
-            Lower and upper corner (3,) in m; for a robot in base_link.
+            Lower and upper corner (3,) in m; for a robot in the frame base_link.
 
         Raises
         ------
@@ -282,7 +282,7 @@ class MujocoBackend:
 
     def ground_truth(self, robot: str = '') -> EntityState:
         """
-        Measure the true state of the base of a robot, in the world frame.
+        Read the true state of the base of a robot, in the world frame.
 
         Parameters
         ----------
@@ -300,7 +300,7 @@ class MujocoBackend:
 
     def set_entity_state(self, entity: str, state: EntityState) -> None:
         """
-        Move a robot or an object; the joints of a robot stay as they are.
+        Set the pose and velocity of a robot or an object; the joints of a robot keep their state.
 
         Parameters
         ----------
@@ -327,14 +327,14 @@ class MujocoBackend:
         point_m: Sequence[float] | Array = (0.0, 0.0, 0.0),
     ) -> None:
         """
-        Apply a wrench to a body from the coming period on; several on one body add up.
+        Apply a wrench to a body from the next period on; wrenches on the same body add up.
 
         Parameters
         ----------
         body
             Name of an object or of a link, the latter as `robot/link` if robots have names.
         force_n, torque_nm
-            Force, and torque about its point (3,), in world axes.
+            Force, and torque about its point of application, (3,) each, in world axes.
         duration_s
             How long they act, in simulated time.
         point_m
@@ -358,7 +358,7 @@ class MujocoBackend:
 
     def hoist(self, robot: str = '') -> None:
         """
-        Start to lift a robot onto its feet, as if by a rope and by hand, where it is.
+        Start lifting a robot onto its feet where it is, as if by a rope and by hand.
 
         Parameters
         ----------
@@ -376,7 +376,7 @@ class MujocoBackend:
 
     def is_hoisted(self, robot: str = '') -> bool:
         """
-        Whether a robot is still being lifted onto its feet.
+        Check whether a robot is still being lifted onto its feet.
 
         Parameters
         ----------
@@ -392,16 +392,16 @@ class MujocoBackend:
         return self._hoists.is_lifting(named('robot', robot, self._robots).base)
 
     def contacts(self) -> Iterator[Contact]:
-        """Yield what touches what, as of the last physics step."""
+        """Iterate over the contacts of the last physics step."""
         return contacts_in(self._model, self._data, self._names.bodies)
 
     def snapshot(self) -> Snapshot:
-        """Return a copy of the state."""
+        """Copy the current state."""
         return Snapshot(self.time_s, self._data.qpos.copy(), self._data.qvel.copy())
 
     def body(self, entity: str, link: str = '') -> str:
         """
-        Look up the name of a body, as `apply_wrench` takes it.
+        Look up the name of a body, as `apply_wrench` accepts it.
 
         Parameters
         ----------
@@ -420,7 +420,7 @@ class MujocoBackend:
 
     def links(self, robot: str = '') -> list[str]:
         """
-        List the names of the bodies of a robot, as contacts give them.
+        List the names of the bodies of a robot, as they appear in contacts.
 
         Parameters
         ----------
@@ -448,14 +448,14 @@ class MujocoBackend:
         return in_world(robot, CAMERA)
 
     def _name(self, scene: Scene) -> None:
-        """Look up what the scene has in the model."""
+        """Set the scene, and index its bodies and entities in the model."""
         self._scene = scene
         self._names = Names(self._model, scene, self.robots, self._description.base)
         self._entities = Entities(self._model, self._data, self._names)
         self._sound = LastSound(self._data)
 
     def _look_again(self) -> None:
-        """Compute what follows from a state that was set, and measure it."""
+        """Recompute derived quantities after the state was set, and measure again."""
         self._data.time = self.time_s
         mujoco.mj_forward(self._model, self._data)
         for robot in self._robots.values():
@@ -463,12 +463,12 @@ class MujocoBackend:
         self._measure()
 
     def _measure(self) -> None:
-        """Let every robot measure."""
+        """Read the sensors of every robot."""
         for robot in self._robots.values():
             robot.measure(self.time_s)
 
     def _refuse_explosion(self) -> None:
-        """Go back from a state that no longer means anything, and raise SimulationError."""
+        """Restore the last stable state and raise SimulationError if the physics diverged."""
         if self._sound.is_lost:
             self._sound.restore()
             self._wrenches.clear()
@@ -482,4 +482,4 @@ class MujocoBackend:
 
 
 def _ignore(message: str) -> None:
-    """Leave a warning of MuJoCo, which it would write to a file, to the check of the state."""
+    """Ignore a MuJoCo warning, which would go to a log file; the state is checked instead."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the bodies of a world are called by those who use it."""
+"""Public names of the bodies and entities of a world."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class Names:
     """
     The names of bodies and entities.
 
-    Bodies are the links of robots, with the robot's name and '/' in front if it has one, and the
-    objects of the scene. Entities are the robots and the objects; only some of these can be moved.
+    Bodies are the links of robots, prefixed with the robot's name and '/' if it has one, and the
+    objects of the scene. Entities are the robots and the objects; only some objects can be moved.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class Names:
     robots
         Names of the robots; '' for a single one without a name.
     base
-        Name of the link that floats, the same in all robots.
+        Name of the floating base link, the same in all robots.
 
     """
 
@@ -43,13 +43,13 @@ class Names:
             **{robot or ALONE: in_world(robot, FLOATING_BASE) for robot in robots},
             **things,
         }
-        """The joint that lets an entity float, by the name of the entity."""
+        """The free joint of each entity that can be moved, by the name of the entity."""
         self.fixed = tuple(thing.name for thing in scene.things if thing.is_fixed)
-        """The entities that nothing can move."""
+        """The entities that are fixed in the world."""
 
     def body(self, entity: str, link: str = '') -> str:
         """
-        Look up the name of a body: that of a link of a robot, or of an object.
+        Look up the name of a body: a link of a robot, or an object.
 
         Parameters
         ----------
@@ -108,5 +108,5 @@ class Names:
         return [name for name, of in zip(self.bodies, self._roots) if of == root]
 
     def _public(self, name: str) -> str:
-        """Return what a body is called outside: a robot without a name is not mentioned."""
+        """Convert a MuJoCo body name: the prefix of a robot without a name is dropped."""
         return name.removeprefix(f'{ALONE}/') if '' in self._robots else name

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far sensors are off."""
+"""Sensor noise: white noise and constant biases."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ import numpy as np
 
 @dataclass(frozen=True)
 class SensorNoise:
-    """Standard deviations of what changes at every measurement, and of the constant biases."""
+    """Standard deviations of the white noise of measurements, and of the constant biases."""
 
     position_rad: float = 0.0
     velocity_rad_s: float = 0.0
     effort_nm: float = 0.0
     tilt_rad: float = 0.0
-    """Of roll and pitch; the heading is integrated from the angular velocity."""
+    """Noise of roll and pitch; the heading is integrated from the angular velocity."""
     angular_velocity_rad_s: float = 0.0
     acceleration_m_s2: float = 0.0
     foot_force_n: float = 0.0
@@ -31,7 +31,7 @@ class SensorNoise:
     acceleration_bias_m_s2: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no standard deviation."""
+        """Check that each standard deviation is finite and not negative."""
         for each in fields(self):
             value = getattr(self, each.name)
             if not (math.isfinite(value) and value >= 0.0):
@@ -41,12 +41,12 @@ class SensorNoise:
 
     def imu(self, period_s: float) -> ImuNoise:
         """
-        Describe the errors of the inertial measurement unit to those who use it.
+        Summarise the errors of the inertial measurement unit for state estimation.
 
         Parameters
         ----------
         period_s
-            Time from one measurement to the next.
+            Sampling period: the time from one measurement to the next.
 
         """
         tilt_bias_rad = math.hypot(
@@ -66,12 +66,12 @@ class SensorNoise:
 
     def scaled(self, factor: float) -> SensorNoise:
         """
-        Scale all standard deviations, those of the biases included.
+        Scale all standard deviations, including those of the biases.
 
         Parameters
         ----------
         factor
-            What they are multiplied by; 0 is no noise.
+            Factor by which they are multiplied; 0 is no noise.
 
         Raises
         ------
@@ -94,14 +94,14 @@ REALISTIC = SensorNoise(
     angular_velocity_bias_rad_s=2e-3,
     acceleration_bias_m_s2=0.05,
 )
-"""About that of encoders, of a cheap inertial measurement unit, and of strain gauges."""
+"""Typical of encoders, of a low-cost inertial measurement unit and of strain gauges."""
 
 
 ATTITUDE_FILTER_S = 1.0
 """Time constant with which the attitude filter of the sensor follows the accelerometers."""
 GRAVITY_M_S2 = 9.81
 _PINION_M = 0.04
-"""A joint that slides is measured by an encoder, on a pinion of this radius."""
+"""Radius of the pinion on which an encoder measures a prismatic joint."""
 
 
 class NoiseSource:
@@ -115,7 +115,7 @@ class NoiseSource:
     joints
         Number n of driven joints.
     random
-        Source of random numbers; the biases, which then stay constant, are drawn from it at once.
+        Random number generator; the constant biases are drawn from it immediately.
     slides
         Whether each joint (n,) is prismatic, measured in m; empty if none is.
 
@@ -151,15 +151,15 @@ class NoiseSource:
         Parameters
         ----------
         orientation
-            The true one of the inertial sensor, w, x, y, z.
+            True orientation of the inertial sensor, w, x, y, z.
         time_s
-            When it is measured.
+            Time of the measurement.
 
         Returns
         -------
         tuple[Array, Array]
-            The errors of the channels (3 n + 18,), and the one of the orientation: a small turn
-            (3,) in the axes of the world.
+            The errors of the channels (3 n + 18,), and that of the orientation: a small rotation
+            vector (3,) in world axes.
 
         """
         errors = self._random.standard_normal(len(self._deviations)) * self._deviations
@@ -174,10 +174,10 @@ class AttitudeError:
     """
     Error of the attitude that a filter estimates from gyroscopes and accelerometers (6 axes).
 
-    The filter integrates the angular velocity, and leans towards what the accelerometers take for
-    the vertical. So its tilt stays bounded: it is off by as much as the gyroscopes drift in the
-    filter's time constant, and by the angle of the accelerometers' bias to gravity. No
-    magnetometer corrects the heading, so that the error of the gyroscopes adds up in it.
+    The filter integrates the angular velocity, and corrects its tilt towards the vertical that
+    the accelerometers measure. Its tilt error therefore stays bounded: by the gyroscope drift over
+    the filter's time constant, and by the angle by which the accelerometer bias turns gravity. No
+    magnetometer corrects the heading, so gyroscope errors accumulate in it.
     First-order complementary filter, linearised: Mahony, Hamel and Pflimlin, "Nonlinear
     Complementary Filters on the Special Orthogonal Group" (2008).
 
@@ -195,21 +195,21 @@ class AttitudeError:
 
     def update(self, rate_error_rad_s: Array, orientation: Array, time_s: float) -> Array:
         """
-        Let time pass.
+        Advance the attitude error to the given time.
 
         Parameters
         ----------
         rate_error_rad_s
-            Error (3,) of the angular velocity, in the axes of the world.
+            Error (3,) of the angular velocity, in world axes.
         orientation
-            The true one of the sensor, w, x, y, z.
+            True orientation of the sensor, w, x, y, z.
         time_s
-            The time now. The filter has settled when it is asked for the first time.
+            Current time. At the first call the filter has settled.
 
         Returns
         -------
         Array
-            The turn (3,) from the true attitude to that of the filter, in the axes of the world.
+            Rotation vector (3,) from the true attitude to that of the filter, in world axes.
 
         """
         x, y, _ = (rotated(self._bias, orientation) / GRAVITY_M_S2).tolist()

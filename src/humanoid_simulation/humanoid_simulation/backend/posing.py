@@ -14,7 +14,7 @@ from humanoid_simulation.rotations import from_rpy
 import mujoco
 import numpy as np
 
-# So deep a robot that stands sinks into the ground, so that its soles carry it at once.
+# Initial penetration of a standing robot into the ground, so that its soles bear load at once.
 _SINK_M = 1e-4
 
 
@@ -29,7 +29,7 @@ def pose(
     """
     Set the base and the joints of a robot, with its lowest point on the ground.
 
-    Of the state, only `qpos` is valid after this: all else is left to be computed.
+    Of the state, only `qpos` is valid afterwards; derived quantities are not recomputed.
 
     Parameters
     ----------
@@ -38,11 +38,11 @@ def pose(
     layout
         Indices of the robot in them.
     place
-        Where on the ground it begins, and its heading.
+        Its initial position on the ground, and its heading.
     keyframe
         Roll and pitch of the base; its joints are not used.
     positions_rad
-        Positions of the driven joints (n,); those that mimic others follow.
+        Positions of the driven joints (n,); mimic joints follow.
 
     """
     data.qpos[layout.positions] = positions_rad
@@ -57,7 +57,7 @@ def pose(
 
 
 def _lowest_m(model: Any, data: Any, base: int) -> float:
-    """Return the height of the lowest point of a robot."""
+    """Compute the height of the lowest point of a robot."""
     root = model.body_rootid[base]
     return min(
         _lowest_of_geom(model, data, geom)
@@ -68,7 +68,7 @@ def _lowest_m(model: Any, data: Any, base: int) -> float:
 
 
 def _lowest_of_geom(model: Any, data: Any, geom: int) -> float:
-    """Return the height of the lowest point of a geom; of a mesh, that of the box around it."""
+    """Compute the height of the lowest point of a geom; for a mesh, of its bounding box."""
     up: Array = data.geom_xmat[geom].reshape(3, 3)[2]
     size = model.geom_size[geom]
     height = float(data.geom_xpos[geom][2])

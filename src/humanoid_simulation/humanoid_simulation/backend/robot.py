@@ -28,9 +28,9 @@ class SimulatedRobot:
     model, data
         The compiled MuJoCo world, and its state, in which the inputs of the servos are set.
     description
-        The kind of the robot.
+        Description of the robot.
     place
-        Its name, and where on the ground it begins.
+        Its name, and its initial pose on the ground.
     settings
         Control period, sensor noise, latency, and extrapolation of targets.
     random
@@ -88,7 +88,7 @@ class SimulatedRobot:
         Raises
         ------
         SimulationError
-            They are of the wrong number, or not finite.
+            Their number is wrong, or a value is not finite.
 
         """
         check_targets(self._place.robot, self._joints, targets)
@@ -100,7 +100,7 @@ class SimulatedRobot:
         Parameters
         ----------
         targets
-            New targets, which `check` has let through; None goes on with the last ones.
+            New targets, already validated by `check`; None continues with the last ones.
 
         """
         if targets is None:
@@ -133,12 +133,12 @@ class SimulatedRobot:
 
     @property
     def base(self) -> int:
-        """Return the number of the link that floats."""
+        """Return the body id of the floating base."""
         return self._layout.base
 
     def put(self, keyframe: Keyframe, positions_rad: Array) -> None:
         """
-        Put the robot where it began, at rest in a posture, which its servos hold.
+        Reset the robot to its initial place, at rest in a posture that its servos hold.
 
         Parameters
         ----------
@@ -156,21 +156,21 @@ class SimulatedRobot:
         data.ctrl[layout.servos] = self._servos.inputs
 
     def forget(self) -> None:
-        """Drop the observations of the past: they tell of another place."""
+        """Clear the latency buffer: its observations predate a change of the state."""
         self._measured.clear()
 
     def measure(self, time_s: float) -> None:
         """
-        Read the sensors; `observe` gives the result after the latency.
+        Read the sensors; `observe` returns the result after the latency.
 
         Parameters
         ----------
         time_s
-            Simulated time now.
+            Current simulated time.
 
         """
         self._measured.append(self._sensors.measure(time_s))
 
     def observe(self) -> Observation:
-        """Return what the sensors said, as long ago as the latency is."""
+        """Return the measurement that is as old as the latency."""
         return self._measured[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the sensors of a robot say."""
+"""Simulated sensors of a robot: encoders, inertial measurement unit and foot sensors."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ class Sensors:
     """
     Joint encoders, inertial measurement unit and foot force sensors of a robot in a world.
 
-    Joint positions and all velocities are those of this moment; forces and accelerations are those
-    of the physics step that led to it.
+    Joint positions and all velocities are current; forces and accelerations are those of the last
+    physics step.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class Sensors:
     layout
         Indices of the robot in these arrays.
     noise
-        Draws the errors of measurements.
+        Source of the measurement errors.
 
     """
 
@@ -38,7 +38,7 @@ class Sensors:
         self._external = [data.cfrc_ext[foot] for foot in layout.feet]
         self._sole_positions = [data.xpos[sole] for sole in layout.soles]
         self._sole_turns = [data.xmat[sole] for sole in layout.soles]
-        # What forces on bodies are given about.
+        # The reference point of the external forces on bodies.
         self._centre = data.subtree_com[model.body_rootid[layout.base]]
         self._layout = layout
         self._mount, self._unmount = layout.imu_mount, inverse(layout.imu_mount)
@@ -52,7 +52,7 @@ class Sensors:
         Parameters
         ----------
         time_s
-            Simulated time now, which is the stamp, and by which the heading drifts.
+            Current simulated time, for the stamp and the drift of the heading.
 
         """
         values = self._true_values()
@@ -64,7 +64,7 @@ class Sensors:
         return self._observation(time_s, values, orientation)
 
     def _true_values(self) -> Array:
-        """Return the values of the channels."""
+        """Read the noise-free values of all channels."""
         layout, channels = self._layout, self._channels
         values = np.empty(channels.size)
         values[channels.positions] = self._qpos[layout.positions]
@@ -79,7 +79,7 @@ class Sensors:
         return values
 
     def _wrench_about_sole(self, foot: int) -> Array:
-        """Return torque and force (6,) on a foot from outside, about its sole in its axes."""
+        """Compute the external torque and force (6,) on a foot, about its sole and in its axes."""
         wrench = np.empty(6)
         mujoco.mju_transformSpatial(
             wrench,
@@ -92,7 +92,7 @@ class Sensors:
         return wrench
 
     def _observation(self, time_s: float, values: Array, orientation: Array) -> Observation:
-        """Name the parts of the values."""
+        """Build an observation from the values of the channels."""
         channels = self._channels
         return Observation(
             time_s,

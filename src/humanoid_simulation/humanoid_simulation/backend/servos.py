@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the drives of a robot are told."""
+"""Position servos of a robot: feed-forward, limits and extrapolation of targets."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ class Servos:
     """
     Converts the targets of n joints to the inputs of MuJoCo's position servos.
 
-    Such a servo exerts kp (input - q) - kd dq. Feed-forward is put into the input; positions,
-    velocities and efforts are clamped to the limits of the drives. A target that jumps is followed
-    as fast as a joint may move. Call `reset` with the positions of the joints first.
+    Such a servo exerts kp (input - q) - kd dq. Feed-forward is folded into the input; positions,
+    velocities and efforts are clamped to the limits of the drives. Jumps of a target are rate
+    limited to the maximum joint velocity. Call `reset` with the positions of the joints first.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class Servos:
     period_s
         Control period: the time from one `take` or `go_on` to the next.
     extrapolation_s
-        How long positions go on with their velocities while no new targets come.
+        How long positions are extrapolated at their target velocities without new targets.
 
     """
 
@@ -44,7 +44,7 @@ class Servos:
 
     def reset(self, positions_rad: Array) -> None:
         """
-        Hold positions without feed-forward, from a moment at which the joints are there.
+        Hold the current positions of the joints, without feed-forward.
 
         Parameters
         ----------
@@ -64,7 +64,7 @@ class Servos:
         Parameters
         ----------
         targets
-            For all joints, in their order; `check_targets` has let them through.
+            For all joints, in their order; already validated by `check_targets`.
 
         """
         self._age_s = 0.0
@@ -73,7 +73,7 @@ class Servos:
         self._go_to(targets.positions_rad)
 
     def go_on(self) -> None:
-        """Let a period pass without new targets: positions go on for a while, then they stay."""
+        """Advance a period without new targets: extrapolate positions for a while, then hold."""
         self._age_s += self._period_s
         if self._age_s <= self._extrapolation_s:
             self._go_to(self._positions + self._velocities * self._period_s)
@@ -88,7 +88,7 @@ class Servos:
         return inputs
 
     def _go_to(self, positions_rad: Array) -> None:
-        """Move the target within the range, no faster than the joints may."""
+        """Move the target, clamped to the joint range and rate limited to the joint velocity."""
         reach = self._speed * self._period_s
         in_range = _within(positions_rad, self._lower, self._upper)
         self._positions = _within(in_range, self._positions - reach, self._positions + reach)
@@ -110,7 +110,7 @@ def check_targets(robot: str, joints: tuple[str, ...], targets: JointTargets) ->
     Raises
     ------
     SimulationError
-        One is not; the text names the joints whose targets are not finite.
+        A shape is wrong, or targets are not finite; the message then names their joints.
 
     """
     arrays = (targets.positions_rad, targets.velocities_rad_s, targets.efforts_nm)
@@ -129,5 +129,5 @@ def check_targets(robot: str, joints: tuple[str, ...], targets: JointTargets) ->
 
 
 def _within(values: Array, lower: Array, upper: Array) -> Array:
-    """Return values, those out of range replaced by the nearest within; numpy's clip is slower."""
+    """Clamp values to a range, faster than `numpy.clip`."""
     return np.minimum(np.maximum(values, lower), upper)

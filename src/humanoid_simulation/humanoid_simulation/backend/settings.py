@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a world is computed, and how good sensors and drives are in it."""
+"""Settings of the MuJoCo backend: time steps, sensor noise and latency."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from humanoid_simulation.model import Physics
 
 @dataclass(frozen=True)
 class BackendSettings:
-    """How the world is computed, and how good sensors and drives are."""
+    """Settings of the physics, and imperfections of sensors and drives."""
 
     physics: Physics = field(default_factory=Physics)
     steps_per_period: int = 5
-    """Physics steps from one observation to the next."""
+    """Physics steps in a control period, from one observation to the next."""
     noise: SensorNoise = field(default_factory=SensorNoise)
     seed: int = 0
-    """Of the noise: the same seed gives the same trajectory, bit for bit."""
+    """Seed of the noise: the same seed gives the same trajectory, bit for bit."""
     latency_periods: int = 0
-    """How old observations are."""
+    """Age of observations, in control periods."""
     extrapolation_s: float = 0.0
-    """For so long positions go on with their velocities when no new targets come."""
+    """How long positions are extrapolated at their target velocities without new targets."""
 
     def __post_init__(self) -> None:
-        """Refuse settings that no world can have."""
+        """Validate the ranges of the settings."""
         if not 1 <= self.steps_per_period <= 100:
             raise SimulationError(
                 f'A period cannot have {self.steps_per_period} physics steps. Give 1 to 100.'
@@ -42,5 +42,5 @@ class BackendSettings:
 
     @property
     def period_s(self) -> float:
-        """Return the time from one observation to the next."""
+        """Return the control period: the time from one observation to the next."""
         return self.steps_per_period * self.physics.period_s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The state of a world, copied for those who look at it, or carried over into another one."""
+"""Copies of the simulation state, and its transfer to another model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from humanoid_control.backends import Array
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """Positions and velocities as MuJoCo counts them, at a moment."""
+    """Copy of the generalised positions and velocities of MuJoCo at one time."""
 
     time_s: float
     qpos: Array
@@ -20,14 +20,14 @@ class Snapshot:
 
 def carry_over(old: Any, old_data: Any, new: Any, new_data: Any) -> None:
     """
-    Set the joints that two models have in common, by name, to positions and velocities of one.
+    Copy the states of the joints that two models have in common, by name.
 
     Parameters
     ----------
     old, old_data
-        The model and the state that is taken.
+        The model and the state to copy from.
     new, new_data
-        The model and the state that is set; what follows from it is left to be computed.
+        The model and the state to copy to; derived quantities are not recomputed.
 
     """
     known = {old.joint(number).name for number in range(old.njnt)}
@@ -50,7 +50,7 @@ def numbers_in(old: Any, new: Any) -> dict[int, int]:
     Returns
     -------
     dict[int, int]
-        New ids by the old ones; bodies that the new model does not have are left out.
+        New ids by the old ones, without the bodies that the new model lacks.
 
     """
     numbers = {new.body(number).name: number for number in range(new.nbody)}

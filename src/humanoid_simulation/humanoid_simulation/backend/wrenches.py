@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Forces from outside that last for a while."""
+"""External wrenches of limited duration."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from humanoid_simulation.errors import SimulationError
 import numpy as np
 
 MOST = 100
-"""At a time: each one that acts costs time in every period."""
+"""Maximum number of wrenches at a time: each one costs time in every period."""
 
 
 @dataclass(frozen=True, eq=False)
 class Wrench:
-    """A force and a torque (3,) in world axes on a point (3,) of a body, in the body's axes."""
+    """A force and a torque (3,) in world axes, at a point (3,) of a body in body axes."""
 
     body: int
     force_n: Array
@@ -26,7 +26,7 @@ class Wrench:
     duration_s: float
 
     def __post_init__(self) -> None:
-        """Refuse what is no wrench."""
+        """Check that the vectors are finite, and the duration finite and positive."""
         for kind in ('force_n', 'torque_nm', 'point_m'):
             array = getattr(self, kind)
             if array.shape != (3,) or not np.isfinite(array).all():
@@ -43,7 +43,7 @@ class Wrenches:
     """
     External wrenches that act on the bodies of a world for a limited time.
 
-    One that ends within a period is scaled down for all of it, so that the impulse is right.
+    A wrench that ends within a period is scaled down over all of it, to get the impulse right.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Wrenches:
 
     def enter(self, model: Any, data: Any, numbers: Mapping[int, int]) -> None:
         """
-        Switch to another model; wrenches on bodies that it does not have end.
+        Switch to another model; wrenches on bodies that it lacks end.
 
         Parameters
         ----------
@@ -77,14 +77,14 @@ class Wrenches:
 
     def add(self, wrench: Wrench, *, always: bool = False) -> None:
         """
-        Apply a wrench from the coming period on.
+        Apply a wrench from the next period on.
 
         Parameters
         ----------
         wrench
             The wrench; it adds to others on the same body.
         always
-            Whether it acts however many act already, as that of a hoist does.
+            Whether it is exempt from the limit of `MOST` wrenches, as that of a hoist is.
 
         Raises
         ------
@@ -100,13 +100,13 @@ class Wrenches:
         self._acting.append((wrench, wrench.duration_s))
 
     def clear(self) -> None:
-        """End all of them."""
+        """End all wrenches."""
         self._acting = []
         self._data.xfrc_applied[:] = 0.0
 
     def act(self, period_s: float) -> None:
         """
-        Set the external forces of the coming period, `xfrc_applied` of MuJoCo.
+        Set the external forces (`xfrc_applied`) for the coming period.
 
         Parameters
         ----------
@@ -119,13 +119,13 @@ class Wrenches:
         self._data.xfrc_applied[:] = 0.0
         for wrench, left_s in self._acting:
             self._apply(wrench, min(1.0, left_s / period_s))
-        # The wrenches that have ended leave zeros behind in the next period.
+        # Ended wrenches stay for one more period, in which their forces are set to zero.
         self._acting = [
             (wrench, left_s - period_s) for wrench, left_s in self._acting if left_s > 0
         ]
 
     def _apply(self, wrench: Wrench, part: float) -> None:
-        """Add a part of a wrench to those on its body, about its centre of mass."""
+        """Add a wrench, scaled by `part`, to those on its body, about the centre of mass."""
         if part <= 0.0:
             return
         data, body = self._data, wrench.body

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The cameras of the simulated robots, drawn by a process of their own."""
+"""Cameras of the simulated robots, rendered in a separate process."""
 
 from humanoid_simulation.camera.renderer import Renderer
 from humanoid_simulation.camera.view import CameraView, Wanted

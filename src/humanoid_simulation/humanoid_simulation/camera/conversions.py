@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn pictures and the geometry of a camera into messages."""
+"""Convert images, point clouds and the geometry of a camera to messages."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def stamp_of(time_ns: int) -> Time:
 
 def color_image(pinhole: Pinhole, frame: str) -> Image:
     """
-    Create a black rgb8 image message, to be filled again for each colour image.
+    Create a black rgb8 image message, to be reused for each colour image.
 
     Parameters
     ----------
     pinhole
-        The camera, which gives the size.
+        The camera, which determines the size.
     frame
         Its optical frame (`frame_id`).
 
@@ -47,12 +47,12 @@ def color_image(pinhole: Pinhole, frame: str) -> Image:
 
 def depth_image(pinhole: Pinhole, frame: str) -> Image:
     """
-    Create an empty 32FC1 image message, to be filled again for each depth image in m.
+    Create an empty 32FC1 image message, to be reused for each depth image in m.
 
     Parameters
     ----------
     pinhole
-        The camera, which gives the size.
+        The camera, which determines the size.
     frame
         Its optical frame (`frame_id`).
 
@@ -62,7 +62,7 @@ def depth_image(pinhole: Pinhole, frame: str) -> Image:
 
 def point_cloud(pinhole: Pinhole, frame: str) -> PointCloud2:
     """
-    Create an organised point cloud message, to be filled again for each cloud.
+    Create an organised point cloud message, to be reused for each cloud.
 
     Its fields are x, y and z as float32, in m. It is not dense: points may be NaN.
 
@@ -103,7 +103,7 @@ def fill_data(message: Image | PointCloud2, values: NDArray[Any], stamp: Time) -
     Parameters
     ----------
     message
-        A message of `color_image`, `depth_image` or `point_cloud`.
+        A message from `color_image`, `depth_image` or `point_cloud`.
     values
         Pixels or points, with as many bytes as the message has: uint8 for colours, else float32.
     stamp
@@ -145,14 +145,14 @@ def camera_info(pinhole: Pinhole, frame: str) -> CameraInfo:
 
 
 def _image(pinhole: Pinhole, frame: str, encoding: str, pixel_bytes: int) -> Image:
-    """Return a message with black pixels."""
+    """Create an image message with black pixels."""
     step = pinhole.width_px * pixel_bytes
     image = Image(
         width=pinhole.width_px,
         height=pinhole.height_px,
         encoding=encoding,
         step=step,
-        # Only an array is taken as it is; each byte of anything else is checked.
+        # Only an array is used as it is; of any other type, each byte is checked.
         data=array('B', bytes(step * pinhole.height_px)),
     )
     image.header.frame_id = frame

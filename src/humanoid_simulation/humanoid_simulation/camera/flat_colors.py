@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Colours and light for surfaces that are drawn without OpenGL."""
+"""Colours and lighting of surfaces that are rendered without OpenGL."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _UNSET_RGBA = np.array([0.5, 0.5, 0.5, 1.0], dtype=np.float32)
-"""The colour of a geom that was given none: that of its material counts."""
+"""Default colour of a geom: with it, the colour of the material applies."""
 
 
 def geom_colors(model: mujoco.MjModel) -> Array:
     """
-    Determine one flat colour for each geom; a texture counts with its mean colour.
+    Determine one flat colour for each geom; a texture contributes its mean colour.
 
     Parameters
     ----------
@@ -61,14 +61,14 @@ def brightness(
     model: mujoco.MjModel, data: mujoco.MjData, points: Array, normals: Array, forward: Array
 ) -> Array:
     """
-    Compute how brightly matt surfaces are lit, by Lambert's law without shadows.
+    Compute the light on matt surfaces, by Lambert's law without shadows.
 
     Parameters
     ----------
     model, data
         The world, and its state with the lights placed (`mj_camlight`).
     points, normals
-        Where the surfaces are (n, 3) in m, and their unit normals (n, 3), in the world frame.
+        Points on the surfaces (n, 3) in m, and their unit normals (n, 3), in the world frame.
     forward
         Unit vector (3,) along which the camera looks and the headlight shines, in the world frame.
 
@@ -92,7 +92,7 @@ def brightness(
 def _towards_light(
     model: mujoco.MjModel, data: mujoco.MjData, number: int, points: Array
 ) -> Array:
-    """Return the unit vectors to a light, (3,) if it is as far as the sun, else (n, 3)."""
+    """Compute the unit vectors to a light: (3,) if it is directional, else (n, 3)."""
     if model.light_type[number] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL:
         return -np.asarray(data.light_xdir[number], dtype=np.float64)
     towards = data.light_xpos[number] - points
@@ -100,17 +100,17 @@ def _towards_light(
 
 
 def _facing(normals: Array, towards: Array) -> Array:
-    """Return the cosines between normals, (n, 3), and the way to a light, none below 0."""
+    """Compute the cosines between normals (n, 3) and directions to a light, at least 0."""
     return np.asarray(np.maximum(np.sum(normals * towards, axis=1), 0.0))
 
 
 def _texture_of(model: mujoco.MjModel, material: int) -> int:
-    """Return the number of the texture that gives a material its colour, or -1."""
+    """Return the id of the colour texture of a material, or -1."""
     return int(model.mat_texid[material, mujoco.mjtTextureRole.mjTEXROLE_RGB])
 
 
 def _mean_texture(model: mujoco.MjModel, texture: int) -> Array:
-    """Return the mean colour of a texture, (3,), 0 to 1; white without one."""
+    """Compute the mean colour of a texture, (3,), 0 to 1; white without one."""
     if texture < 0:
         return np.ones(3)
     channels = int(model.tex_nchannel[texture])

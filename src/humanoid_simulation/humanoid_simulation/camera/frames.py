@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The memory that the simulator and the process that draws share."""
+"""Memory shared by the simulator and the render process."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ class Frames:
     """
     Shared memory for the positions of a state, and for the images and point clouds of its views.
 
-    The memory has no name and is gone with the last process that holds it.
+    The memory is anonymous, and is freed with the last process that holds it.
 
     Parameters
     ----------
     file
-        Descriptor of the memory, from `unnamed_file`; the file is resized to what is needed.
+        File descriptor of the memory, from `unnamed_file`; the file is resized as needed.
     nq
         Number of generalised positions of the MuJoCo model.
     views
@@ -76,7 +76,7 @@ def unnamed_file(purpose: str) -> int:
     Parameters
     ----------
     purpose
-        A word for its name in /proc, for people who debug.
+        A word for its name in /proc, for debugging.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw by OpenGL, without a window."""
+"""Off-screen rendering with OpenGL."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _LEFT_OUT = (
 
 class GlPainter:
     """
-    Off-screen renderer by OpenGL; a process can use a single method only.
+    Off-screen renderer with OpenGL; a process can use one method only.
 
-    Without shadows and anti-aliasing, which cost seven times as much without a graphics card. The
-    model must be one that nobody else uses: its picture quality is changed.
+    Shadows and anti-aliasing are off: without a graphics card, they cost seven times as much. The
+    model must not be shared: its visual settings are changed.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class GlPainter:
     model
         The world.
     width_px, height_px
-        Size of the largest image that will be drawn.
+        Size of the largest image that will be rendered.
 
     Raises
     ------
@@ -79,12 +79,12 @@ class GlPainter:
             self._render(color, depth)
 
     def close(self) -> None:
-        """End OpenGL."""
+        """Free the OpenGL context."""
         self._context.free()
         self._gl.free()
 
     def _render(self, color: Color | None, depth: Depth | None) -> None:
-        """Fill the pictures that are given; a sky is drawn only if depth is not."""
+        """Render into the given images; the skybox is drawn only without depth."""
         shape = _shape_of(color, depth)
         if shape is None:
             return
@@ -99,21 +99,21 @@ class GlPainter:
 
 
 def _start(method: str, width_px: int, height_px: int) -> Any:
-    """Start the OpenGL of a method."""
+    """Create the OpenGL context of a method."""
     try:
         library = import_module(f'mujoco.{method}')
-    except (ImportError, AttributeError) as error:  # PyOpenGL uses what it has not found
+    except (ImportError, AttributeError) as error:  # PyOpenGL uses libraries it has not found
         raise SimulationError(f'its library was not found ({error}).') from error
     try:
         context = library.GLContext(width_px, height_px)
         context.make_current()
-    except Exception as error:  # there are as many kinds as there are drivers
+    except Exception as error:  # the type depends on the driver
         raise SimulationError(f'its library cannot be used ({error}).') from error
     return context
 
 
 def _make_cheap(model: mujoco.MjModel, width_px: int, height_px: int) -> None:
-    """Set how a model is drawn: fast, at the right size, between the right distances."""
+    """Set the visual options of a model: quality, image size, near and far plane."""
     visual = model.vis
     visual.quality.shadowsize = 0
     visual.quality.offsamples = 0
@@ -124,7 +124,7 @@ def _make_cheap(model: mujoco.MjModel, width_px: int, height_px: int) -> None:
 
 
 def _offscreen_context(model: mujoco.MjModel) -> mujoco.MjrContext:
-    """Make the context that draws to memory."""
+    """Create the rendering context with the off-screen buffer."""
     context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_50)
     mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, context)
     if context.currentBuffer != mujoco.mjtFramebuffer.mjFB_OFFSCREEN:
@@ -134,14 +134,14 @@ def _offscreen_context(model: mujoco.MjModel) -> mujoco.MjrContext:
 
 
 def _shape_of(color: Color | None, depth: Depth | None) -> tuple[int, ...] | None:
-    """Return height and width of the pictures."""
+    """Return height and width of the images, or None without any."""
     if color is not None:
         return color.shape[:2]
     return None if depth is None else depth.shape
 
 
 def _metres(buffer: Depth) -> Depth:
-    """Turn the depth buffer, 1 at NEAR_M and 0 at FAR_M, into distances along the axis."""
+    """Convert a depth buffer, 1 at NEAR_M and 0 at FAR_M, to depth along the optical axis."""
     near_over = buffer.astype(np.float64) * (FAR_M - NEAR_M) + NEAR_M
     metres = NEAR_M * FAR_M / near_over
     metres[buffer <= 0.0] = np.inf

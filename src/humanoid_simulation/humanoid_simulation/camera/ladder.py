@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which method to draw by is next, after what has failed."""
+"""Fallback order of the rendering methods."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ class Ladder:
     """
     Fallback order of rendering methods, and why those that were tried have failed.
 
-    A method that has drawn before gets another chance when its process ends, until that happens
-    three times with no picture between.
+    A method that has rendered before is retried when its process ends, until that happens three
+    times without an image in between.
 
     Parameters
     ----------
@@ -27,16 +27,16 @@ class Ladder:
         self._deaths = 0
         self._has_drawn = False
         self.failures: dict[str, str] = {}
-        """Why a method cannot be used, by method."""
+        """The reason why a method cannot be used, by method."""
 
     @property
     def method(self) -> str:
-        """Return the method to use, '' if none is left."""
+        """Return the method to use; '' if none is left."""
         left = [method for method in self._methods if method not in self.failures]
         return left[0] if left else ''
 
     def note_picture(self) -> None:
-        """Note that the method works."""
+        """Record that the method has rendered an image."""
         self._has_drawn = True
         self._deaths = 0
 

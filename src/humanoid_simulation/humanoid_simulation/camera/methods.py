@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ways to draw, from the best to the one that works everywhere."""
+"""Rendering methods, from the best to the one that works everywhere."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ CHOICES = (AUTO, EGL, OSMESA, RAYS)
 
 _PLATFORM = 'PYOPENGL_PLATFORM'
 _OWN = {
-    # mujoco would try to start what it finds, and not tell why it cannot.
+    # mujoco would try any OpenGL that it finds, and not report why that fails.
     'MUJOCO_GL': 'disable',
-    # The folder that one happens to be in is no place to import from.
+    # Nothing is to be imported from the current working directory.
     'PYTHONSAFEPATH': '1',
 }
 _TITLES = {EGL: 'EGL', OSMESA: 'OSMesa', RAYS: 'rays'}
@@ -56,7 +56,7 @@ def environment_of(method: str, environment: Mapping[str, str]) -> dict[str, str
 
 def title_of(method: str) -> str:
     """
-    Look up what users call a rendering method.
+    Return the display name of a rendering method.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def title_of(method: str) -> str:
 
 def success_sentence(method: str, failures: Mapping[str, str]) -> str:
     """
-    Compose the message that names the rendering method, why no better one, and how to get that.
+    Compose the log message about the rendering method in use, and why better ones failed.
 
     Parameters
     ----------

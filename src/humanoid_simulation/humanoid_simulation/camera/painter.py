@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every way to draw has in common."""
+"""Common interface of the renderers, and their image types."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from numpy.typing import NDArray
 NEAR_M = 0.02
 FAR_M = 100.0
 HIDDEN_GROUP = 3
-"""The group of geoms, and those above it, that only collisions see."""
+"""Geoms of this group and those above it only collide; they are not rendered."""
 SEEN_GROUPS = np.array([group < HIDDEN_GROUP for group in range(6)], dtype=np.uint8)
-"""For each group of geoms, whether rays meet it, as `mj_multiRay` wants that."""
+"""For each geom group, whether rays hit it, in the format of `mj_multiRay`."""
 
 Color = NDArray[np.uint8]
 """(height, width, 3) red, green, blue"""
 
 Depth = NDArray[np.float32]
-"""(height, width) metres along the optical axis; infinite where nothing is (REP 118)"""
+"""(height, width) metres along the optical axis; infinite where nothing is seen (REP 118)"""
 
 Cloud = NDArray[np.float32]
 """(height, width, 3) points in metres in the optical frame; NaN where nothing is seen"""
 
 
 class Painter(Protocol):
-    """Draws what the cameras of a model see."""
+    """Renderer of the cameras of a model."""
 
     def draw(
         self, data: mujoco.MjData, camera: int, color: Color | None, depth: Depth | None
@@ -42,9 +42,9 @@ class Painter(Protocol):
         camera
             The id of the camera in the model.
         color, depth
-            Images of one size to be filled, see `Color` and `Depth`; None is left out.
+            Images of the same size to be filled, see `Color` and `Depth`; None is skipped.
 
         """
 
     def close(self) -> None:
-        """Give back what is held."""
+        """Release all resources."""

@@ -11,7 +11,7 @@ from humanoid_simulation.camera.methods import AUTO, CHOICES
 
 @dataclass(frozen=True)
 class CameraParameters:
-    """How the cameras of all robots draw."""
+    """Rate, image size, frame and rendering method of the cameras of all robots."""
 
     camera_rate_hz: float = parameter(
         10.0,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Noise of colour and depth pictures."""
+"""Noise of colour and depth images."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import numpy as np
 
 @dataclass(frozen=True)
 class PictureNoise:
-    """How far pixels are off: standard deviations, of each pixel by itself."""
+    """Standard deviations of the noise of pixels, which is independent for each pixel."""
 
     color: float = 0.0
-    """Of red, green and blue, in steps of 255."""
+    """Of red, green and blue, on a scale of 0 to 255."""
     depth_1_m: float = 0.0
     """Of the depth in metres at a distance of 1 m. It grows with the square of the distance, as
-    that of cameras which triangulate (stereo or structured light) does."""
+    for cameras that triangulate (stereo or structured light)."""
     seed: int = 0
 
 
@@ -45,7 +45,7 @@ class PictureNoiseSource:
         Parameters
         ----------
         color, depth
-            The images, see `Color` and `Depth`; None is left out.
+            The images, see `Color` and `Depth`; None is skipped.
 
         """
         if color is not None and self._noise.color > 0.0:

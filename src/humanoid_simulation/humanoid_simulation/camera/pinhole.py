@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The geometry of a camera without distortion."""
+"""Pinhole camera model without distortion."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True)
 class Pinhole:
     """
-    A pinhole camera with square pixels that looks through the middle of its picture.
+    A pinhole camera with square pixels and its principal point at the image centre.
 
-    The optical frame is that of REP 103: z forward, x right, y down. Whole pixel coordinates
+    The optical frame is that of REP 103: z forward, x right, y down. Integer pixel coordinates
     are the centres of pixels, (0, 0) that of the upper left one.
     """
 
     width_px: int
     height_px: int
     fovy_rad: float
-    """The angle from the lower to the upper edge of the picture."""
+    """Vertical field of view."""
 
     def __post_init__(self) -> None:
-        """Check that there is something to see."""
+        """Check the image size and the field of view."""
         if self.width_px < 1 or self.height_px < 1:
             raise SimulationError(
                 f'A picture of {self.width_px} x {self.height_px} pixels has nothing to show. '
@@ -48,7 +48,7 @@ class Pinhole:
 
     @property
     def centre_px(self) -> tuple[float, float]:
-        """Return the coordinates x, y of the point that the camera looks at."""
+        """Return the coordinates x, y of the principal point."""
         return 0.5 * (self.width_px - 1), 0.5 * (self.height_px - 1)
 
     @property
@@ -59,7 +59,7 @@ class Pinhole:
         return np.array([[focal_px, 0.0, x_px], [0.0, focal_px, y_px], [0.0, 0.0, 1.0]])
 
     def rays(self) -> Array:
-        """Return the point at distance 1 along the axis for each pixel, (height, width, 3)."""
+        """Compute the point at depth 1 on the ray of each pixel, (height, width, 3)."""
         x_px, y_px = self.centre_px
         x = (np.arange(self.width_px) - x_px) / self.focal_px
         y = (np.arange(self.height_px) - y_px) / self.focal_px

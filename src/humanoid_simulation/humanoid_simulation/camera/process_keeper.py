@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps a process that draws at hand, whatever happens to it."""
+"""Supervisor of the render process."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from humanoid_simulation.camera.view import Wanted
 
 
 class Log(Protocol):
-    """Where to tell the user what happens, such as the logger of a node."""
+    """A logger, such as that of a node."""
 
     def info(self, message: str) -> object:
         """
-        Log what is good to know.
+        Log an informational message.
 
         Parameters
         ----------
@@ -29,7 +29,7 @@ class Log(Protocol):
 
     def warning(self, message: str) -> object:
         """
-        Log what is worse than expected.
+        Log a warning.
 
         Parameters
         ----------
@@ -41,7 +41,7 @@ class Log(Protocol):
 
 @dataclass(frozen=True)
 class Patience:
-    """How long to wait before something counts as hung, and before the next try."""
+    """Timeouts after which the process counts as hung, and the delay before a restart."""
 
     start_s: float = 60.0
     draw_s: float = 10.0
@@ -86,12 +86,12 @@ class ProcessKeeper:
 
     @property
     def process(self) -> RenderProcess | None:
-        """Return the process, if there is one."""
+        """Return the render process, if there is one."""
         return self._process
 
     @property
     def can_draw(self) -> bool:
-        """Tell whether the process waits for a request."""
+        """Whether the process is ready for a request."""
         process = self._process
         return process is not None and process.is_ready and not process.is_busy
 
@@ -136,18 +136,18 @@ class ProcessKeeper:
             self._process.request(wanted)
 
     def note_picture(self) -> None:
-        """Note that what was asked for has come."""
+        """Record that the requested images have arrived."""
         self._ladder.note_picture()
 
     def close(self) -> None:
-        """End the process."""
+        """End the render process."""
         if self._process is not None:
             self._process.release()
             self._process.wait(self._patience.end_s)
             self._process = None
 
     def _begin(self, now_s: float) -> None:
-        """Start a process."""
+        """Start a render process."""
         self._deadline_s = now_s + self._patience.start_s
         try:
             self._process = self._start(self._ladder.method)
@@ -155,14 +155,14 @@ class ProcessKeeper:
             self._go_on(f'its process cannot be started: {error.strerror}.', now_s)
 
     def _bury(self, process: RenderProcess, now_s: float) -> None:
-        """Take leave of a process that has ended."""
+        """Release a process that has ended, and handle its failure."""
         reason = process.end_reason()
         process.release()
         self._process = None
         self._go_on(reason, now_s)
 
     def _go_on(self, reason: str, now_s: float) -> None:
-        """Say why there is no process, and what comes next."""
+        """Log why there is no process, and schedule a restart or fall back to the next method."""
         if self._ladder.note_end(reason):
             self._next_start_s = now_s + self._patience.retry_s
             self._log.warning(
@@ -173,7 +173,7 @@ class ProcessKeeper:
             self._log.warning(give_up_sentence(self._ladder.failures))
 
     def _say_once(self, sentence: str) -> None:
-        """Say how is drawn, unless it was said before."""
+        """Log the rendering method, unless that was logged already."""
         if sentence == self._said:
             return
         self._said = sentence

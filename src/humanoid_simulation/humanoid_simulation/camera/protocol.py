@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the simulator and the process that draws tell each other, one line each."""
+"""Line protocol between the simulator and the render process."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from humanoid_simulation.camera.picture_noise import PictureNoise
 from humanoid_simulation.camera.view import CameraView, Wanted
 
 READY = 'ready'
-"""The process can draw."""
+"""The process can render."""
 DONE = 'done'
-"""The wanted pictures are in the memory."""
+"""The requested images are in the shared memory."""
 FAILED = 'failed '
 """The process ends; the reason follows."""
 
 
 @dataclass(frozen=True)
 class Assignment:
-    """What a process is to draw, how, and the numbers of the open files that it shares."""
+    """What a process renders, how, and the descriptors of the files that it shares."""
 
     method: str
     model_file: int
@@ -29,7 +29,7 @@ class Assignment:
     noise: PictureNoise = field(default_factory=PictureNoise)
 
     def as_text(self) -> str:
-        """Return the assignment as an argument of a command."""
+        """Serialise the assignment to a command line argument."""
         return json.dumps(asdict(self))
 
     @staticmethod
@@ -40,7 +40,7 @@ class Assignment:
         Parameters
         ----------
         text
-            What `as_text` returned.
+            The result of `as_text`.
 
         """
         given = json.loads(text)
@@ -74,7 +74,7 @@ def wanted_in(line: str) -> list[Wanted]:
     Parameters
     ----------
     line
-        A line of `request_line`.
+        A line from `request_line`.
 
     Returns
     -------

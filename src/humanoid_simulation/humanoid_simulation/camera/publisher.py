@@ -21,16 +21,16 @@ from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
 class CameraPublisher:
     """
-    Publishes color and depth below `camera`, `camera_info` beside each, and `points`.
+    Publishes colour and depth below `camera`, a `camera_info` beside each, and `points`.
 
-    All of them are reliable: a large message is lost with any of its parts otherwise.
+    All of them are reliable: otherwise a large message is lost with any of its fragments.
 
     Parameters
     ----------
     node
         The node that publishes.
     folder
-        What the names of the topics begin with: '' or the name of a robot and a slash.
+        Prefix of the topic names: '' or the name of a robot and a slash.
     pinhole
         Image size and field of view of the camera.
     frame
@@ -51,7 +51,7 @@ class CameraPublisher:
         self._info = camera_info(pinhole, frame)
 
     def wanted(self) -> Wanted:
-        """Tell which pictures somebody has subscribed to."""
+        """Check which images, and whether the point cloud, have subscribers."""
         return Wanted(
             color=self._color.get_subscription_count() > 0,
             depth=self._depth.get_subscription_count() > 0,
@@ -60,7 +60,7 @@ class CameraPublisher:
 
     @property
     def subscribers(self) -> int:
-        """Return how many subscribers the pictures and the points have."""
+        """Return the number of subscribers to the images and the point cloud."""
         publishers = self._color, self._depth, self._cloud
         return sum(each.get_subscription_count() for each in publishers)
 
@@ -92,7 +92,7 @@ class CameraPublisher:
 
     def publish_info(self, stamp: Time) -> None:
         """
-        Publish the camera info on both of its topics, as far as they have subscribers.
+        Publish the camera info on those of its two topics that have subscribers.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What rays from one point hit."""
+"""Ray casting from one point."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _MOST_SHELLS = 8
-"""How many things one inside the other a camera may be in."""
+"""Maximum number of nested geoms that a camera may be inside of."""
 
 
 def see_all(model: mujoco.MjModel) -> None:
     """
-    Let rays hit all geoms of a model, also those that do not collide.
+    Make rays hit all geoms of a model, including those that do not collide.
 
     `mj_multiRay` culls bodies by bounding boxes of their colliding geoms and would miss geoms
     beside them that are only visible.
@@ -35,7 +35,7 @@ def see_all(model: mujoco.MjModel) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """What each of n rays hits first."""
+    """First hit of each of n rays."""
 
     geoms: NDArray[np.int32]
     """(n,) -1 where a ray hits nothing"""
@@ -51,13 +51,12 @@ def cast_rays(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Ar
     """
     Cast rays from one point at the visible geoms.
 
-    Geoms that the point is inside of are passed over, as OpenGL leaves out surfaces seen from
-    behind.
+    Geoms that the point is inside of are skipped, as OpenGL culls back faces.
 
     Parameters
     ----------
     model, data
-        The world and its state; nobody else may use the model, its geoms are hidden meanwhile.
+        The world and its state; the model must not be shared: geoms are hidden meanwhile.
     start
         Where the rays start (3,), in m in the world frame.
     rays
@@ -78,7 +77,7 @@ def cast_rays(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Ar
 def _beside(
     model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array
 ) -> NDArray[np.int32]:
-    """Find geoms, by number, whose bounding spheres are outside the cone around all rays."""
+    """Find the ids of geoms whose bounding spheres are outside the cone around all rays."""
     axis = rays.mean(axis=0)
     axis = axis / max(float(np.linalg.norm(axis)), 1e-9)
     opening_rad = np.arccos(np.clip(np.min(rays @ axis), -1.0, 1.0))
@@ -108,7 +107,7 @@ def _cast(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array)
 
 @contextmanager
 def _hidden(model: mujoco.MjModel, geoms: NDArray[np.int32]) -> Iterator[None]:
-    """Let no ray hit some geoms for the length of a `with` block."""
+    """Hide geoms from rays for the duration of a `with` block."""
     groups = model.geom_group[geoms]
     model.geom_group[geoms] = HIDDEN_GROUP
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw by casting one ray a pixel, where there is no OpenGL."""
+"""Rendering by ray casting, one ray per pixel, without OpenGL."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class RayPainter:
     """
     Renderer by ray casting: matt surfaces in flat colours, and exact depth.
 
-    The model must be one that nobody else uses: its bounding volumes are disabled, and some of its
-    geoms are hidden while it draws.
+    The model must not be shared: its bounding volumes are disabled, and some of its geoms are
+    hidden during rendering.
 
     Parameters
     ----------
     model
         The world.
     views
-        The cameras that `draw` can be asked for, and the sizes of their images.
+        The cameras that `draw` can render, and the sizes of their images.
 
     Raises
     ------
@@ -69,15 +69,15 @@ class RayPainter:
             color[:] = (255.0 * np.clip(shown, 0.0, 1.0)).reshape(color.shape)
 
     def close(self) -> None:
-        """Do nothing: memory is all that is held."""
+        """Release nothing: there are no resources besides memory."""
 
     def _lit(self, data: mujoco.MjData, hits: Hits, forward: Array) -> Array:
-        """Return the colour of what each ray hits, (n, 3), 1 as bright as a screen can be."""
+        """Compute the lit colour at each hit, (n, 3), in which 1 is full brightness."""
         light = brightness(self._model, data, hits.points, hits.normals, forward)
         return self._colors[hits.geoms] * light
 
 
 def _unit_rays(model: mujoco.MjModel, view: CameraView) -> Array:
-    """Return the rays of all pixels, (n, 3), in the frame of MuJoCo: it looks along -z, y up."""
+    """Compute the unit rays of all pixels, (n, 3), in MuJoCo's camera frame: -z forward, y up."""
     rays = pinhole_of(model, view).rays().reshape(-1, 3) * (1.0, -1.0, -1.0)
     return np.asarray(rays / np.linalg.norm(rays, axis=1, keepdims=True))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The process that draws: `python3 -m humanoid_simulation.camera.render_main ASSIGNMENT`.
+The render process: `python3 -m humanoid_simulation.camera.render_main ASSIGNMENT`.
 
-Its environment says which OpenGL mujoco takes. It ends with the process that started it, at the
-latest when its standard input is closed.
+Its environment selects the OpenGL platform of mujoco. It ends with the process that started it, at
+the latest when its standard input is closed.
 """
 
 from __future__ import annotations
@@ -31,20 +31,20 @@ _LESS_URGENT = 5
 
 
 def main() -> int:
-    """Draw what is asked for, until nobody can ask any more."""
+    """Serve render requests until the standard input is closed."""
     _depend_on_parent()
     try:
         _serve(Assignment.from_text(sys.argv[1]))
     except BrokenPipeError:
         return 0
-    except Exception as error:  # whatever a driver raises: the other side decides what to do
+    except Exception as error:  # whatever a driver raises: the parent decides what to do
         _say(FAILED + ' '.join(str(error).split()))
         return 1
     return 0
 
 
 def _depend_on_parent() -> None:
-    """End with the parent even if a driver hangs; leave signals of the terminal to it."""
+    """End with the parent even if a driver hangs; leave terminal signals to the parent."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -52,7 +52,7 @@ def _depend_on_parent() -> None:
 
 
 def _serve(assignment: Assignment) -> None:
-    """Answer each line of standard input by the pictures that it asks for."""
+    """Render the images that each line of the standard input requests."""
     model = mujoco.MjModel.from_binary_path(f'/proc/self/fd/{assignment.model_file}')
     data = mujoco.MjData(model)
     frames = Frames(assignment.frames_file, model.nq, assignment.views)
@@ -74,7 +74,7 @@ def _serve(assignment: Assignment) -> None:
 
 
 def _show(model: mujoco.MjModel, data: mujoco.MjData, qpos: NDArray[np.float64]) -> None:
-    """Put everything where positions, (nq,), say, ready to be drawn."""
+    """Set the generalised positions (nq,), and compute the poses for rendering."""
     data.qpos[:] = qpos
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
@@ -82,7 +82,7 @@ def _show(model: mujoco.MjModel, data: mujoco.MjData, qpos: NDArray[np.float64])
 
 
 def _painter(assignment: Assignment, model: mujoco.MjModel) -> Painter:
-    """Make what draws by the assigned method."""
+    """Create the renderer of the assigned method."""
     views = assignment.views
     if assignment.method == RAYS:
         return RayPainter(model, views)
@@ -92,7 +92,7 @@ def _painter(assignment: Assignment, model: mujoco.MjModel) -> Painter:
 
 
 def _say(line: str) -> None:
-    """Tell the parent something."""
+    """Send a line to the parent process."""
     sys.stdout.write(line + '\n')
     sys.stdout.flush()
 

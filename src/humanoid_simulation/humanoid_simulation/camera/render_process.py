@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator's side of one process that draws."""
+"""The simulator's side of a render process."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ _LAST_WORDS = 300
 
 class RenderProcess:
     """
-    A process that renders one request at a time; nothing here waits for it but `wait`.
+    A process that renders one request at a time; only `wait` blocks.
 
-    It writes its noise, such as warnings of drivers, to a file in memory. It ends at the latest
-    with the thread that has started it.
+    Its standard error, such as warnings of drivers, goes to a file in memory. It ends at the
+    latest with the thread that has started it.
 
     Parameters
     ----------
@@ -51,13 +51,13 @@ class RenderProcess:
         self._unread = b''
         self._reason = ''
         self.is_ready = False
-        """Whether it has begun, so that it can draw."""
+        """Whether it has started up and can render."""
         self.is_busy = True
-        """Whether it has yet to answer: that it is ready, or that pictures are done."""
+        """Whether a reply is pending: that it is ready, or that images are done."""
 
     @property
     def pid(self) -> int:
-        """Return its process number."""
+        """Its process id."""
         return self._process.pid
 
     def request(self, wanted: Sequence[Wanted]) -> None:
@@ -71,11 +71,11 @@ class RenderProcess:
 
         """
         self.is_busy = True
-        with suppress(BrokenPipeError):  # `end_reason` tells that it has ended
+        with suppress(BrokenPipeError):  # `end_reason` reports that it has ended
             self._requests.write(request_line(wanted).encode())
 
     def poll(self) -> None:
-        """Take in what it has said meanwhile."""
+        """Read and handle the replies that have arrived."""
         with suppress(BlockingIOError):
             self._unread += os.read(self._replies.fileno(), 4096)
         *lines, self._unread = self._unread.split(b'\n')
@@ -83,11 +83,11 @@ class RenderProcess:
             self._take(line.decode(errors='replace'))
 
     def has_ended(self) -> bool:
-        """Tell whether the process is no more."""
+        """Check whether the process has ended."""
         return self._process.poll() is not None
 
     def end_reason(self) -> str:
-        """Say why it has ended, as the end of a sentence."""
+        """Return the reason why it has ended, as the end of a sentence."""
         status = self._process.poll()
         if self._reason:
             return self._reason
@@ -97,7 +97,7 @@ class RenderProcess:
 
     def kill(self, reason: str) -> None:
         """
-        Kill the process; `has_ended` tells when it has gone.
+        Kill the process; `has_ended` reports when it is gone.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class RenderProcess:
         self._process.kill()
 
     def release(self) -> None:
-        """Close what connects to the process, which makes it end; it must not be used after."""
+        """Close the pipes to the process, which ends it; it cannot be used afterwards."""
         with suppress(BrokenPipeError):
             self._requests.close()
         self._replies.close()
@@ -132,7 +132,7 @@ class RenderProcess:
             self._process.wait()
 
     def _take(self, line: str) -> None:
-        """Take in one line."""
+        """Handle one line of reply."""
         self.is_busy = False
         if line == READY:
             self.is_ready = True
@@ -141,7 +141,7 @@ class RenderProcess:
             self._reason = line.removeprefix(FAILED).rstrip('.') + '.'
 
     def _last_words(self) -> str:
-        """Return the last line that it wrote besides its answers."""
+        """Return the last line of its standard error, to be appended to a message."""
         size = os.fstat(self._noise).st_size
         text = os.pread(self._noise, _LAST_WORDS, max(0, size - _LAST_WORDS))
         lines = text.decode(errors='replace').strip().splitlines()
@@ -149,7 +149,7 @@ class RenderProcess:
 
 
 def _start(assignment: Assignment, noise: int) -> subprocess.Popen[bytes]:
-    """Start a process; it writes to an open file what is no answer."""
+    """Start a process, with its standard error redirected to an open file."""
     return subprocess.Popen(
         [sys.executable, '-m', _MODULE, assignment.as_text()],
         stdin=subprocess.PIPE,
@@ -162,7 +162,7 @@ def _start(assignment: Assignment, noise: int) -> subprocess.Popen[bytes]:
 
 
 def _pipes_of(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:
-    """Return where it reads and where it writes."""
+    """Return the pipes of its standard input and output."""
     if process.stdin is None or process.stdout is None:
         raise RuntimeError('A process was started without pipes.')
     return process.stdin, process.stdout

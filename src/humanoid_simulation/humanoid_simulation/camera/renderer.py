@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of copied states, by a process that may fail."""
+"""Rendering of copied states in a process that may fail."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Pictures:
-    """What each view showed at a moment; valid until the next request."""
+    """Images of all views at one time; valid until the next request."""
 
     time_ns: int
     wanted: tuple[Wanted, ...]
@@ -34,12 +34,12 @@ class Renderer:
     """
     Renders one state at a time in another process, which starts once `need` was called.
 
-    Nothing here waits for that process but `close`; if it ends or hangs, it is replaced.
+    Only `close` waits for that process; if it ends or hangs, it is replaced.
 
     Parameters
     ----------
     model
-        The world, which is copied: later changes of it are not seen.
+        The world, which is copied: later changes to it have no effect.
     views
         The cameras to render, and the sizes of their images.
     methods : Sequence[str]
@@ -78,17 +78,17 @@ class Renderer:
 
     @property
     def process_id(self) -> int | None:
-        """Return the number of the process that draws, if it runs."""
+        """Return the process id of the render process, if it runs."""
         process = self._keeper.process
         return process.pid if process else None
 
     def need(self) -> None:
-        """Say that pictures will be asked for: the process starts at the next poll."""
+        """Announce that images will be requested: the process starts at the next poll."""
         self._is_needed = True
 
     @property
     def can_draw(self) -> bool:
-        """Tell whether a request can be made."""
+        """Whether a request can be made."""
         return self._keeper.can_draw and self._requested is None
 
     def request(
@@ -142,18 +142,18 @@ class Renderer:
         return None
 
     def close(self) -> None:
-        """End the process; nothing else may be called after it."""
+        """End the process; the renderer cannot be used afterwards."""
         self._keeper.close()
         os.close(self._model_file)
         os.close(self._frames_file)
 
     def _start(self, method: str) -> RenderProcess:
-        """Start a process that draws by a method."""
+        """Start a process that renders by a method."""
         files = self._model_file, self._frames_file
         return RenderProcess(Assignment(method, *files, self._views, self._noise))
 
     def _finished(self, time_ns: int, wanted: tuple[Wanted, ...]) -> Pictures:
-        """Return the pictures that are in the memory now."""
+        """Return the images that are in the shared memory now."""
         self._requested = None
         self._keeper.note_picture()
         frames = self._frames
@@ -161,7 +161,7 @@ class Renderer:
 
 
 def _file_with(model: mujoco.MjModel) -> int:
-    """Open a file in memory that holds a model."""
+    """Write a model to a file in memory, and return its descriptor."""
     content = np.empty(mujoco.mj_sizeModel(model), dtype=np.uint8)
     mujoco.mj_saveModel(model, None, content)
     file = unnamed_file('model')

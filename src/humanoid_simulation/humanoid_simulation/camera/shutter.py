@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When the next picture is due."""
+"""Rate limiter for camera images."""
 
 from __future__ import annotations
 
 _NANOSECONDS = 1_000_000_000
 _TINY = 1e-6
-"""By so many periods a time may miss the beginning of one, for all that numbers are round."""
+"""Tolerance for rounding errors at the start of a period, in periods."""
 
 
 class Shutter:
     """
-    Rate limiter for images, on a grid, so that the mean rate holds whatever the ticks are.
+    Rate limiter for images on a time grid, so that the mean rate does not depend on the ticks.
 
-    An image that could not be taken in time is due until it is; those in between are left out.
+    An image that could not be taken in time stays due until it is; those in between are skipped.
 
     Parameters
     ----------
     rate_hz
-        Images in a second of simulated time, above 0.
+        Images per second of simulated time, above 0.
 
     """
 
@@ -27,7 +27,7 @@ class Shutter:
 
     def is_due(self, time_ns: int) -> bool:
         """
-        Check whether no image was taken yet in the period of a time.
+        Check whether the period that a time is in has no image yet.
 
         Parameters
         ----------
@@ -50,5 +50,5 @@ class Shutter:
         self._last = self._period_of(time_ns)
 
     def _period_of(self, time_ns: int) -> int:
-        """Return the number of the period that a time is in; exact where periods begin."""
+        """Return the index of the period that a time is in; exact at the start of periods."""
         return int(time_ns * self._rate_hz / _NANOSECONDS + _TINY)

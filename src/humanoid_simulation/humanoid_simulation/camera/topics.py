@@ -22,12 +22,12 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 _LOOK_S = 0.05
-"""How often to look for pictures and subscribers besides the ticks: there are none in a pause."""
+"""Period of the checks for images and subscribers besides the ticks, which stop in a pause."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Taken:
-    """What was there when pictures were taken last."""
+    """State and number of subscribers when images were taken last."""
 
     time_ns: int
     qpos: NDArray[np.float64]
@@ -36,10 +36,10 @@ class _Taken:
 
 class CameraTopics:
     """
-    Publishes what the cameras see, at a rate in simulated time, while somebody subscribes.
+    Publishes the images of all cameras, at a rate in simulated time, while there are subscribers.
 
-    One process renders the images of all of them; ticks never wait for it. In a pause, new
-    subscribers get an image, and all of them one of what was moved.
+    One process renders the images of all cameras; ticks never wait for it. In a pause, new
+    subscribers get an image, and all subscribers get one when something was moved.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class CameraTopics:
     parameters : CameraParameters
         Rate, image size, frame and rendering method; at rate 0 there are no topics.
     prefix
-        What the names of frames begin with.
+        Prefix of the frame names.
     noise
         Standard deviations of pixels.
 
@@ -96,7 +96,7 @@ class CameraTopics:
 
     @property
     def process_id(self) -> int | None:
-        """Return the number of the process that draws, if it runs."""
+        """Return the process id of the render process, if it runs."""
         return self._renderer.process_id
 
     def tick(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
@@ -110,7 +110,7 @@ class CameraTopics:
         time_ns
             Simulated time of the state, in ns.
         data
-            The state; it is kept, and read between ticks too while the simulation is paused.
+            The state; it is kept, and also read between ticks while the simulation is paused.
 
         """
         self._state = time_ns, data
@@ -133,19 +133,19 @@ class CameraTopics:
         self._state = self._taken = None
 
     def close(self) -> None:
-        """End the process that draws."""
+        """End the render process."""
         self._timer.cancel()
         self._renderer.close()
 
     def _look_again(self) -> None:
-        """Do what cannot wait for the next tick, which comes after a pause only."""
+        """Publish and request images that cannot wait for the next tick, as in a pause."""
         now_s = time.monotonic()
         self._publish_drawn(now_s)
         if self._state is not None and self._is_missing(*self._state):
             self._take(now_s, *self._state)
 
     def _is_missing(self, time_ns: int, data: mujoco.MjData) -> bool:
-        """Tell whether subscribers miss a picture that no tick will give them."""
+        """Check whether subscribers lack an image that no tick will provide."""
         subscribers, taken = self._subscribers(), self._taken
         if not subscribers:
             return False
@@ -154,7 +154,7 @@ class CameraTopics:
         return taken.time_ns == time_ns and not np.array_equal(taken.qpos, data.qpos)
 
     def _take(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
-        """Have the state drawn for those who look, as soon as the last one is done."""
+        """Request images if the renderer is free, and publish the camera info with them."""
         wanted = [publisher.wanted() for publisher in self._publishers]
         if any(wanted):
             self._renderer.need()
@@ -168,17 +168,17 @@ class CameraTopics:
             publisher.publish_info(stamp)
 
     def _subscribers(self) -> int:
-        """Return how many subscribers all pictures have."""
+        """Count the subscribers of all cameras."""
         return sum(publisher.subscribers for publisher in self._publishers)
 
     def _publish_drawn(self, now_s: float) -> None:
-        """Publish what was drawn meanwhile."""
+        """Publish the images that are finished."""
         pictures = self._renderer.poll(now_s)
         if pictures is not None:
             self._publish(pictures)
 
     def _publish(self, pictures: Pictures) -> None:
-        """Publish what was drawn."""
+        """Publish the images of all cameras."""
         stamp = stamp_of(pictures.time_ns)
         views = zip(pictures.wanted, pictures.colors, pictures.depths, pictures.clouds)
         for publisher, view in zip(self._publishers, views):
@@ -186,5 +186,5 @@ class CameraTopics:
 
 
 def _folder(robot: str) -> str:
-    """Return what comes before the names of the topics of a robot."""
+    """Return the prefix of the topic names of a robot."""
     return f'{robot}/' if robot else ''

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which cameras of a model are drawn, and how large."""
+"""Cameras of a model to render, and their image sizes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import mujoco
 
 @dataclass(frozen=True)
 class CameraView:
-    """A camera of the model, by its name, and the size of its pictures."""
+    """A camera of the model, by its name, and the size of its images."""
 
     camera: str
     width_px: int
@@ -23,15 +23,15 @@ class CameraView:
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which pictures of a camera somebody wants to see."""
+    """Which images of a camera are requested."""
 
     color: bool
     depth: bool
     cloud: bool = False
-    """Points, which are made of the depth."""
+    """The point cloud, which is computed from the depth."""
 
     def __bool__(self) -> bool:
-        """Tell whether anything is wanted."""
+        """Check whether any image is requested."""
         return self.color or self.depth or self.cloud
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Programs that show how a simulated robot is driven and tested.
+Example programs that drive and test a simulated robot.
 
-- `walk_square`: walks round a square by odometry
-- `push_test`: finds out which pushes the robot stands
-- `record_gait`: draws how the robot walks; needs no simulator that runs
+- `walk_square`: walks around a square by odometry
+- `push_test`: finds the strongest pushes that the robot withstands
+- `record_gait`: records and plots a walk; needs no running simulator
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the examples make of messages, and the other way round."""
+"""Convert messages to the types of the examples, and vice versa."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from simulation_interfaces.srv import SetSimulationState
 
 def state_request(paused: bool) -> SetSimulationState.Request:
     """
-    Make the request that pauses or resumes the simulation.
+    Build the request that pauses or resumes the simulation.
 
     Parameters
     ----------
     paused
-        Whether time is to stand still.
+        Whether to pause it.
 
     """
     state = SimulationState.STATE_PAUSED if paused else SimulationState.STATE_PLAYING
@@ -60,7 +60,7 @@ def planar_pose(message: Odometry) -> PlanarPose:
     Returns
     -------
     PlanarPose
-        Of the base, in the frame of the message's header.
+        The pose of the base, in the frame of the message's header.
 
     """
     place, q = message.pose.pose.position, message.pose.pose.orientation
@@ -107,7 +107,7 @@ def push_request(
     push: Push, robot: str, pose: PlanarPose, duration_s: float
 ) -> ApplyWrench.Request:
     """
-    Make the request that pushes the base of a robot horizontally.
+    Build the request that pushes the base of a robot horizontally.
 
     Parameters
     ----------
@@ -116,9 +116,9 @@ def push_request(
     robot
         Namespace of the robot; '' if it has none.
     pose
-        Where it stands in the world; the yaw turns the force into world axes.
+        Its pose in the world, whose yaw rotates the force into world axes.
     duration_s
-        How long the push lasts, less than 1 s; the force is the impulse over it.
+        Duration of the push, less than 1 s; the force is the impulse divided by it.
 
     """
     force_n = PlanarPose(0j, pose.yaw_rad).at(1.0, 0.0) * DIRECTIONS[push.direction]

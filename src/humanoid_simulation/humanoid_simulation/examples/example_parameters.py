@@ -12,7 +12,7 @@ from humanoid_simulation.examples.square_drive import SquarePlan
 
 @dataclass(frozen=True)
 class WalkSquareParameters:
-    """Which square is walked, and how fast."""
+    """Parameters of `walk_square`: size of the square, and speeds."""
 
     side_m: float = parameter(
         1.0, 'Length of a side.', at_least=0.2, at_most=100.0, read_only=True
@@ -32,7 +32,7 @@ class WalkSquareParameters:
 
 @dataclass(frozen=True)
 class PushTestParameters:
-    """Which pushes are tried."""
+    """Parameters of `push_test`: impulses and duration of the pushes."""
 
     first_ns: float = parameter(
         5.0, 'The gentlest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
@@ -55,7 +55,7 @@ class PushTestParameters:
     )
 
     def __post_init__(self) -> None:
-        """Check that there is anything to try."""
+        """Check that the range of impulses is not empty."""
         if self.first_ns > self.most_ns:
             raise ParameterError(
                 f"Parameter 'first_ns' is {self.first_ns:g}, but must not be more than "

@@ -1,31 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell from outside whether a robot has fallen."""
+"""Detect whether a robot has fallen, from the true pose of its base."""
 
 from __future__ import annotations
 
 import math
 
 LOWEST_SHARE = 0.6
-"""A base below this share of the height at which it was first seen has fallen."""
+"""The robot has fallen if its base is below this fraction of its first height."""
 STEEPEST_RAD = 0.8
-"""A base that leans more than this has fallen."""
+"""The robot has fallen if its base tilts by more than this."""
 
 
 class FallWatch:
-    """Compares the base with how it was when it was first seen, which is taken for standing."""
+    """Fall detector that compares the base with its first height, which counts as standing."""
 
     def __init__(self) -> None:
-        """Wait for the first pose."""
         self._height_m: float | None = None
 
     def stands(self, height_m: float, tilt_rad: float) -> bool:
         """
-        Whether the robot stands; the first call sets the height of standing.
+        Check whether the robot stands; the first call sets the height of standing.
 
         Parameters
         ----------
         height_m
-            Height of the base, in the world.
+            Height of the base, in the world frame.
         tilt_rad
             Angle between z of the base and the vertical.
 

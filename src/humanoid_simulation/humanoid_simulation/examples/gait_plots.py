@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw a recorded walk."""
+"""Plot a recorded walk."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def draw_gait(recording: GaitRecording, path: Path) -> None:
     recording
         The walk.
     path
-        File of the picture, a PNG whatever its suffix.
+        The image file, a PNG whatever its suffix.
 
     Raises
     ------
@@ -49,13 +49,13 @@ def draw_gait(recording: GaitRecording, path: Path) -> None:
 
 
 def _legend(axes: Any) -> None:
-    """Say what the lines are, above them."""
+    """Add a legend above the lines."""
     axes.margins(y=0.15)
     axes.legend(loc='upper center', ncols=5, fontsize='small', **_CLOSE)
 
 
 def _above(axes: Any, recording: GaitRecording) -> None:
-    """Draw the way on the ground, with the feet where they stand."""
+    """Plot the paths of the CoM and the ZMP on the ground, and the footholds."""
     for foot, (side, color) in enumerate(_FEET):
         stands = recording.loads_n[:, foot] > 0.0
         x, y, _ = recording.soles_m[stands, foot].T
@@ -68,7 +68,7 @@ def _above(axes: Any, recording: GaitRecording) -> None:
 
 
 def _balance(axes: Any, recording: GaitRecording, number: int, axis: str) -> None:
-    """Draw one coordinate of what balances."""
+    """Plot one coordinate of the CoM and the ZMP over time."""
     times_s = recording.times_s
     axes.plot(times_s, recording.zmp_m[:, number], color=_ZMP, linewidth=0.8, label='ZMP')
     axes.plot(times_s, recording.com_m[:, number], color=_COM, label='CoM')
@@ -77,7 +77,7 @@ def _balance(axes: Any, recording: GaitRecording, number: int, axis: str) -> Non
 
 
 def _feet(axes: Any, times_s: Any, values: Any, label: str) -> None:
-    """Draw a quantity of both feet, (n, 2)."""
+    """Plot a quantity (n, 2) of both feet over time."""
     for foot, (side, color) in enumerate(_FEET):
         axes.plot(times_s, values[:, foot], color=color, label=side)
     axes.set(xlabel='time (s)', ylabel=label)
@@ -85,7 +85,7 @@ def _feet(axes: Any, times_s: Any, values: Any, label: str) -> None:
 
 
 def _torques(axes: Any, recording: GaitRecording, side: str) -> None:
-    """Draw what the drives of a leg exert."""
+    """Plot the joint torques of a leg over time."""
     for joint in _LEG_JOINTS:
         number = recording.joints.index(f'{side}_{joint}')
         axes.plot(recording.times_s, recording.efforts_nm[:, number], linewidth=0.8, label=joint)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a walk was like."""
+"""Record a walk: CoM, ZMP, feet and joint torques."""
 
 from __future__ import annotations
 
@@ -19,36 +19,35 @@ _LEAST_LOAD_N = 20.0
 @dataclass(frozen=True, eq=False)
 class GaitRecording:
     """
-    A walk of n moments: what was true, not what the robot knew; feet are left, right.
+    A recorded walk of n samples of the true state, not the estimated one; feet are left, right.
 
-    Positions are in the world. Where no foot carries the robot, there is no zero-moment point,
-    and its coordinates are NaN.
+    Positions are in the world frame. While no foot carries load, the zero-moment point is NaN.
     """
 
     times_s: Array
     """(n,)"""
     com_m: Array
-    """(n, 3) the centre of mass"""
+    """(n, 3) centre of mass"""
     zmp_m: Array
-    """(n, 2) where the forces of the ground on the feet act"""
+    """(n, 2) zero-moment point"""
     soles_m: Array
     """(n, 2, 3)"""
     loads_n: Array
-    """(n, 2) how much each foot carries"""
+    """(n, 2) vertical load of each foot"""
     efforts_nm: Array
-    """(n, j) what the drives exert"""
+    """(n, j) joint torques"""
     joints: tuple[str, ...]
     """(j,)"""
 
 
 class GaitRecorder:
     """
-    Records the centre of mass, the ZMP and the feet of a robot that is alone in its world.
+    Recorder of the CoM, the ZMP and the feet of a robot that is alone in its world.
 
     Parameters
     ----------
     model
-        The compiled MuJoCo world; its state is computed anew from snapshots.
+        The compiled MuJoCo model; its kinematics are recomputed from snapshots.
     joints
         Names of the driven joints, in the order of the observations.
     base
@@ -74,7 +73,7 @@ class GaitRecorder:
         Parameters
         ----------
         observation
-            What the sensors said in the state.
+            The sensor readings in that state.
         snapshot
             The true state at the same time.
 
@@ -99,7 +98,7 @@ class GaitRecorder:
         )
 
     def recording(self) -> GaitRecording:
-        """Return what was collected."""
+        """Return the recorded walk."""
         columns = [np.array(column, dtype=np.float64) for column in zip(*self._rows)]
         times_s, com_m, zmp_m, soles_m, loads_n, efforts_nm = columns
         return GaitRecording(times_s, com_m, zmp_m, soles_m, loads_n, efforts_nm, self._joints)
@@ -114,9 +113,9 @@ def zero_moment_point(soles_m: Array, forces_n: Array, torques_nm: Array) -> Arr
     Parameters
     ----------
     soles_m
-        Points about which the torques are (feet, 3), in the world frame as all.
+        Reference points of the torques (feet, 3), in the world frame like all arguments.
     forces_n, torques_nm
-        Of the ground on each foot (feet, 3).
+        Forces and torques of the ground on each foot (feet, 3).
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let the robot walk without ROS, as fast as it can be computed."""
+"""Simulate a walk without ROS, as fast as possible."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ LONGEST_S = 600.0
 
 @dataclass(frozen=True)
 class GaitPlan:
-    """How the robot walks, between standing before and after."""
+    """A walk at a constant velocity command, with standing before and after."""
 
     velocity: VelocityCommand
     walking_s: float
 
     def __post_init__(self) -> None:
-        """Refuse a walk that takes no time, or too much."""
+        """Validate the duration of the walk."""
         if not 0.0 < self.walking_s <= LONGEST_S:
             raise SimulationError(
                 f'A walk of {self.walking_s:g} s cannot be recorded. '
@@ -39,7 +39,7 @@ class GaitPlan:
 
     @property
     def duration_s(self) -> float:
-        """Return the time from the beginning to the end."""
+        """Return the total duration, including standing before and after."""
         return STANDING_S + self.walking_s + STOPPING_S
 
     def velocity_at(self, time_s: float) -> VelocityCommand:
@@ -49,7 +49,7 @@ class GaitPlan:
         Parameters
         ----------
         time_s
-            Time since the beginning.
+            Time since the start.
 
         """
         is_walking = STANDING_S <= time_s < STANDING_S + self.walking_s
@@ -63,7 +63,7 @@ def record_walk(plan: GaitPlan, scene: Scene = Scene()) -> GaitRecording:
     Parameters
     ----------
     plan
-        How it walks, and for how long.
+        The velocity command, and its duration.
     scene
         The world that it walks in.
 
@@ -93,7 +93,7 @@ def record_walk(plan: GaitPlan, scene: Scene = Scene()) -> GaitRecording:
 
 
 def _check(backend: MujocoBackend, watch: FallWatch) -> None:
-    """Refuse to go on after a fall."""
+    """Raise SimulationError if the robot has fallen."""
     base = backend.ground_truth()
     w, x, y, z = base.orientation.tolist()
     if not watch.stands(float(base.position_m[2]), tilt_rad(x, y, z, w)):

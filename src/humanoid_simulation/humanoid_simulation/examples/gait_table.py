@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write a recorded walk as a table."""
+"""Write a recorded walk as a CSV table."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def write_table(recording: GaitRecording, path: Path) -> None:
     recording
         The walk.
     path
-        File of the table, one line for each moment.
+        The file to write, with one row per control period.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End a node that waits for a simulator which does not run."""
+"""End a node if the simulator that it needs does not run."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ PATIENCE_S = 5.0
 
 
 class ExampleError(NodeStartError):
-    """Tell why an example cannot start or go on."""
+    """An example cannot start or continue."""
 
 
 class SimulatorWatch:
     """
-    Watchdog that ends a node with an error when nothing comes from the simulator for a while.
+    Watchdog that ends a node with an error if no message arrives from the simulator for a while.
 
     Parameters
     ----------
     node
         The node, which calls `heard` at each message.
     topics
-        What is listened to, as the error names it: `'odom' and 'ground_truth/odom'`.
+        The subscribed topics, as the error message names them: `'odom' and 'ground_truth/odom'`.
     patience_s
-        How often to check that something has come, in s of real time.
+        Period at which to check that a message has arrived, in s of real time.
 
     """
 
@@ -38,11 +38,11 @@ class SimulatorWatch:
         self._timer = node.create_timer(patience_s, ending(node, self._look), clock=steady)
 
     def heard(self) -> None:
-        """Note that the simulator is there."""
+        """Reset the watchdog."""
         self._heard = True
 
     def _look(self) -> None:
-        """Raise if nothing came since the last look."""
+        """Raise ExampleError if no message has arrived since the last check."""
         if not self._heard:
             raise ExampleError(
                 f'Nothing comes on {self._topics} (namespace {self._node.get_namespace()}): '

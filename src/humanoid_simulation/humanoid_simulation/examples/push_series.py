@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find out how hard a push a robot stands in each direction."""
+"""Find the strongest push that a robot withstands in each direction."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Push:
 
 @dataclass(frozen=True)
 class PushPlan:
-    """Which impulses are tried, and how long the robot is watched before and after."""
+    """The impulses to try, and how long to watch the robot before and after each push."""
 
     first_ns: float = 5.0
     step_ns: float = 5.0
@@ -31,7 +31,7 @@ class PushPlan:
 
 
 class Step(Enum):
-    """What is to be done now."""
+    """The next action of the caller."""
 
     WAIT = 'wait'
     PUSH = 'push'
@@ -40,14 +40,14 @@ class Step(Enum):
 
 
 class NeverStoodError(Exception):
-    """The robot does not stand, so that there is nothing to push."""
+    """The robot does not stand, so it cannot be pushed."""
 
 
 class PushSeries:
     """
-    Pushes in one direction after the other, each time harder, until the robot falls.
+    State machine that pushes in one direction after another, each time harder, until a fall.
 
-    Before each push the robot has to have stood for a while, and after each it is put back.
+    Before each push the robot must have stood for a while; after each, the simulation is reset.
 
     Parameters
     ----------
@@ -64,11 +64,11 @@ class PushSeries:
         self._waits_since_s: float | None = None
         self._stands_since_s: float | None = None
         self.stood_ns = dict.fromkeys(DIRECTIONS, 0.0)
-        """The hardest push that the robot stood in each direction; 0 if none."""
+        """The strongest impulse (N s) that the robot withstood in each direction; 0 if none."""
 
     @property
     def push(self) -> Push:
-        """Return the push that is due or whose consequences are watched."""
+        """Return the push that is due, or whose effect is being watched."""
         return Push(self._left[0], self._impulse_ns)
 
     def update(self, time_s: float, stands: bool) -> Step:
@@ -90,7 +90,7 @@ class PushSeries:
         Raises
         ------
         NeverStoodError
-            The robot has not stood for long enough within the time that it is given.
+            The robot has not stood for long enough before the timeout.
 
         """
         if not self._left:
@@ -118,7 +118,7 @@ class PushSeries:
         return Step.WAIT
 
     def _watch(self, time_s: float, stands: bool) -> Step:
-        """Wait until it is clear whether the robot stood the push."""
+        """Wait until it is clear whether the robot withstood the push."""
         assert self._waits_since_s is not None
         if stands and time_s - self._waits_since_s < self._plan.watch_s:
             return Step.WAIT
@@ -127,7 +127,7 @@ class PushSeries:
         return Step.RESET
 
     def _conclude(self, stood: bool) -> None:
-        """Keep the result, and go on with a harder push or the next direction."""
+        """Record the result, and proceed to a harder push or to the next direction."""
         if stood:
             self.stood_ns[self._left[0]] = self._impulse_ns
             self._impulse_ns += self._plan.step_ns

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find out which pushes the robot stands: `ros2 run humanoid_simulation push_test`."""
+"""Find the strongest pushes the robot withstands: `ros2 run humanoid_simulation push_test`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from simulation_interfaces.srv import ResetSimulation
 
 class PushTest(Node):
     """
-    Pushes the robot harder and harder, and resets the simulation after each push.
+    Node that pushes the robot harder and harder, and resets the simulation after each push.
 
     Parameters
     ----------
@@ -41,7 +41,6 @@ class PushTest(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Wait for the robot."""
         super().__init__('push_test', **options)
         self._parameters = NodeParameters(self, PushTestParameters).current
         self._series = PushSeries(self._parameters.plan)
@@ -55,7 +54,7 @@ class PushTest(Node):
         self.create_subscription(Odometry, 'ground_truth/odom', go_on, STATE)
 
     def _go_on(self, message: Odometry) -> None:
-        """Do what the series says, unless an answer is awaited."""
+        """Execute the next step of the series, unless a response is pending."""
         self._simulator.heard()
         if self._waits:
             return
@@ -72,14 +71,14 @@ class PushTest(Node):
             self._report()
 
     def _send_push(self, message: Odometry) -> None:
-        """Ask the simulator to push."""
+        """Request the due push from the simulator."""
         robot, push = self.get_namespace().strip('/'), self._series.push
         self.get_logger().info(f'Pushing {push.direction}: {push.impulse_ns:g} N s')
         pose, duration_s = planar_pose(message), self._parameters.duration_s
         self._send(self._push, push_request(push, robot, pose, duration_s))
 
     def _send(self, client: Client, request: Any) -> None:
-        """Send a request; until its answer comes, nothing else is done."""
+        """Send a request; nothing else is done until its response arrives."""
         if not client.service_is_ready():
             raise ExampleError(
                 f"Nobody offers '{client.srv_name}'. If the simulator has another name, say so: "
@@ -89,14 +88,14 @@ class PushTest(Node):
         client.call_async(request).add_done_callback(ending(self, self._take_answer))
 
     def _take_answer(self, future: Future) -> None:
-        """Go on, unless the request was refused."""
+        """Continue, or raise ExampleError if the request was rejected."""
         reason = refusal(future.result())
         if reason:
             raise ExampleError(f'The simulator refused: {reason}')
         self._waits = False
 
     def _report(self) -> None:
-        """Say what the robot stood, and end."""
+        """Log the strongest push that the robot withstood in each direction, and shut down."""
         for direction, impulse_ns in self._series.stood_ns.items():
             self.get_logger().info(f'Stood, pushed {direction}: {impulse_ns:g} N s')
         rclpy.try_shutdown(context=self.context)

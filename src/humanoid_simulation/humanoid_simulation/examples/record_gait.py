@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw how the robot walks: `ros2 run humanoid_simulation record_gait`."""
+"""Record and plot a walk of the robot: `ros2 run humanoid_simulation record_gait`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv
-        Arguments of the command line, without the program; None takes those of the process.
+        Arguments of the command line, without the program; None for those of the process.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    """Describe the command line."""
+    """Build the argument parser."""
     parser = argparse.ArgumentParser(
         prog='record_gait',
         description='Let the simulated robot stand, walk and stop, without ROS and as fast as it '
@@ -79,7 +79,7 @@ def _plan(arguments: argparse.Namespace) -> GaitPlan:
 
 
 def _write(recording: GaitRecording, arguments: argparse.Namespace) -> None:
-    """Write the files, and say what is in them."""
+    """Write the files, and print a summary."""
     from humanoid_simulation.examples.gait_plots import draw_gait  # takes a while to import
     from humanoid_simulation.examples.gait_table import write_table
 
@@ -94,7 +94,7 @@ def _write(recording: GaitRecording, arguments: argparse.Namespace) -> None:
 
 
 def _write_file(path: Path, write: Callable[[Path], None]) -> None:
-    """Write a file, or raise SimulationError with its name: a full disk has none of its own."""
+    """Write a file, or raise SimulationError with its path, which errors of full disks lack."""
     try:
         write(path)
     except OSError as error:

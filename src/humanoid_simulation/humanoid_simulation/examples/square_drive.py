@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Steer round a square."""
+"""Path tracking around a square."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 CORNERS = 4
 _GAIN_1_S = 1.0
-"""How fast an error of position or heading is to vanish."""
+"""Proportional gain of position and heading errors."""
 _SLOWEST_SHARE = 0.3
-"""What is left of the speed just before a corner."""
+"""Fraction of the speed that is left just before a corner."""
 
 
 @dataclass(frozen=True)
 class SquarePlan:
-    """How large the square is, how fast it is walked, and how exactly."""
+    """Size of the square, speeds and tolerances."""
 
     side_m: float = 1.0
     speed_m_s: float = 0.2
@@ -31,7 +31,7 @@ class SquarePlan:
 
 @dataclass(frozen=True)
 class Corner:
-    """A corner that was reached: its number from 1 on, where it is, and where the robot came."""
+    """A reached corner: its number from 1 on, its pose, and that of the robot."""
 
     number: int
     planned: PlanarPose
@@ -39,16 +39,16 @@ class Corner:
 
     @property
     def error_m(self) -> float:
-        """Return how far from the corner the robot is."""
+        """Return the distance of the robot from the corner."""
         return abs(self.actual.position_m - self.planned.position_m)
 
 
 class SquareDrive:
     """
-    Steers along the four sides of a square that lies to the left of the start, and ends there.
+    Path tracking controller for a square to the left of the start, which is also its end.
 
-    A side is walked towards its corner; at the corner the robot turns to the next side. Both are
-    closed loops: what the robot is beside the line, or turned away from it, is corrected.
+    The robot walks along a side to its corner, and turns there to the next side. Both are closed
+    loops: lateral and heading errors are corrected.
 
     Parameters
     ----------
@@ -67,12 +67,12 @@ class SquareDrive:
 
     @property
     def is_done(self) -> bool:
-        """Tell whether the robot is back."""
+        """Whether the robot has completed the square."""
         return self._number == CORNERS
 
     def update(self, pose: PlanarPose) -> tuple[VelocityCommand, Corner | None]:
         """
-        Compute the velocity command, and go over to the next side or turn when one is done.
+        Compute the velocity command, and switch to the next turn or side when one is done.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class SquareDrive:
         return self.update(pose)
 
     def _along(self, side: PlanarPose, pose: PlanarPose) -> VelocityCommand:
-        """Return the velocity towards the corner at the end of a side."""
+        """Compute the velocity command towards the corner at the end of a side."""
         plan, beside = self._plan, side.local(pose.position_m)
         return VelocityCommand(
             limited(-_GAIN_1_S * beside.real, _SLOWEST_SHARE * plan.speed_m_s, plan.speed_m_s),
@@ -108,7 +108,7 @@ class SquareDrive:
         )
 
     def _turn(self, side: PlanarPose, pose: PlanarPose) -> VelocityCommand:
-        """Return the velocity that turns to the next side and stays at the corner."""
+        """Compute the velocity command that turns to the next side and stays at the corner."""
         most, away = self._plan.sideways_m_s, pose.local(side.position_m)
         return VelocityCommand(
             limited(_GAIN_1_S * away.real, -most, most),
@@ -117,7 +117,7 @@ class SquareDrive:
         )
 
     def _towards(self, yaw_rad: float, pose: PlanarPose) -> float:
-        """Return the turn towards a heading."""
+        """Compute the yaw rate towards a heading."""
         most = self._plan.turn_rad_s
         return limited(_GAIN_1_S * wrap_angle(yaw_rad - pose.yaw_rad), -most, most)
 
@@ -131,5 +131,5 @@ def _side(start: PlanarPose, length_m: float, number: int) -> PlanarPose:
 
 
 def _next_yaw(side: PlanarPose) -> float:
-    """Return the heading of the side that follows."""
+    """Return the heading of the next side."""
     return wrap_angle(side.yaw_rad + math.pi / 2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A walk round a square, and what is to be said about it."""
+"""A walk around a square, with reports of its progress."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_simulation.examples.square_drive import Corner, CORNERS, SquareDrive, SquarePlan
 
 REST_S = 3.0
-"""How long the robot has to come to rest before it is said where it ended."""
+"""Time for the robot to come to rest before the closing error is measured."""
 _PATIENCE = 4.0
-"""How many times longer than planned the walk may take."""
+"""Timeout of the walk, as a multiple of its planned duration."""
 
 
 class NotRoundError(Exception):
-    """The robot did not come round."""
+    """The robot did not complete the square."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """How to go on, what is new, and whether that was all."""
+    """The velocity command, what to report, and whether the walk is done."""
 
     command: VelocityCommand
     news: str = ''
@@ -32,7 +32,7 @@ class Progress:
 
 class SquareWalk:
     """
-    Steers round a square by odometry, and measures the closing error on ground truth as well.
+    Controller of a walk around a square by odometry; reports the closing errors.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class SquareWalk:
         Returns
         -------
         Progress
-            The command, and what is to be reported.
+            The velocity command, and what to report.
 
         Raises
         ------
@@ -95,7 +95,7 @@ class SquareWalk:
         return Progress(command, _arrival(corner) if corner else '')
 
     def _rest(self, time_s: float, odometry: PlanarPose, truth: PlanarPose) -> Progress:
-        """Wait until the robot stands, and say where."""
+        """Wait until the robot has come to rest, and report the closing errors."""
         assert self._rests_since_s is not None
         if time_s - self._rests_since_s < REST_S:
             return Progress(STANDING)
@@ -106,7 +106,7 @@ class SquareWalk:
 
 
 def _arrival(corner: Corner) -> str:
-    """Say that a corner was reached."""
+    """Format the message that a corner was reached."""
     place = corner.actual.position_m
     return (
         f'Corner {corner.number} of {CORNERS}: ({place.real:.2f}, {place.imag:.2f}) m, '
@@ -115,12 +115,12 @@ def _arrival(corner: Corner) -> str:
 
 
 def _closing_error(begin: PlanarPose, end: PlanarPose) -> str:
-    """Say how far the end is from the beginning."""
+    """Format the distance and the rotation from the start to the end pose."""
     turned_deg = math.degrees(wrap_angle(end.yaw_rad - begin.yaw_rad))
     return f'{100 * abs(end.position_m - begin.position_m):.0f} cm and {turned_deg:+.0f} degrees'
 
 
 def _planned_s(plan: SquarePlan) -> float:
-    """Return how long the walk takes if nothing hinders it."""
+    """Estimate the duration of an unobstructed walk."""
     side_s = plan.side_m / plan.speed_m_s + math.pi / 2 / plan.turn_rad_s
     return CORNERS * (side_s + 2.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walk round a square by odometry: `ros2 run humanoid_simulation walk_square`."""
+"""Walk around a square by odometry: `ros2 run humanoid_simulation walk_square`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from rclpy.node import Node
 
 class WalkSquare(Node):
     """
-    Drives the robot by `cmd_vel` with what `odom` says; `ground_truth/odom` only judges.
+    Node that drives around a square by `odom`; `ground_truth/odom` is for the evaluation only.
 
     Parameters
     ----------
@@ -38,7 +38,6 @@ class WalkSquare(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Wait for the robot."""
         super().__init__('walk_square', **options)
         self._plan = NodeParameters(self, WalkSquareParameters).current.plan
         self._fall_watch = FallWatch()
@@ -50,20 +49,20 @@ class WalkSquare(Node):
         self.create_subscription(Odometry, 'odom', ending(self, self._go_on), STATE)
 
     def destroy_node(self) -> None:
-        """Stop the robot and end."""
+        """Stop the robot, and destroy the node."""
         if self.context.ok():
             self._publisher.publish(Twist())
             self._publisher.wait_for_all_acked(Duration(seconds=1))
         super().destroy_node()
 
     def _keep_truth(self, message: Odometry) -> None:
-        """Keep where the robot really is."""
+        """Store the ground truth."""
         self._truth = message
 
     def _go_on(self, message: Odometry) -> None:
-        """Steer, once both topics are there."""
+        """Compute and publish the velocity command, once both topics have been received."""
         if self._truth is None or not self.context.ok():
-            return  # nothing to steer by yet, or the round is over and messages were still waiting
+            return  # no ground truth yet, or the walk is over and messages were still queued
         self._simulator.heard()
         try:
             progress = self._progress(message, self._truth)
@@ -73,7 +72,7 @@ class WalkSquare(Node):
         self._say(progress)
 
     def _progress(self, message: Odometry, truth: Odometry) -> Progress:
-        """Ask the walk, which begins with the first message."""
+        """Update the walk, which starts with the first message."""
         where = seconds(message.header.stamp), planar_pose(message), planar_pose(truth)
         if self._walk is None:
             self.get_logger().info(f'Walking round a square of {self._plan.side_m:g} m')
@@ -82,7 +81,7 @@ class WalkSquare(Node):
         return self._walk.update(*where, stands)
 
     def _say(self, progress: Progress) -> None:
-        """Log what is new; after the last news, end."""
+        """Log the progress, and shut down when the walk is done."""
         if progress.news:
             self.get_logger().info(progress.news)
         if progress.is_done:

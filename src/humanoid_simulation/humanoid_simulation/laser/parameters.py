@@ -11,7 +11,7 @@ from humanoid_simulation.laser.scanner import ScanPattern
 
 @dataclass(frozen=True)
 class LaserParameters:
-    """How the laser scanners of all robots sweep; noise is among that of the other sensors."""
+    """Rate, rays and range of the laser scanners; their noise is with that of other sensors."""
 
     scan_rate_hz: float = parameter(
         10.0,
@@ -31,5 +31,5 @@ class LaserParameters:
 
     @property
     def scan_pattern(self) -> ScanPattern:
-        """Return the sweep that the parameters describe."""
+        """Return the scan pattern that the parameters describe."""
         return ScanPattern(self.scan_rays, self.scan_range_min_m, self.scan_range_max_m)

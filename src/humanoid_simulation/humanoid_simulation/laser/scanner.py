@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a planar laser scanner measures in a world."""
+"""Simulated planar laser scanner."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Ranges = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class ScanPattern:
-    """The rays of a sweep all round, anticlockwise, and the distances that are measured."""
+    """The rays of a full-circle scan, anticlockwise, and its range limits."""
 
     rays: int = 360
     range_min_m: float = 0.1
@@ -49,21 +49,21 @@ class ScanPattern:
 
 @dataclass(frozen=True)
 class ScanNoise:
-    """How far ranges are off, each by itself, and how many are missing."""
+    """Noise of ranges, which is independent for each ray, and dropouts."""
 
     range_m: float = 0.0
     """Standard deviation of a range."""
     dropout_share: float = 0.0
-    """The share of rays that bring nothing back, from 0 to 1."""
+    """The share of rays without a return, from 0 to 1."""
     seed: int = 0
 
 
 class LaserScanner:
     """
-    A scanner on a link of a robot: it sees what a camera would see, but nothing of its robot.
+    A scanner on a link of a robot: it sees what a camera would see, except its own robot.
 
-    All rays of a sweep are cast at the same moment, in the plane x, y of the link. The model is
-    copied: later changes of it are not seen.
+    All rays of a scan are cast at the same time, in the x-y plane of the link. The model is
+    copied: later changes to it have no effect.
 
     Parameters
     ----------
@@ -74,9 +74,9 @@ class LaserScanner:
     pattern
         The rays.
     noise
-        How far ranges are off.
+        Noise of the ranges.
     number
-        Which scanner it is: each has noise of its own.
+        Index of the scanner: each has its own noise.
 
     Raises
     ------
@@ -100,7 +100,7 @@ class LaserScanner:
         roots = model.body_rootid
         own = roots[model.geom_bodyid] == roots[self._link]
         self._seen = (model.geom_group < HIDDEN_GROUP) & ~own
-        # A copy, in which what a sweep cannot meet is hidden.
+        # A copy, in which geoms that no ray can hit are hidden.
         self._model = copy(model)
         see_all(self._model)
         self._centres_m, self._half_sizes_m = np.split(model.geom_aabb.copy(), 2, axis=1)
@@ -122,8 +122,8 @@ class LaserScanner:
         Returns
         -------
         Ranges
-            Metres, (rays,): infinite where nothing is within the range, minus infinity where
-            something is nearer than what can be measured, NaN for a ray without an echo (REP 117).
+            Ranges in m, (rays,): infinite where nothing is within the range, minus infinity where
+            something is too close to be measured, NaN for a ray without a return (REP 117).
 
         """
         pattern = self.pattern
@@ -133,7 +133,7 @@ class LaserScanner:
         return distances_m.astype(np.float32)
 
     def _cast(self, data: mujoco.MjData) -> Array:
-        """Cast the rays; return how far they get, (rays,), infinite where they hit nothing."""
+        """Cast the rays; return their lengths (rays,), infinite where they hit nothing."""
         turn = data.xmat[self._link].reshape(3, 3)
         origin_m = data.xpos[self._link]
         rays = np.ascontiguousarray(self._directions @ turn.T)
@@ -146,14 +146,14 @@ class LaserScanner:
         return np.where(self._geoms >= 0, self._distances_m, np.inf)
 
     def _meets(self, data: mujoco.MjData, origin_m: Array, normal: Array) -> NDArray[np.bool_]:
-        """Tell of which geoms, (ngeom,), the plane of the rays meets the bounding box."""
+        """Find the geoms, (ngeom,), whose bounding boxes intersect the plane of the rays."""
         normals = normal @ data.geom_xmat.reshape(-1, 3, 3)
         height_m = (data.geom_xpos - origin_m) @ normal + np.sum(self._centres_m * normals, axis=1)
         reach_m = np.sum(self._half_sizes_m * np.abs(normals), axis=1)
         return np.asarray((np.abs(height_m) <= reach_m) | self._is_endless)
 
     def _spoiled(self, distances_m: Array, time_ns: int) -> Array:
-        """Add noise to distances, and lose some."""
+        """Add noise and dropouts to distances."""
         noise = self._noise
         if noise.range_m <= 0.0 and noise.dropout_share <= 0.0:
             return distances_m

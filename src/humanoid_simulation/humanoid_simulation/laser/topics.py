@@ -23,7 +23,7 @@ FRAME = 'laser'
 
 @dataclass(eq=False)
 class _Scanner:
-    """A scanner, and where it says what it measured."""
+    """A scanner, with its message and its publisher."""
 
     core: LaserScanner
     message: LaserScan
@@ -33,9 +33,9 @@ class _Scanner:
 
 class ScanTopics:
     """
-    The topic `scan` of each robot, at a rate in simulated time, while somebody subscribes.
+    Publishes `scan` for each robot, at a rate in simulated time, while there are subscribers.
 
-    Sweeps show the state at the time of their stamp, in a copy of it: physics is not touched.
+    Scans show the state at the time of their stamp, in a copy of it: the physics is not affected.
 
     Parameters
     ----------
@@ -49,9 +49,9 @@ class ScanTopics:
     settings
         The pattern of the rays, and the rate.
     prefix
-        What the names of frames begin with.
+        Prefix of the frame names.
     noise
-        How far ranges are off.
+        Noise of the ranges.
 
     Raises
     ------
@@ -110,7 +110,7 @@ class ScanTopics:
         Parameters
         ----------
         settings
-            The parameters, of which `scan_rate_hz` counts.
+            The parameters, of which `scan_rate_hz` is used.
 
         """
         self._due = RateLimiter(settings.scan_rate_hz)
@@ -120,7 +120,7 @@ class ScanTopics:
 
     def tell(self, time_s: float, data: mujoco.MjData) -> None:
         """
-        Publish a scan of each scanner that somebody subscribes to, if it is due.
+        Publish a scan of each scanner that has subscribers, if it is due.
 
         Parameters
         ----------
@@ -143,7 +143,7 @@ class ScanTopics:
 
 
 def _scanner(node: Node, robot: str, core: LaserScanner, prefix: str) -> _Scanner:
-    """Announce the topic of a scanner."""
+    """Create the message and the publisher of a scanner."""
     pattern = core.pattern
     message = LaserScan(
         angle_min=pattern.angle_min_rad,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A world of robots and things, as MuJoCo wants it."""
+"""MuJoCo models of worlds with robots and objects."""
 
 from humanoid_simulation.model.description import humanoid, RobotDescription
 from humanoid_simulation.model.physics import Physics

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the simulator must know of a robot: its URDF, and the drives of its joints."""
+"""Description of a robot for the simulator: its URDF, and the drives of its joints."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from humanoid_description.expansion import humanoid_urdf
 
 @dataclass(frozen=True)
 class RobotDescription:
-    """A robot whose names of links and joints begin with the prefix, and its driven joints."""
+    """A robot: its URDF, its driven joints, and the prefix of its link and joint names."""
 
     urdf: str
     drives: Mapping[str, Drive]
@@ -25,7 +25,7 @@ class RobotDescription:
 
     @property
     def base(self) -> str:
-        """Return the link that floats."""
+        """Return the floating base link."""
         return f'{self.prefix}base_link'
 
     @property
@@ -35,7 +35,7 @@ class RobotDescription:
 
     @property
     def feet(self) -> tuple[str, str]:
-        """Return the links that stand on the ground, left and right."""
+        """Return the links of the feet, left and right."""
         return f'{self.prefix}left_foot', f'{self.prefix}right_foot'
 
     @property
@@ -58,7 +58,7 @@ def humanoid(scale: float = 1.0, prefix: str = '', hands: bool = False) -> Robot
     scale
         Size of the robot, as the argument of the model: 1 is the original.
     prefix
-        What the names of all links and joints begin with.
+        Prefix of all link and joint names.
     hands
         Whether it has wrists and grippers.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the physics is computed."""
+"""Settings of the physics."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ SELF_COLLISIONS: Mapping[str, str] = {
 
 @dataclass(frozen=True)
 class Physics:
-    """The period of the physics, and what differs from the model."""
+    """Time step, self-collisions, mass factors and sleeping of the physics."""
 
     period_s: float = 0.002
     self_collision: str = 'arms'
     mass_factors: Mapping[str, float] = field(default_factory=dict)
-    """Links that weigh more or less than the model says, with all of their inertia."""
+    """Factors by which the mass and inertia of links are multiplied, by link."""
     sleep: bool = True
     """
-    Whether things that lie still are left out, with their contacts, until something touches or
-    moves them; that saves most of what they cost. Robots never sleep.
+    Whether objects at rest sleep, together with their contacts, until something touches or moves
+    them; that saves most of their cost. Robots never sleep.
     """
 
     def __post_init__(self) -> None:
-        """Refuse what no physics can be computed with."""
+        """Validate the settings."""
         named('kind of self-collision', self.self_collision, SELF_COLLISIONS)
         if not 1e-4 <= self.period_s <= 0.01:
             raise SimulationError(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a robot begins."""
+"""Initial placement of robots."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from humanoid_simulation.errors import SimulationError
 
 @dataclass(frozen=True)
 class Placement:
-    """A robot's name, which is its namespace, and the place on the ground where it begins."""
+    """A robot's name, which is its namespace, and its initial pose on the ground."""
 
     robot: str = ''
     x_m: float = 0.0
@@ -24,7 +24,7 @@ class Placement:
 
 def check_placements(placements: Sequence[Placement]) -> None:
     """
-    Check that robots have names of their own and finite positions.
+    Check that robots have unique names and finite positions.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def check_placements(placements: Sequence[Placement]) -> None:
     Raises
     ------
     SimulationError
-        There is no robot, a name is there twice or is missing, or a position is not finite.
+        There is no robot, a name is duplicated or missing, or a position is not finite.
 
     """
     if not placements:

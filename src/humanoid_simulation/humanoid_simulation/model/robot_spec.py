@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a robot that can be simulated out of its description."""
+"""Build the MuJoCo specification of a robot from its description."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FIELD_OF_VIEW_DEG = 60.0
 _GEAR = (0.004, 1.0)
 """Time constant (s) and damping of the constraint between finger and thumb."""
 _PAD_FRICTION = (1.2, 0.02, 0.001)
-"""Of rubber on what it holds: sliding, and, in m, turning about the contact and rolling."""
+"""Friction of rubber pads: sliding, and, in m, torsional and rolling."""
 
 # ROS: z forward and y down; MuJoCo: z backward and y up.
 _FROM_OPTICAL_FRAME = (0.0, 1.0, 0.0, 0.0)
@@ -69,7 +69,7 @@ def robot_spec(description: RobotDescription, number: int, physics: Physics) -> 
 
 
 def _body(spec: Any, name: str) -> Any:
-    """Return a link; one that is missing is named in the error."""
+    """Find a link by name; the error names a link that is missing."""
     return named('link', name, {body.name: body for body in spec.bodies})
 
 
@@ -77,7 +77,7 @@ def _add_drive(spec: Any, name: str, drive: Drive) -> None:
     """
     Add the rotor and the servo of a joint.
 
-    The range of its input is left open: feed-forward may lead it beyond that of the joint.
+    The range of its input is unlimited: feed-forward may exceed the range of the joint.
     """
     joint = named('joint', name, {joint.name: joint for joint in spec.joints})
     joint.armature = drive.armature
@@ -89,10 +89,10 @@ def _add_drive(spec: Any, name: str, drive: Drive) -> None:
 
 def _add_hand(spec: Any, side: str) -> None:
     """
-    Let the thumb follow the finger, as a gear between them does, and give both soft pads.
+    Couple the thumb to the finger, as a gear between them does, and give both soft pads.
 
-    The forearm ends where the wrist bends, and the fingers meet where the hand closes: what is
-    built so does not collide.
+    Forearm and palm meet at the wrist, and finger and thumb where the hand closes: collisions
+    within these pairs are excluded.
     """
     finger, thumb = (_body(spec, f'{side}_{part}') for part in ('finger', 'thumb'))
     follower = named('joint', f'{side}_gripper_thumb', {each.name: each for each in spec.joints})
@@ -104,7 +104,7 @@ def _add_hand(spec: Any, side: str) -> None:
         name2=f'{side}_gripper',
         solref=_GEAR,
     )
-    # The coefficients of a polynomial: the follower is where the other one is.
+    # Polynomial coefficients: the follower has the position of the other joint.
     gear.data[:2] = 0.0, 1.0
     for pad in (finger, thumb):
         for geom in filter(is_collision, pad.geoms):
@@ -114,7 +114,7 @@ def _add_hand(spec: Any, side: str) -> None:
 
 
 def _set_collisions(spec: Any, prefix: str, number: int, self_collision: str) -> None:
-    """Say what the links collide with; what is only seen collides with nothing."""
+    """Set the collision bits of the links; visual geoms collide with nothing."""
     for geom in spec.geoms:
         if is_collision(geom):
             bits = robot_bits(geom.parent.name.removeprefix(prefix), number, self_collision)
@@ -123,7 +123,7 @@ def _set_collisions(spec: Any, prefix: str, number: int, self_collision: str) ->
 
 
 def _add_accelerometer(spec: Any, link: str) -> None:
-    """Add the sensor whose value no state holds."""
+    """Add the accelerometer, whose value is not part of the state."""
     _body(spec, link).add_site(name=ACCELEROMETER)
     spec.add_sensor(
         name=ACCELEROMETER,
@@ -134,7 +134,7 @@ def _add_accelerometer(spec: Any, link: str) -> None:
 
 
 def _change_masses(spec: Any, physics: Physics) -> None:
-    """Make links heavier or lighter."""
+    """Scale the masses and inertias of links."""
     for link, factor in physics.mass_factors.items():
         body = _body(spec, link)
         if not body.mass > 0.0:

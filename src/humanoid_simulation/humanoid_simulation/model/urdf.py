@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a URDF by MuJoCo."""
+"""Read a URDF with MuJoCo."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 from humanoid_simulation.errors import SimulationError
 import mujoco
 
-# What MuJoCo drops from a URDF unless told otherwise, at the time of reading: what is seen, and
-# the links that are fixed to others, such as the frames of sensors.
+# What MuJoCo discards by default when it reads a URDF: visuals, and links that are fixed to
+# others, such as the frames of sensors.
 _KEEP = {'discardvisual': 'false', 'fusestatic': 'false'}
 
 
@@ -26,12 +26,12 @@ def spec_of(urdf: str) -> Any:
     Returns
     -------
     mujoco.MjSpec
-        The robot, which can be added to before it is compiled.
+        The robot, which can be extended before it is compiled.
 
     Raises
     ------
     SimulationError
-        The text is no XML, or MuJoCo rejects it.
+        The text is not XML, or MuJoCo rejects it.
 
     """
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Put a scene and robots into one world."""
+"""Build the MuJoCo model of a scene with robots in it."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from humanoid_simulation.scene.building import add_scene
 import mujoco
 
 ALONE = 'robot'
-"""What a robot without a name is called among the things of the world."""
+"""Name of an unnamed robot among the entities of the world."""
 
 _GRIP_IMPRATIO = 50.0
 """
-How much stiffer friction is than the normal force, if there are hands. What they hold creeps out
-of them by 0.4 mm/s with 10, by 0.1 with 50; 50 costs 4 % more than 10.
+Ratio of frictional to normal impedance (`impratio`), if there are hands. Held objects creep out of
+them at 0.4 mm/s with 10, at 0.1 with 50; 50 costs 4 % more than 10.
 """
 _REST_M_S = 1e-3
-"""How slow all that touches each other must be before it sleeps."""
+"""Maximum velocity at which objects in contact with each other fall asleep."""
 
 
 def in_world(robot: str, name: str) -> str:
@@ -37,7 +37,7 @@ def in_world(robot: str, name: str) -> str:
     robot
         Name of the robot; '' if it has none.
     name
-        Name of the link or the like in the description, with the robot's prefix.
+        Name of this element in the description, with the robot's prefix.
 
     """
     return f'{robot or ALONE}/{name}'
@@ -55,7 +55,7 @@ def build_world(
     Parameters
     ----------
     description
-        The kind of the robots.
+        Description shared by the robots.
     scene
         Floor and objects.
     placements
@@ -71,7 +71,7 @@ def build_world(
     Raises
     ------
     SimulationError
-        Names clash, there are too many robots, or MuJoCo cannot compile it.
+        Names clash, there are too many robots, or MuJoCo cannot compile the world.
 
     """
     check_placements(placements)
@@ -96,7 +96,7 @@ def build_world(
 
 
 def _check_names(scene: Scene, placements: Sequence[Placement]) -> None:
-    """Refuse a robot and a thing that nobody could tell apart."""
+    """Check that no object has the name of a robot."""
     robots = {placement.robot or ALONE for placement in placements}
     for thing in scene.things:
         if thing.name in robots:
@@ -107,7 +107,7 @@ def _check_names(scene: Scene, placements: Sequence[Placement]) -> None:
 
 
 def _empty_world(physics: Physics) -> Any:
-    """Return a world with nothing in it but the laws of physics."""
+    """Create an empty world with the options of the physics."""
     world = mujoco.MjSpec()
     world.modelname = 'world'
     option = world.option
@@ -115,6 +115,6 @@ def _empty_world(physics: Physics) -> Any:
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = 10.0
-    # Numbers without bounds must be found, not replaced by a fresh start.
+    # Divergence must be detected, not hidden by an automatic reset.
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     return world

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Add a scene to the specification of a world."""
+"""Add a scene to a MuJoCo model specification."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from humanoid_simulation.scene.textures import EDGE_PX, picture_of
 import mujoco
 import numpy as np
 
-# Of contacts that turn on the spot, and roll; the sliding one is the scene's.
+# Torsional and rolling friction of contacts; the sliding friction is set by the scene.
 _TURNING_FRICTION_M, _ROLLING_FRICTION_M = 0.02, 0.001
-# A contact is about as stiff as a rubber sole: it settles in so many seconds, without bouncing.
+# Time constant (s) and damping ratio: about as stiff as a rubber sole, without bouncing.
 _SOLREF = (0.01, 1.0)
 _GEOMS = {
     'box': mujoco.mjtGeom.mjGEOM_BOX,
@@ -26,7 +26,7 @@ _GEOMS = {
     MESH: mujoco.mjtGeom.mjGEOM_MESH,
 }
 DECORATION_GROUP = 1
-"""The group of the geoms that are seen but do not collide."""
+"""The geom group of visual geoms, which do not collide."""
 
 
 def add_scene(world: Any, scene: Scene) -> None:
@@ -48,7 +48,7 @@ def add_scene(world: Any, scene: Scene) -> None:
 
 
 def _add_floor(world: Any, floor: Floor) -> None:
-    """Add an endless floor of tiles."""
+    """Add an infinite ground plane with a checker texture."""
     texture = world.add_texture(
         name=FLOOR,
         type=mujoco.mjtTexture.mjTEXTURE_2D,
@@ -71,7 +71,7 @@ def _add_floor(world: Any, floor: Floor) -> None:
 
 
 def _add_thing(world: Any, thing: Thing) -> None:
-    """Add a thing, which moves freely if it weighs something."""
+    """Add the body of an object, with a free joint unless it is fixed."""
     body = world.worldbody.add_body(
         name=thing.name, pos=thing.position_m, quat=from_rpy(*thing.orientation_rpy_rad)
     )
@@ -82,17 +82,17 @@ def _add_thing(world: Any, thing: Thing) -> None:
         name = f'{thing.name}/{number}' if number else thing.name
         geom = _add_part(world, body, name, part)
         if part.collides:
-            # The first solid part has all of the mass.
+            # The first colliding part has all of the mass.
             geom.mass, mass_kg = mass_kg, 0.0
             _set_contact(geom, thing.friction)
             if part.shape == 'sphere' and part.is_shown and thing.kind:
-                geom.condim = 6  # a ball on a table would roll for ever
+                geom.condim = 6  # enables rolling friction, without which balls roll for ever
         else:
             geom.mass = 0.0
 
 
 def _add_part(world: Any, body: Any, name: str, part: Part) -> Any:
-    """Add a shape that neither collides nor weighs anything so far."""
+    """Add the geom of a part, with collisions disabled and its mass not set yet."""
     geom = body.add_geom(
         name=name,
         type=_GEOMS[part.shape],
@@ -119,7 +119,7 @@ def _add_part(world: Any, body: Any, name: str, part: Part) -> Any:
 
 
 def _mesh(world: Any, part: Part) -> str:
-    """Return the name of a mesh of a size, which is added if there is none so far."""
+    """Return the name of the mesh of a part; add it if it does not exist yet."""
     name = f'{part.mesh} {" ".join(f"{edge:g}" for edge in part.size_m)}'
     if world.mesh(name) is None:
         corners = triangles_of(part.mesh).reshape(-1, 3).astype(np.float64)
@@ -131,7 +131,7 @@ def _mesh(world: Any, part: Part) -> str:
 
 
 def _shining(world: Any, shine: float) -> str:
-    """Return the name of a material that glows, which is added if there is none so far."""
+    """Return the name of an emissive material; add it if it does not exist yet."""
     name = f'shining {shine:g}'
     if world.material(name) is None:
         world.add_material(name=name, emission=shine)
@@ -139,7 +139,7 @@ def _shining(world: Any, shine: float) -> str:
 
 
 def _painted(world: Any, finish: Finish) -> str:
-    """Return the name of a material with a pattern, which is added if there is none so far."""
+    """Return the name of the textured material of a finish; add it if it does not exist yet."""
     name = f'{finish}'
     if world.material(name) is None:
         texture = world.add_texture(
@@ -159,7 +159,7 @@ def _painted(world: Any, finish: Finish) -> str:
 
 
 def _half_sizes(part: Part) -> Vector:
-    """Return the size as MuJoCo wants it: halves of edges, but radii."""
+    """Convert a size to MuJoCo's convention: half edges and half heights, but full radii."""
     if part.shape == 'box':
         return tuple(edge / 2 for edge in part.size_m)
     if part.shape == 'cylinder':
@@ -169,7 +169,7 @@ def _half_sizes(part: Part) -> Vector:
 
 
 def _set_contact(geom: Any, friction: float) -> None:
-    """Let the world decide how contacts with it behave: its geoms have the priority."""
+    """Set contact parameters that, by their priority, override those of other geoms."""
     geom.contype, geom.conaffinity = WORLD, WORLD
     geom.friction = (friction, _TURNING_FRICTION_M, _ROLLING_FRICTION_M)
     geom.condim, geom.priority = 4, 1

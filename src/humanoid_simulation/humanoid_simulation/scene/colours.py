@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The colours that have a name: far enough from each other to be told apart in a picture."""
+"""The named colours, which are far enough apart to be distinguished in an image."""
 
 from __future__ import annotations
 

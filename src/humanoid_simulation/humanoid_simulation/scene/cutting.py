@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cut walls at a height, so that one sees into the rooms."""
+"""Cut walls at a height, for a view into the rooms."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from humanoid_simulation.scene.walls import CEILING
 
 def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
     """
-    Select the parts of an object that are shown if walls are cut at a height.
+    Select the visible parts of an object for a view in which walls are cut at a height.
 
-    Walls are cut. Ceilings, and what hangs on walls or from ceilings, are left out if they are
-    above that height; all else is shown as it is.
+    Walls are cut. Ceilings, and objects that hang on walls or from ceilings, are left out if they
+    are above that height; all other objects are unchanged.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
     Returns
     -------
     tuple of Part
-        Parts in the axes of the object; none that only collides.
+        The visible parts, in the frame of the object.
 
     """
     shown = tuple(part for part in thing.parts if part.is_shown)
@@ -43,8 +43,8 @@ def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
 
 
 def _cut(part: Part, height_m: float) -> Part | None:
-    """Return the lower piece of an upright box; None if there is none."""
-    # What is papered on a wall is a board on its edge: see `walls`.
+    """Return the piece of an upright box below a height; None if there is none."""
+    # Wallpaper is a board that stands on its edge: see `walls`.
     upright = 1 if math.isclose(part.orientation_rpy_rad[0], math.pi / 2.0) else 2
     size, (x_m, y_m, z_m) = list(part.size_m), part.position_m
     if part.shape != 'box':

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The kinds of furniture, lamps and figures of people, and the pieces of a file."""
+"""The kinds of furniture, lamps and human figures, and the pieces of a scene file."""
 
 from __future__ import annotations
 
@@ -19,23 +19,24 @@ _LIGHT_RGB = (1.0, 0.95, 0.75)
 @dataclass(frozen=True)
 class Kind:
     """
-    A kind of furniture: how it is built, and how large it is unless a file says so.
+    A kind of furniture: its builder, and its default size and colour.
 
-    The length of a size is along x, to the front of the piece: the depth of a cupboard.
+    Sizes are length, width and height; x points to the front of the piece, so the length of a
+    cupboard is its depth.
     """
 
     build: Callable[[Vector, Vector], Parts]
     size_m: Vector
     rgb: Vector
     levels: tuple[float, ...] = ()
-    """Heights of what things stand on, as parts of the height; the first is the main one."""
+    """Heights of its support surfaces, as fractions of its height; the main one comes first."""
     margin_m: float = 0.03
-    """How far from its edges things must stand."""
+    """The margin along the edges of a surface on which no object may stand."""
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of furniture at a place, facing somewhere."""
+    """A piece of furniture, with its position and heading."""
 
     name: str
     kind: str
@@ -45,7 +46,7 @@ class Piece:
     size_m: Vector | None = None
     rgb: Vector | None = None
     raised_m: float = 0.0
-    """The height of what it stands on, or hangs at."""
+    """The height at which it stands or hangs."""
 
 
 def furniture_of(piece: Piece) -> Thing:
@@ -55,12 +56,12 @@ def furniture_of(piece: Piece) -> Thing:
     Parameters
     ----------
     piece
-        What to build, and where; its kind is one of `KINDS`.
+        The piece to build; its kind is one of `KINDS`.
 
     Returns
     -------
     Thing
-        With its origin on what it stands on, or where it hangs; x is its front.
+        The object, with its origin on its support or where it hangs; x points to its front.
 
     Raises
     ------
@@ -131,6 +132,6 @@ KINDS: dict[str, Kind] = {
     'window': Kind(decoration.window, (0.04, 1.4, 1.1), (0.72, 0.85, 0.95)),
     'person': Kind(decoration.person, (0.3, 0.52, 1.7), (0.4, 0.55, 0.4)),
 }
-"""All kinds, by the word that a file uses."""
+"""All kinds, by their names in scene files."""
 HANGING = ('ceiling_lamp', 'picture', 'window')
-"""Kinds that hang on what may be cut off in a view."""
+"""Kinds that hang on walls or from ceilings, which may be cut off in a view."""

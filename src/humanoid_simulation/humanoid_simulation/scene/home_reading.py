@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read what makes a scene a home: rooms, walls, furniture, graspable things and places."""
+"""Read the rooms, walls, furniture, graspable objects and places of a scene file."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from humanoid_simulation.tables import Table
 
 KEYS = ('rooms', 'walls', 'furniture', 'objects', 'places')
 _GAP_M = 0.001
-"""Above what they stand on, so that nothing begins inside of something else."""
+"""Initial clearance of objects above their support, so that none starts in penetration."""
 
 
 @dataclass
 class Home:
-    """What was read."""
+    """The rooms, objects, surfaces and places that were read from a scene file."""
 
     rooms: tuple[Room, ...] = ()
     things: list[Thing] = field(default_factory=list)
@@ -81,7 +81,7 @@ def _room(table: Table) -> Room:
 
 
 def _finish(table: Table) -> Finish:
-    """Read what a surface looks like."""
+    """Read the finish of a floor or wall."""
     table.allow('pattern', 'first', 'second', 'tile')
     default = Finish()
     first = colour_in(table, 'first', default.first_rgb)[1]
@@ -137,7 +137,7 @@ def _piece(table: Table, surfaces: Mapping[str, Surface]) -> Piece:
 
 
 def _object(table: Table, surfaces: Mapping[str, Surface]) -> Thing:
-    """Read a thing that can be grasped: on a surface, or on the floor."""
+    """Read a graspable object, which stands on a surface or on the floor."""
     table.allow('name', 'class', 'colour', 'stands_on', 'at', 'turn_deg', 'size')
     kind = table.choice('class', tuple(CLASSES))
     name, rgb = colour_in(table, 'colour', None)
@@ -159,13 +159,13 @@ def _object(table: Table, surfaces: Mapping[str, Surface]) -> Thing:
 
 
 def _axes(surface: Surface) -> tuple[Point, float]:
-    """Return the middle of a surface, and where the thing that has it faces."""
+    """Return the centre of a surface, and the heading of the furniture that it belongs to."""
     (x1, y1), (x2, y2), *_ = surface.outline_m
     return surface.centre_m, math.atan2(y1 - y2, x1 - x2)
 
 
 def _place(table: Table, home: Home) -> Place:
-    """Read a place; one must be able to stand there."""
+    """Read a place, which must be in a room if the scene has rooms."""
     table.allow('name', 'stand', 'facing_deg', 'surface')
     x_m, y_m = _point(table, 'stand')
     surface = _surface(table, 'surface', home.surfaces) if table.has('surface') else None
@@ -179,7 +179,7 @@ def _place(table: Table, home: Home) -> Place:
 
 
 def _surface(table: Table, key: str, surfaces: Mapping[str, Surface]) -> Surface:
-    """Read the name of a surface."""
+    """Look up the surface that the value of a key names."""
     name = table.text(key)
     if name not in surfaces:
         known = ', '.join(surfaces) or 'none so far'
@@ -189,7 +189,7 @@ def _surface(table: Table, key: str, surfaces: Mapping[str, Surface]) -> Surface
 
 
 def _point(table: Table, key: str) -> Point:
-    """Read a point of the ground."""
+    """Read a point on the ground."""
     x_m, y_m = table.vector(key, 2)
     return x_m, y_m
 
@@ -201,7 +201,7 @@ def colour_in(table: Table, key: str, default: Vector | None) -> tuple[str, Vect
     Parameters
     ----------
     table, key
-        Where the colour stands.
+        The table and its key that hold the colour.
     default
         Red, green and blue, 0 to 1, if the key is not set; None makes the key mandatory.
 

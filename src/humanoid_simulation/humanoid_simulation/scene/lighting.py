@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Light a scene, so that cameras see something."""
+"""Add the lights of a scene, for the cameras."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def add_lighting(world: Any, is_indoors: bool = False) -> None:
     world
         The `mujoco.MjSpec` to add to.
     is_indoors
-        Whether there is more ambient light, as rooms need.
+        Whether to add more ambient light, as rooms need it.
 
     """
     world.worldbody.add_light(

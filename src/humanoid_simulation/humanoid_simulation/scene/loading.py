@@ -45,7 +45,7 @@ def scene_of(table: Table, name: str) -> Scene:
     table
         The content.
     name
-        What the scene is called.
+        The name of the scene.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def scene_of(table: Table, name: str) -> Scene:
 
 
 def _refuse_names_twice(table: Table) -> None:
-    """Raise TableError for a name of a thing that is there before, with both lines."""
+    """Raise TableError if two objects have the same name; the message gives both lines."""
     lines: dict[str, int] = {}
     for key in ('things', 'walls', 'furniture', 'objects'):
         for each in table.tables(key):
@@ -106,12 +106,12 @@ def _floor(table: Table) -> Floor:
 
 def thing_in(table: Table, name: str | None = None, position_m: Vector | None = None) -> Thing:
     """
-    Read an object of one shape.
+    Read an object that consists of one shape.
 
     Parameters
     ----------
     table
-        Where the object stands in a file.
+        The table of the object in a file.
     name, position_m
         Its name and position (3,) in the world frame if the table does not set them; None makes
         them mandatory.

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The classes of things that a hand can grasp.
+The classes of graspable objects.
 
-What is round collides as a cylinder or sphere. An upright cylinder stands on three small feet
-below it: three contacts, which cost less than those of a rim and do not rock.
+Round objects collide as cylinders or spheres. An upright cylinder stands on three small feet:
+three contacts are cheaper to compute than those of a rim, and do not rock.
 """
 
 from __future__ import annotations
@@ -26,20 +26,20 @@ Parts = tuple[Part, ...]
 
 @dataclass(frozen=True)
 class Class:
-    """A class of things: how one is built, its size and what it weighs."""
+    """A class of graspable objects: builder, and default size, mass, colour and friction."""
 
     build: Callable[[Vector, Vector], Parts]
     size_m: Vector
     """Length, width and height."""
     mass_kg: float
     colour: str
-    """That of a thing of which nobody says another one."""
+    """The name of its default colour."""
     friction: float = 0.8
 
 
 @dataclass(frozen=True)
 class Graspable:
-    """A thing of a class, in a colour, standing upright with its bottom at a point."""
+    """An object of a class with its colour and pose: upright, with its bottom at a point."""
 
     name: str
     kind: str
@@ -92,7 +92,7 @@ def thing_of(graspable: Graspable) -> Thing:
 
 
 def _seen(shape: str, size: Vector, at: Vector, rgb: Vector, mesh: str = '') -> Part:
-    """Return a part that is seen only."""
+    """Return a visual part, which does not collide."""
     return Part(shape, size, at, colour_rgba=(*rgb, 1.0), collides=False, mesh=mesh)
 
 
@@ -194,7 +194,7 @@ def _cube(size: Vector, rgb: Vector) -> Parts:
 
 
 def _book(size: Vector, rgb: Vector) -> Parts:
-    """Return a book that lies: its pages are seen on three sides."""
+    """Return a book that lies flat, with its pages visible on three sides."""
     length, width, height = size
     return (
         Part('box', size, colour_rgba=(*rgb, 1.0)),
@@ -215,4 +215,4 @@ CLASSES: dict[str, Class] = {
     'cube': Class(_cube, (0.06, 0.06, 0.06), 0.1, 'blue'),
     'book': Class(_book, (0.14, 0.2, 0.03), 0.35, 'blue'),
 }
-"""All classes, by the word that a file uses."""
+"""All classes, by their names in scene files."""

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Draw the map of a scene that a perfect mapper would have drawn.
+Compute the ground-truth occupancy map of a scene, as a perfect mapper would build it.
 
-Every part of what is fixed is taken for convex: its section with a layer of heights is a convex
-polygon, and a cell is occupied if the polygon and the cell overlap (separating axes). What is seen
-but does not collide, such as leaves, counts too, unless it is thinner than a cell: a scanner sees
-it, and paper on a wall makes that no thicker.
+Every part of a fixed object counts as convex: its section with a layer of heights is a convex
+polygon, and a cell is occupied if the polygon and the cell overlap (separating axis theorem).
+Visual parts that do not collide, such as leaves, count too, unless they are thinner than a cell: a
+laser scanner sees them, but wallpaper must not make walls thicker.
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Cells = NDArray[np.int8]
 UNKNOWN, FREE, OCCUPIED = -1, 0, 100
-"""As in `nav_msgs/msg/OccupancyGrid`."""
+"""Cell values, as in `nav_msgs/msg/OccupancyGrid`."""
 _MOST_CELLS = 25_000_000
 _ROUND = 24
 _TOUCH_M = 1e-6
-"""Cells that only touch a solid are free of it."""
+"""Overlap below which a cell merely touches a solid, and is not occupied by it."""
 
 
 @dataclass(frozen=True)
 class Layer:
-    """The heights between which what is solid is drawn."""
+    """The range of heights whose objects are mapped."""
 
     low_m: float = 0.1
     high_m: float = 1.4
 
     def __post_init__(self) -> None:
-        """Refuse a layer that is upside down."""
+        """Check that the heights are in order and in range."""
         if not (math.isfinite(self.low_m) and self.low_m <= self.high_m < 100.0):
             raise SimulationError(
                 f'There is nothing between {self.low_m:g} and {self.high_m:g} m. Give the lower '
@@ -52,12 +52,12 @@ class Layer:
 
 @dataclass(frozen=True, eq=False)
 class OccupancyMap:
-    """Cells (rows, columns), from the smaller coordinates to the larger ones."""
+    """Occupancy grid: cells (rows, columns), in the order of increasing y and x."""
 
     cells: Cells
     resolution_m: float
     origin_m: Point
-    """The corner of the first cell."""
+    """The lower left corner (x, y) of the first cell, in the world frame."""
 
     def at(self, x_m: float, y_m: float) -> int:
         """
@@ -91,21 +91,21 @@ def occupancy_of(
     """
     Compute the occupancy map of the fixed objects of a scene.
 
-    Cells with something fixed within the layer are occupied, also inside of solids; what a mapper
-    reaches from its start without leaving the map is free; all else is unknown.
+    Cells that overlap a fixed object within the layer are occupied, also inside of solids; cells
+    that a mapper can reach from its start within the map are free; all others are unknown.
 
     Parameters
     ----------
     scene
-        The scene; movable objects do not count.
+        The scene; movable objects are ignored.
     layer
-        Between which heights objects count.
+        The range of heights to map.
     resolution_m
         Edge length of a cell.
     start_m
         Where the mapper starts (x, y), in the world frame.
     margin_m
-        How far the map extends beyond all that is occupied and the start.
+        How far the map extends beyond all occupied cells and the start.
 
     Raises
     ------
@@ -148,11 +148,11 @@ def section_of(thing: Thing, part: Part, layer: Layer) -> Array:
     Parameters
     ----------
     thing
-        The object, which places the part in the world.
+        The object that the part belongs to, at its initial pose in the world.
     part
-        The part, whose convex hull counts.
+        The part; its convex hull is used.
     layer
-        The layer.
+        The range of heights.
 
     Returns
     -------
@@ -175,7 +175,7 @@ def section_of(thing: Thing, part: Part, layer: Layer) -> Array:
 
 def _crossings(corners: Array, height_m: float) -> Array:
     """
-    Return where lines between corners cross a height, (n, 2).
+    Compute the points (n, 2) at which lines between corners cross a height.
 
     Lines through the inside of the body only add points inside of the section.
     """
@@ -190,7 +190,7 @@ def _crossings(corners: Array, height_m: float) -> Array:
 
 
 def _corners(part: Part) -> Array:
-    """Return points whose hull is the part, in its own axes; round ones are finely faceted."""
+    """Return points (n, 3) that span the hull of a part in its axes; round ones are faceted."""
     if part.shape == 'box':
         unit = [[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
         return np.array(unit) * part.size_m
@@ -213,7 +213,7 @@ def _corners(part: Part) -> Array:
 
 
 def _hull(points: Array) -> Array:
-    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    """Compute the convex hull of points, counter-clockwise (Andrew's monotone chain)."""
     ordered = sorted({(round(float(x), 9), round(float(y), 9)) for x, y in points})
     if len(ordered) < 3:
         return np.zeros((0, 2))
@@ -231,14 +231,14 @@ def _hull(points: Array) -> Array:
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:
-    """Return twice the area of a triangle, above zero if it turns to the left."""
+    """Return twice the signed area of a triangle, positive for a left turn."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _empty(
     sections: list[Array], resolution_m: float, start_m: Point, margin_m: float
 ) -> tuple[Cells, Array]:
-    """Return unknown cells round all sections and the start, and the corner of the first."""
+    """Return a grid of unknown cells around all sections and the start, and its origin."""
     points = np.vstack([np.array([start_m]), *sections])
     low = np.floor((points.min(axis=0) - margin_m) / resolution_m + 1e-6)
     high = np.ceil((points.max(axis=0) + margin_m) / resolution_m - 1e-6)
@@ -251,7 +251,7 @@ def _empty(
 
 
 def _fill(cells: Cells, polygon: Array, slack: float) -> None:
-    """Mark the cells that overlap a convex polygon, which is given in cells."""
+    """Mark the cells that overlap a convex polygon, in units of cells, as occupied."""
     rows, columns = cells.shape
     low = np.clip(np.floor(polygon.min(axis=0) + slack).astype(int), 0, (columns, rows))
     high = np.clip(np.ceil(polygon.max(axis=0) - slack).astype(int), 0, (columns, rows))
@@ -272,7 +272,7 @@ def _sides(polygon: Array) -> Iterator[tuple[Array, Array]]:
 
 
 def _flood(cells: Cells, row: int, column: int) -> None:
-    """Make all unknown cells free that are reached from one, side by side."""
+    """Flood-fill the unknown cells that are 4-connected to a cell as free."""
     rows, columns = cells.shape
     cells[row, column] = FREE
     waiting = deque([(row, column)])

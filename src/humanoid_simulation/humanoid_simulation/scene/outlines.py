@@ -44,7 +44,7 @@ def area_m2(outline: Outline) -> float:
 
 def contains(outline: Outline, point: Point) -> bool:
     """
-    Check whether a point is in a polygon: a ray from it crosses an odd number of edges.
+    Check whether a point is inside a polygon, by ray casting.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def turned(point: Point, yaw_rad: float, origin: Point = (0.0, 0.0)) -> Point:
 
 def rectangles_of(outline: Outline) -> list[tuple[Point, Point]]:
     """
-    Decompose a rectilinear polygon into rectangles along the axes.
+    Decompose a rectilinear polygon into axis-aligned rectangles.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def rectangles_of(outline: Outline) -> list[tuple[Point, Point]]:
     Returns
     -------
     list of (Point, Point)
-        Lower left and upper right corners; empty if an edge is not along an axis.
+        Lower left and upper right corners; empty if an edge is not parallel to an axis.
 
     """
     if any(abs(a[0] - b[0]) > 1e-9 and abs(a[1] - b[1]) > 1e-9 for a, b in edges(outline)):

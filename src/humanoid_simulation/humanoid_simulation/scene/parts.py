@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The solid shapes that everything in a scene is made of."""
+"""The shapes that all objects in a scene consist of."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ SIZES = {
     'sphere': ('radius',),
     'cylinder': ('radius', 'height'),
 }
-"""What the numbers of a size mean, by shape."""
+"""The meaning of the components of a size, by shape."""
 MESH = 'mesh'
-"""The shape of what is seen only: a file of the folder `meshes`, stretched to a size."""
+"""The shape of visual parts that are meshes: a file of the folder `meshes`, scaled to a size."""
 PATTERNS = ('plain', 'tiles', 'planks', 'stripes', 'carpet')
 
 
 @dataclass(frozen=True)
 class Finish:
-    """What a surface looks like: a pattern in two colours, which repeats after a length."""
+    """The finish of a surface: a pattern in two colours, which repeats every `tile_m`."""
 
     pattern: str = 'plain'
     first_rgb: Vector = (0.6, 0.6, 0.6)
@@ -30,7 +30,7 @@ class Finish:
     tile_m: float = 0.5
 
     def __post_init__(self) -> None:
-        """Refuse a finish that cannot be drawn."""
+        """Validate the pattern and its period."""
         if self.pattern not in PATTERNS or not 0.01 <= self.tile_m <= 100.0:
             raise SimulationError(
                 f'A surface cannot have {self.pattern} of {self.tile_m:g} m. Give one of '
@@ -39,7 +39,7 @@ class Finish:
 
     @property
     def mean_rgb(self) -> Vector:
-        """Return the colour that it has from far away."""
+        """Return the mean colour, as seen from far away."""
         if self.pattern == 'plain':
             return self.first_rgb
         return tuple((a + b) / 2.0 for a, b in zip(self.first_rgb, self.second_rgb))
@@ -48,30 +48,30 @@ class Finish:
 @dataclass(frozen=True)
 class Part:
     """
-    A solid shape, placed in the axes of the thing that it belongs to.
+    A shape with its pose in the frame of the object that it belongs to.
 
-    What collides but is not shown stands in for a mesh; what is shown but does not collide is
-    decoration.
+    A part that collides but is not shown stands in for a mesh; one that is shown but does not
+    collide is decoration.
     """
 
     shape: str
     size_m: Vector
-    """See `SIZES`; of a mesh the length, width and height."""
+    """As in `SIZES`; for a mesh the length, width and height."""
     position_m: Vector = (0.0, 0.0, 0.0)
-    """Of its centre."""
+    """The position of its centre."""
     orientation_rpy_rad: Vector = (0.0, 0.0, 0.0)
     colour_rgba: Vector = (0.6, 0.6, 0.6, 1.0)
     collides: bool = True
     is_shown: bool = True
     mesh: str = ''
-    """The name of the mesh, if the shape is one."""
+    """The name of the mesh, if the shape is `MESH`."""
     finish: Finish | None = None
-    """On the two faces of a box across its local z axis; else its colour is plain."""
+    """For the two faces of a box normal to its local z axis; otherwise its colour is plain."""
     shine: float = 0.0
-    """How much it glows by itself, as a lamp does: 0 to 1."""
+    """Emission of light, as of a lamp, 0 to 1."""
 
     def __post_init__(self) -> None:
-        """Refuse a part that cannot be."""
+        """Validate the shape, its size, its numbers and its mesh."""
         count = 3 if self.shape == MESH else len(SIZES.get(self.shape, ()))
         if not count or len(self.size_m) != count:
             raise SimulationError(f'There is no {self.shape} with a size {self.size_m}.')
@@ -85,7 +85,7 @@ class Part:
 
     @property
     def box_m(self) -> Vector:
-        """Return length, width and height of the box around it, in its own axes."""
+        """Return the length, width and height of its bounding box, in its own axes."""
         if self.shape == 'sphere':
             return (2.0 * self.size_m[0],) * 3
         if self.shape == 'cylinder':

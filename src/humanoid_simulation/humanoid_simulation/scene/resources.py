@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Worlds and things that are named by a URI, or given as a text."""
+"""Load worlds and objects by URI or from text."""
 
 from __future__ import annotations
 
@@ -28,17 +28,16 @@ import numpy as np
 
 THING_FORMATS = ('urdf', 'yaml')
 GIVEN_TEXT = 'resource_string'
-"""What error messages call a text that came without a file."""
+"""The name of text that is not from a file, in error messages."""
 _URDF_SUFFIXES = ('.urdf', '.xml')
 
 T = TypeVar('T')
 
 
 class ResourceError(SimulationError):
-    """What was to be loaded cannot be; `problem` is a constant of LoadWorld and SpawnEntity."""
+    """A resource cannot be loaded; `problem` names a constant of LoadWorld and SpawnEntity."""
 
     def __init__(self, problem: str, sentence: str) -> None:
-        """Take the constant's name, and what to tell people."""
         super().__init__(sentence)
         self.problem = problem
 
@@ -53,7 +52,7 @@ class World:
 
 
 def installed_worlds() -> list[World]:
-    """Return the worlds that are installed."""
+    """Return the installed worlds."""
     return [_world(path, name) for name, path in installed_scenes().items()]
 
 
@@ -110,12 +109,12 @@ def world_of(uri: str, text: str) -> tuple[World, Scene]:
     uri
         The name of an installed one, or the path or URI of a scene file.
     text
-        The content of a scene file; it counts if the URI is empty.
+        The content of a scene file, which is used if the URI is empty.
 
     Raises
     ------
     ResourceError
-        If there is no such world, or a mistake in it.
+        There is no such world, or it has a mistake.
 
     """
     if not uri:
@@ -126,7 +125,7 @@ def world_of(uri: str, text: str) -> tuple[World, Scene]:
 
 
 def spawnables() -> list[tuple[str, str, Thing]]:
-    """Return the classes of things: a URI for each, a description, and a thing of it."""
+    """Return the URI, a description and an example object of each class of objects."""
     return [
         (kind, f"a {kind}; 'red {kind}' and other colours as well", thing_from(kind, '', kind))
         for kind in CLASSES
@@ -135,22 +134,22 @@ def spawnables() -> list[tuple[str, str, Thing]]:
 
 def thing_from(uri: str, text: str, name: str) -> Thing:
     """
-    Return a thing at the origin.
+    Build an object at the origin.
 
     Parameters
     ----------
     uri
-        A class, perhaps with a colour before it ('red mug'), or the path or URI of a URDF or of a
-        YAML file with what a scene file says of one thing.
+        A class, optionally preceded by a colour ('red mug'), or the path or URI of a URDF, or of
+        a YAML file with the entry of one object, as in a scene file.
     text
-        The content of such a file; it counts if the URI is empty.
+        The content of such a file, which is used if the URI is empty.
     name
-        What the thing is to be called.
+        The name of the new object.
 
     Raises
     ------
     ResourceError
-        If there is nothing of that sort, or a mistake in it.
+        There is no such class or file, or it has a mistake.
 
     """
     colour, _, kind = uri.strip().rpartition(' ')
@@ -167,19 +166,19 @@ def thing_from(uri: str, text: str, name: str) -> Thing:
 
 
 def _known_things() -> str:
-    """Say what a thing can be made from."""
+    """Describe the classes of objects, for an error message."""
     return f"a class of things ({', '.join(CLASSES)}), perhaps with a colour as in 'red mug'"
 
 
 def _of_class(name: str, kind: str, colour: str = '') -> Thing:
-    """Return a thing of a class."""
+    """Build an object of a class."""
     colour = colour or CLASSES[kind].colour
     graspable = Graspable(name, kind, colour, COLOURS[colour], (0.0, 0.0, 0.0))
     return replace(thing_of(graspable), position_m=(0.0, 0.0, 0.0))
 
 
 def _described(table: Table, name: str) -> Thing:
-    """Return the thing of a table: an object of a class, or one of a shape."""
+    """Build the object that a table describes, by its class or by its shape."""
     if not table.has('class') or table.has('shape'):
         return thing_in(table, name, (0.0, 0.0, 0.0))
     table.allow('name', 'class', 'colour', 'size')
@@ -192,7 +191,7 @@ def _described(table: Table, name: str) -> Thing:
 
 
 def _rigid(urdf: str, source: str, name: str) -> Thing:
-    """Return the one rigid body that a URDF without moving joints describes."""
+    """Build one rigid object from a URDF, which must not have moving joints."""
     try:
         robot = load_robot(urdf, source)
     except DescriptionError as error:
@@ -231,7 +230,7 @@ def _rigid(urdf: str, source: str, name: str) -> Thing:
 
 
 def _part(shape: Shape, pose: Array, source: str, collides: bool, is_shown: bool) -> Part:
-    """Return a part of a thing, in its axes."""
+    """Convert a URDF shape to a part, in the frame of the object."""
     if shape.kind == MESH:
         raise ResourceError(
             'UNSUPPORTED_ASSETS',
@@ -251,13 +250,13 @@ def _part(shape: Shape, pose: Array, source: str, collides: bool, is_shown: bool
 
 
 def _scene_file(uri: str) -> Path:
-    """Return the file of a world: an installed one by its name, or that of a URI."""
+    """Return the scene file of a world, by the name of an installed one or by its URI."""
     installed = installed_scenes()
     return installed.get(uri) or _file(uri, SCENE_SUFFIXES, f'a world: {", ".join(installed)}')
 
 
 def _world(path: Path, uri: str) -> World:
-    """Return what is known of a scene file: the comment at its top tells what it is."""
+    """Describe the world of a scene file by the comment at its top."""
     words: list[str] = []
     try:
         with open(path, encoding='utf-8') as stream:
@@ -275,14 +274,14 @@ def _world(path: Path, uri: str) -> World:
 
 
 def _table(text: str) -> Table:
-    """Read a text that came without a file."""
+    """Parse text that is not from a file."""
     if not text.strip():
         raise ResourceError('NO_RESOURCE', 'Give a uri or a resource_string; both are empty.')
     return table_of(text, GIVEN_TEXT)
 
 
 def _parsed(make: Callable[[], T]) -> T:
-    """Return what is made of a resource; a mistake in it is one of the resource."""
+    """Call a parser, and convert its errors to `RESOURCE_PARSE_ERROR`."""
     try:
         return make()
     except ResourceError:
@@ -300,7 +299,7 @@ def _read(path: Path) -> str:
 
 
 def _file(uri: str, suffixes: tuple[str, ...], known: str) -> Path:
-    """Return the file of a URI, if it is there and of a kind that can be read."""
+    """Resolve a URI to a path, which must exist and have a supported suffix."""
     path = _path_of(uri)
     if not path.suffix:
         raise ResourceError('NO_RESOURCE', f"'{uri}' is neither a file nor {known}.")
@@ -315,7 +314,7 @@ def _file(uri: str, suffixes: tuple[str, ...], known: str) -> Path:
 
 
 def _path_of(uri: str) -> Path:
-    """Return the path that a path, a `file://` or a `package://` URI means."""
+    """Resolve a path, or a `file://` or `package://` URI, to a path."""
     parts = urlsplit(uri)
     if parts.scheme == 'package':
         from ament_index_python.packages import get_package_share_directory, PackageNotFoundError

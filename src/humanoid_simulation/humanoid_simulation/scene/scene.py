@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A scene: a floor, things on it, and what people call its rooms and places."""
+"""A scene: a floor, the objects on it, and its named rooms and places."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ __all__ = [
 
 FLOOR = 'floor'
 WORLD = 'world'
-"""What everything in it hangs on."""
+"""The name of the world itself, to which all objects are attached."""
 COMPOSED = 'composed'
-"""The shape of a thing that consists of its details alone."""
+"""The shape of an object that consists of its details only."""
 WALL = 'wall'
-"""The class of what is in the way of a look into the rooms."""
+"""The class of walls, which are cut in views into the rooms."""
 
 
 @dataclass(frozen=True)
 class Thing:
     """
-    A body of one shape and perhaps details; without a mass it is fixed.
+    An object: a body of one shape and optional details; without a mass it is fixed.
 
-    The position, of the centre of the shape, is the home of what is not fixed. Details are placed
-    in the axes of the thing, and weigh nothing but in what consists of them alone.
+    The position is that of the centre of the shape, and the initial one of a movable object.
+    Details are in the frame of the object, and have no mass unless it consists of details only.
     """
 
     name: str
@@ -54,13 +54,13 @@ class Thing:
     mass_kg: float = 0.0
     friction: float = 1.0
     kind: str = ''
-    """Its class: `mug`, `table`, `wall`; empty if nobody said."""
+    """Its class, such as `mug`, `table` or `wall`; empty if not given."""
     colour: str = ''
     """The name of its colour, if it has one."""
     details: tuple[Part, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse a thing that cannot be."""
+        """Validate the shape, its size, and the other numbers."""
         if self.shape == COMPOSED:
             sound = len(self.size_m) == 3 and bool(self.details)
         else:
@@ -77,33 +77,33 @@ class Thing:
 
     @property
     def is_fixed(self) -> bool:
-        """Tell whether nothing can move it."""
+        """Whether the object is fixed in the world: it has no mass."""
         return self.mass_kg == 0.0
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """Return all shapes that it is made of."""
+        """All shapes of the object."""
         if self.shape == COMPOSED:
             return self.details
         return (Part(self.shape, self.size_m, colour_rgba=self.colour_rgba), *self.details)
 
     @property
     def box_m(self) -> Vector:
-        """Return length, width and height of the thing, in its own axes."""
+        """Return the length, width and height of the object, in its own axes."""
         return self.size_m if self.shape == COMPOSED else self.parts[0].box_m
 
 
 @dataclass(frozen=True)
 class Floor:
-    """The ground at height zero."""
+    """The ground plane at height zero."""
 
     friction: float = 1.0
     colours_rgb: tuple[Vector, Vector] = ((0.35, 0.4, 0.45), (0.25, 0.3, 0.35))
-    """Of the two kinds of its tiles."""
+    """The two colours of its checkered tiles."""
     tile_m: float = 0.5
 
     def __post_init__(self) -> None:
-        """Refuse a floor that cannot be."""
+        """Validate the friction and the size of the tiles."""
         if not 0.0 <= self.friction <= 10.0:
             raise SimulationError(
                 f'The floor cannot have a friction of {self.friction:g}. Give one from 0 to 10; '
@@ -117,19 +117,19 @@ class Floor:
 
 @dataclass(frozen=True)
 class Room:
-    """A part of the ground that has a name."""
+    """A named area of the ground."""
 
     name: str
     outline_m: Outline
     """The corners, in order; the last one is joined to the first one."""
     floor: Finish | None = None
     walls: Finish | None = None
-    """Of the sides of walls that face the room."""
+    """The finish of the wall faces towards the room."""
     ceiling_m: float = 0.0
-    """The height of its ceiling; 0 is none."""
+    """The height of its ceiling; 0 for none."""
 
     def __post_init__(self) -> None:
-        """Refuse a room without an inside."""
+        """Validate the name and the outline."""
         if not self.name or len(self.outline_m) < 3 or area_m2(self.outline_m) < 1e-3:
             raise SimulationError(
                 f"Room '{self.name}' needs a name, and an outline of three or more corners in "
@@ -138,7 +138,7 @@ class Room:
 
     def contains(self, x_m: float, y_m: float) -> bool:
         """
-        Check whether a point of the ground is in the room.
+        Check whether a point on the ground is in the room.
 
         Parameters
         ----------
@@ -151,7 +151,7 @@ class Room:
 
 def room_at(rooms: Sequence[Room], x_m: float, y_m: float) -> Room | None:
     """
-    Find the first room that contains a point of the ground.
+    Find the first room that contains a point on the ground.
 
     Parameters
     ----------
@@ -171,10 +171,10 @@ def room_at(rooms: Sequence[Room], x_m: float, y_m: float) -> Room | None:
 
 @dataclass(frozen=True)
 class Surface:
-    """A level top that things stand on."""
+    """A horizontal surface that objects can stand on."""
 
     name: str
-    """Of the thing that has it; the lower boards of a shelf add their number: `shelf/1`."""
+    """The name of its furniture; lower boards of a shelf add their number, as in `shelf/1`."""
     outline_m: Outline
     height_m: float
 
@@ -192,18 +192,18 @@ class Surface:
 
     @property
     def centre_m(self) -> Point:
-        """Return the middle of the outline."""
+        """Return the centre of the bounding box of the outline."""
         xs, ys = zip(*self.outline_m)
         return (min(xs) + max(xs)) / 2.0, (min(ys) + max(ys)) / 2.0
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where one goes to: a pose to stand in, and the surface in reach from there, if any."""
+    """A navigation target: a pose to stand at, and the surface within reach from it, if any."""
 
     name: str
     room: str
-    """The room in which one stands; empty outside of all rooms."""
+    """The room that the pose is in; empty outside of all rooms."""
     x_m: float
     y_m: float
     yaw_rad: float
@@ -220,7 +220,7 @@ N = TypeVar('N', bound=_Named)
 
 @dataclass(frozen=True)
 class Scene:
-    """A floor, and things, rooms and places each of which has a name of its own."""
+    """A floor, and objects, rooms and places with unique names."""
 
     name: str = 'flat'
     floor: Floor = field(default_factory=Floor)
@@ -230,7 +230,7 @@ class Scene:
     surfaces: tuple[Surface, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse names that several things have."""
+        """Reject duplicate, reserved and malformed names."""
         names = [FLOOR, WORLD, *(thing.name for thing in self.things)]
         for name in names:
             if not name or names.count(name) > 1 or '/' in name:
@@ -243,7 +243,7 @@ class Scene:
 
     @property
     def objects(self) -> tuple[Thing, ...]:
-        """Return the things that can be moved; each stands where its home is at the start."""
+        """Return the movable objects, at their initial poses."""
         return tuple(thing for thing in self.things if not thing.is_fixed)
 
     def room(self, name: str) -> Room:
@@ -316,7 +316,7 @@ class Scene:
 
     def room_at(self, x_m: float, y_m: float) -> Room | None:
         """
-        Find the room of a point of the ground.
+        Find the room that contains a point on the ground.
 
         Parameters
         ----------
@@ -333,7 +333,7 @@ class Scene:
 
 
 def _refuse_twice(sentence: str, those: Sequence[N]) -> None:
-    """Raise SimulationError for a name that is there twice."""
+    """Raise SimulationError for a duplicate name."""
     names = [each.name for each in those]
     for name in names:
         if names.count(name) > 1:

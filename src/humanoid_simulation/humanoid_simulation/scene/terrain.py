@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Uneven ground, made of boxes."""
+"""Uneven terrain, made of boxes."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ _MOST_PLATES = 2000
 
 @dataclass(frozen=True)
 class Ramp:
-    """A way up, a level top, and the same way down."""
+    """A ramp: an incline, and optionally a level top and the same incline down."""
 
     name: str
     start_m: Vector
-    """Where it begins on the ground: the middle of its lower edge."""
+    """The centre of its lower edge, on the ground."""
     direction_rad: float
     slope_rad: float
     length_m: float
-    """Of the way up, along the ground."""
+    """The horizontal length of an incline."""
     width_m: float
     top_m: float = 0.0
-    """Length of the top; without one there is no way down either."""
+    """The length of the top; 0 for neither a top nor an incline down."""
 
     def __post_init__(self) -> None:
-        """Refuse a ramp that cannot be built."""
+        """Validate the slope and the dimensions."""
         if not 0.0 < self.slope_rad <= math.radians(45.0):
             raise SimulationError(
                 f"Ramp '{self.name}' cannot have a slope of {math.degrees(self.slope_rad):g} "
@@ -73,9 +73,9 @@ def ramp_of(ramp: Ramp) -> Iterator[Thing]:
 
 
 def _incline(ramp: Ramp, part: str, middle_m: float, pitch_rad: float) -> Thing:
-    """Return a board of which the upper side leads from the ground to the height."""
+    """Build a board whose upper face leads from the ground to the full height."""
     board_m = ramp.length_m / math.cos(pitch_rad)
-    # From the middle of the upper side to that of the board: half of its thickness, inwards.
+    # From the centre of the upper face to that of the board: half its thickness, inwards.
     back_m = _THICKNESS_M / 2 * math.sin(pitch_rad)
     height_m = ramp.length_m / 2 * math.tan(ramp.slope_rad)
     return Thing(
@@ -89,7 +89,7 @@ def _incline(ramp: Ramp, part: str, middle_m: float, pitch_rad: float) -> Thing:
 
 
 def _along(ramp: Ramp, distance_m: float) -> Vector:
-    """Return the point so far along the ramp."""
+    """Return the point on the ground at a distance along the ramp."""
     x_m, y_m = ramp.start_m
     return (
         x_m + distance_m * math.cos(ramp.direction_rad),
@@ -99,7 +99,7 @@ def _along(ramp: Ramp, distance_m: float) -> Vector:
 
 @dataclass(frozen=True)
 class Plates:
-    """Plates of random heights on a rectangle of the ground, side by side."""
+    """A grid of plates of random heights on a rectangle of the ground."""
 
     name: str
     seed: int
@@ -110,12 +110,12 @@ class Plates:
     edge_m: Vector
     """Length and width of a plate."""
     height_m: float
-    """Of the highest one."""
+    """The maximum height."""
     cover: float = 1.0
-    """The part of the places that has a plate."""
+    """The expected fraction of the grid that has plates, above 0 and up to 1."""
 
     def __post_init__(self) -> None:
-        """Refuse a field that cannot be laid."""
+        """Validate the dimensions and the number of plates."""
         if not (min(self.edge_m) > 0.0 and self.height_m > 0.0 and 0.0 < self.cover <= 1.0):
             raise SimulationError(
                 f"Plates '{self.name}' need edges and a height above zero, and a cover up to 1."
@@ -129,7 +129,7 @@ class Plates:
 
     @property
     def counts(self) -> tuple[int, int]:
-        """Return how many plates there is room for, along x and y."""
+        """Return the number of plates that fit along x and y."""
         places = [(b - a) / edge for a, b, edge in zip(self.from_m, self.to_m, self.edge_m)]
         rows, columns = (math.floor(max(-1e9, min(count, 1e9)) + 1e-9) for count in places)
         return rows, columns
@@ -147,8 +147,8 @@ def plates_of(plates: Plates) -> Iterator[Thing]:
     Yields
     ------
     Thing
-        A fixed box whose upper side is at 5 to 100 % of the greatest height, uniformly distributed
-        but for the lowest.
+        A fixed box; the height of its upper face is uniformly distributed up to `height_m`, but at
+        least 5 % of that.
 
     """
     random = np.random.default_rng(plates.seed)
@@ -160,7 +160,7 @@ def plates_of(plates: Plates) -> Iterator[Thing]:
 
 
 def _plate(plates: Plates, row: int, column: int, height_m: float) -> Thing:
-    """Return one plate: it is sunk into the ground, so that no edge is thin."""
+    """Build a plate, which is sunk into the ground so that no edge is thin."""
     length_m, width_m = plates.edge_m
     shade = 0.35 + 0.4 * height_m / plates.height_m
     return Thing(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Paint patterns, as cameras see them."""
+"""Generate the textures of surface finishes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _GROUT = 0.04
 
 def picture_of(finish: Finish) -> Picture:
     """
-    Paint one repetition of the pattern of a finish; it is the same each time.
+    Generate one period of the pattern of a finish; the result is deterministic.
 
     Parameters
     ----------
@@ -35,14 +35,14 @@ def picture_of(finish: Finish) -> Picture:
 
 
 def _axes() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where each pixel is across and down, from 0 to 1."""
+    """Return the coordinates of all pixels, across and down, 0 to 1."""
     at = (np.arange(EDGE_PX) + 0.5) / EDGE_PX
     across, down = np.meshgrid(at, at)
     return across, down
 
 
 def _tiles() -> NDArray[np.float64]:
-    """Return two by two tiles with joints, every other one in the second colour."""
+    """Return 2 x 2 tiles in alternating colours, with grout."""
     across, down = _axes()
     is_second = ((across * 2).astype(int) + (down * 2).astype(int)) % 2
     in_joint = np.minimum((across * 2) % 1.0, (down * 2) % 1.0) < _GROUT
@@ -50,7 +50,7 @@ def _tiles() -> NDArray[np.float64]:
 
 
 def _planks() -> NDArray[np.float64]:
-    """Return boards that lie along x, each of its own shade, with butt joints and grain."""
+    """Return planks along x with butt joints and grain, each in its own shade."""
     across, down = _axes()
     random = np.random.default_rng(1)
     row = (down * _PLANKS).astype(int)
@@ -68,12 +68,12 @@ def _stripes() -> NDArray[np.float64]:
 
 
 def _carpet() -> NDArray[np.float64]:
-    """Return specks."""
+    """Return random specks."""
     return np.random.default_rng(2).random((EDGE_PX, EDGE_PX))
 
 
 def _plain() -> NDArray[np.float64]:
-    """Return the first colour alone."""
+    """Return the first colour only."""
     return np.zeros((EDGE_PX, EDGE_PX))
 
 
@@ -84,4 +84,4 @@ _SHARES = {
     'stripes': _stripes,
     'carpet': _carpet,
 }
-"""How much of the second colour each pixel has, by pattern."""
+"""The generators of the share of the second colour in each pixel, by pattern."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The surfaces of shapes as triangles, for those who draw a scene."""
+"""Triangulate the surfaces of shapes, for renderers of a scene."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def triangles_in_world(thing: Thing, part: Part) -> Triangles:
     Parameters
     ----------
     thing
-        The object, whose pose in the world counts.
+        The object, at its initial pose in the world.
     part
         One of its parts.
 
@@ -45,7 +45,7 @@ def triangles_in_world(thing: Thing, part: Part) -> Triangles:
 
 @lru_cache(maxsize=32)
 def _unit(shape: str) -> Triangles:
-    """Return the surface of a shape that fills a box of 1 x 1 x 1 m, or of a mesh."""
+    """Triangulate a shape or mesh that fills a box of 1 x 1 x 1 m."""
     if shape == 'box':
         quads = np.array([_CORNERS[list(side)] for side in _SIDES])
         return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.float32)

@@ -15,7 +15,7 @@ from humanoid_simulation.scene.scene import COMPOSED, Room, room_at, Thing, WALL
 CEILING = 'ceiling'
 FLOORING = 'flooring'
 NARROWEST_DOOR_M = 0.9
-"""What the robot goes through with its arms."""
+"""The narrowest door that the robot fits through, including its arms."""
 _PAPER_M = 0.002
 _FRAME_M = 0.045
 _FRAME_RGBA = (0.93, 0.92, 0.88, 1.0)
@@ -24,17 +24,17 @@ _SHORTEST_M = 0.02
 
 @dataclass(frozen=True)
 class Door:
-    """An opening in a wall, without a leaf."""
+    """A doorway: an opening in a wall, without a door leaf."""
 
     at_m: float
-    """The distance of its middle from the beginning of the wall."""
+    """The distance of its centre from the start of the wall."""
     width_m: float = 1.0
     height_m: float = 2.0
 
 
 @dataclass(frozen=True)
 class Wall:
-    """A straight wall between two points, which are in its middle."""
+    """A straight wall between two points on its centre line."""
 
     name: str
     from_m: Point
@@ -45,7 +45,7 @@ class Wall:
     doors: tuple[Door, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse a wall whose doors do not fit, or that is none."""
+        """Validate the dimensions and the doors."""
         if not (self.length_m > 0.1 and 0.1 <= self.height_m <= 10.0):
             raise SimulationError(f"Wall '{self.name}' needs a length and a height above 0.1 m.")
         if not 0.02 <= self.thickness_m <= 1.0:
@@ -67,16 +67,16 @@ class Wall:
 
     @property
     def length_m(self) -> float:
-        """Return how long it is."""
+        """Return the length of the wall, between its two points."""
         return math.dist(self.from_m, self.to_m)
 
     @property
     def yaw_rad(self) -> float:
-        """Return its direction."""
+        """Return the heading from its start to its end."""
         return math.atan2(self.to_m[1] - self.from_m[1], self.to_m[0] - self.from_m[0])
 
     def pieces(self) -> Iterator[tuple[float, float, float, float]]:
-        """Yield the solid pieces: start and end along it, bottom and top."""
+        """Yield the solid pieces of the wall: start and end along it, bottom and top."""
         start_m = -self.thickness_m / 2.0  # so that walls that meet leave no notch
         for door in self.doors:
             left_m, right_m = door.at_m - door.width_m / 2.0, door.at_m + door.width_m / 2.0
@@ -134,7 +134,7 @@ def _papers(
     along_m: tuple[float, float],
     up_m: tuple[float, float],
 ) -> Iterator[Part]:
-    """Yield what a side of a piece is papered with: from room to room."""
+    """Yield the wallpaper on a side of a piece, one part per adjacent room."""
     beside_m = side * (wall.thickness_m / 2.0 + 0.05)
     for start_m, end_m in _stretches(wall, rooms, along_m):
         point = turned(((start_m + end_m) / 2.0, beside_m), wall.yaw_rad, wall.from_m)
@@ -143,7 +143,7 @@ def _papers(
             middle_m = (start_m + end_m) / 2.0, side * (wall.thickness_m + _PAPER_M) / 2.0
             yield Part(
                 'box',
-                # On its edge: the finish is on the faces across the local z axis.
+                # On its edge: the finish is on the faces normal to the local z axis.
                 (end_m - start_m, up_m[1] - up_m[0], _PAPER_M),
                 (*middle_m, (up_m[0] + up_m[1]) / 2.0),
                 (math.pi / 2.0, 0.0, 0.0),
@@ -156,7 +156,7 @@ def _papers(
 def _stretches(
     wall: Wall, rooms: Sequence[Room], along_m: tuple[float, float]
 ) -> Iterator[tuple[float, float]]:
-    """Yield the stretches of a piece between which the room beside it may change."""
+    """Yield the intervals of a piece within which the adjacent room does not change."""
     corners_m = {along_m[0], along_m[1]}
     for room in rooms:
         for x_m, y_m in room.outline_m:
@@ -171,7 +171,7 @@ def _stretches(
 
 
 def _frame(wall: Wall, door: Door) -> Iterator[Part]:
-    """Yield the frame of a door, which is seen only: it takes nothing of the width."""
+    """Yield the frame of a door; it does not collide, so it does not narrow the doorway."""
     depth_m = wall.thickness_m + 0.03
     for side in (-1.0, 1.0):
         x_m = door.at_m + side * (door.width_m + _FRAME_M) / 2.0
@@ -198,7 +198,7 @@ def flooring_of(room: Room) -> Iterator[Thing]:
     Parameters
     ----------
     room
-        The room; it gets neither if an edge of its outline is not along the axes.
+        The room; it gets neither if an edge of its outline is not parallel to an axis.
 
     Yields
     ------
@@ -221,7 +221,7 @@ def _slabs(
     height_m: float,
     finish: Finish,
 ) -> Thing:
-    """Return thin slabs at a height, as one thing."""
+    """Build thin slabs at a height, as one object."""
     parts = tuple(
         Part(
             'box',

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What tests of the simulator share.
+Test utilities for simulated robots.
 
 - `humanoid_simulation.testing.simulated_robot`: drive, push and watch a robot over its topics
-- `humanoid_simulation.testing.simulators`: a simulator for the length of a test, without a screen
-- `humanoid_simulation.testing.camera_world`: things in front of a camera
+- `humanoid_simulation.testing.simulators`: a headless simulator for the duration of a test
+- `humanoid_simulation.testing.camera_world`: objects in front of a camera
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the world of the camera tests, in this process or by the renderer."""
+"""Render the world of the camera tests."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Studio:
     patience
         The timeouts of the render process.
     noise
-        The standard deviations of pixels.
+        The standard deviations of the pixel noise.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ def studio(
     noise: PictureNoise = PictureNoise(),
 ) -> Iterator[Studio]:
     """
-    Provide a renderer and the world of the camera tests for the length of a `with` block.
+    Provide a renderer and the world of the camera tests for the duration of a `with` block.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def studio(
     patience
         The timeouts of the render process.
     noise
-        The standard deviations of pixels.
+        The standard deviations of the pixel noise.
 
     Yields
     ------

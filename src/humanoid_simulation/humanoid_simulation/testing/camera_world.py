@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A world whose picture can be foretold, for the tests of the cameras."""
+"""A world with predictable camera images, for the tests of the cameras."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import mujoco
 # The camera is at (0, 0, 1) and looks along x, as the head of a robot does. The quaternions are
 # that of the optical frame in the link, and that of MuJoCo's camera in the optical frame.
 # On the wall, 2 m ahead, hang a red box to the left and a blue one below. A green ball is 1.5 m
-# ahead on the right. The white case around the camera and the pink collision geom are not seen.
+# ahead on the right. The white case around the camera and the pink collision geom are invisible.
 WORLD = """
 <mujoco>
   <statistic extent="3" center="0 0 1"/>
@@ -46,7 +46,7 @@ WORLD = """
 
 
 def world() -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return the world, with everything where it begins."""
+    """Return the model of the world, and its data in the initial state."""
     model = mujoco.MjModel.from_xml_string(WORLD)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)

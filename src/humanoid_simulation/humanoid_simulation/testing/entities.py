@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ask a simulator where things truly are, put them elsewhere, and pull at them."""
+"""Query the true positions of simulated entities, move them, and apply forces to them."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _SERVICES = {
 
 class Entities:
     """
-    The things of a scene that is simulated.
+    Client of the entity services of a simulator.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are.
+        The nodes of the test.
     simulator
         The name of the simulator's node.
 
@@ -73,7 +73,7 @@ class Entities:
         name
             The name of the object or robot.
         at_m
-            Where its origin goes (3,), in the world frame.
+            The new position (3,) of its origin, in the world frame.
         yaw_rad
             Its new heading.
 
@@ -97,7 +97,7 @@ class Entities:
         force_n
             The force (3,), in the world frame.
         duration_s
-            How long it lasts, in s of simulated time.
+            Its duration, in s of simulated time.
 
         """
         x, y, z = force_n
@@ -106,7 +106,7 @@ class Entities:
         self._ask('apply_wrench', request)
 
     def _ask(self, name: str, request: Any) -> Any:
-        """Return the answer of a service, which grants what it was asked for."""
+        """Call a service, assert that it succeeds, and return the response."""
         future = self._clients[name].call_async(request)
         self._ros.wait_until(future.done, _PATIENCE_S, f'an answer of {name}')
         reason = refusal(future.result())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A stand-in for the simulator, for tests of what drives and pushes a robot."""
+"""A fake simulator, for tests of nodes that drive and push a robot."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from std_msgs.msg import String
 
 PERIOD_S = 0.02
 FASTER = 5
-"""How many times faster than real its time runs."""
+"""The real-time factor."""
 STANDS_NS = 12.0
-"""The robot falls when it is pushed harder."""
+"""The impulse above which the robot falls."""
 STEPS_A_PERIOD = 10
 VELOCITY_LASTS_S = 0.5
-"""As for a real robot: whoever drives it and stalls does not drive it blindly."""
+"""Timeout of commands, as of a real robot: a node that stalls must not drive it blindly."""
 START = PlanarPose(1 + 2j, 0.5)
 
 
 class FakeSimulator(Node):
     """
-    A robot that goes exactly as it is told; without physics, and without a control of time.
+    A robot that follows velocity commands exactly, without physics and without `/clock`.
 
     Parameters
     ----------
@@ -40,12 +40,11 @@ class FakeSimulator(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        """Put the robot at the start."""
         super().__init__('simulator', **options)
         self.velocity = Twist()
         self.pushes: list[ApplyWrench.Request] = []
         self.refuses = ''
-        """Why pushes are refused, if they are."""
+        """The message with which pushes are rejected; empty if they are accepted."""
         self._pose, self._time_s = START, 0.0
         self._heard_s = -math.inf
         self._lies = self._pauses = False
@@ -63,13 +62,13 @@ class FakeSimulator(Node):
         self.create_timer(PERIOD_S / FASTER, self._tick)
 
     def _obey(self, message: Twist) -> None:
-        """Take a velocity."""
+        """Store a velocity command."""
         self.velocity, self._heard_s = message, self._time_s
 
     def _be_pushed(
         self, request: ApplyWrench.Request, response: ApplyWrench.Response
     ) -> ApplyWrench.Response:
-        """Fall if the push is hard."""
+        """Fall if the impulse is too large."""
         self.pushes.append(request)
         force, duration_s = request.wrench.force, request.duration.nanosec * 1e-9
         self._lies = math.hypot(force.x, force.y) * duration_s > STANDS_NS
@@ -79,7 +78,7 @@ class FakeSimulator(Node):
     def _begin_anew(
         self, request: ResetSimulation.Request, response: ResetSimulation.Response
     ) -> ResetSimulation.Response:
-        """Stand at the start."""
+        """Reset the robot to its start."""
         self._lies, self._pose = False, START
         response.result.result = Result.RESULT_OK
         return response
@@ -87,7 +86,7 @@ class FakeSimulator(Node):
     def _pause(
         self, request: SetSimulationState.Request, response: SetSimulationState.Response
     ) -> SetSimulationState.Response:
-        """Let time stand still, or go on."""
+        """Pause or resume the simulation."""
         self._pauses = request.state.state == SimulationState.STATE_PAUSED
         response.result.result = Result.RESULT_OK
         return response
@@ -95,19 +94,19 @@ class FakeSimulator(Node):
     def _go_on(
         self, request: StepSimulation.Request, response: StepSimulation.Response
     ) -> StepSimulation.Response:
-        """Go on by some steps."""
+        """Advance the simulation by some steps."""
         for _ in range(request.steps // STEPS_A_PERIOD):
             self._step()
         response.result.result = Result.RESULT_OK
         return response
 
     def _tick(self) -> None:
-        """Go on, unless paused."""
+        """Advance the simulation by a period unless it is paused."""
         if not self._pauses:
             self._step()
 
     def _step(self) -> None:
-        """Go on by a period, and say where the robot is."""
+        """Advance the simulation by a period, and publish the odometry."""
         self._time_s += PERIOD_S
         is_new = self._time_s - self._heard_s < VELOCITY_LASTS_S
         go = self.velocity if is_new else Twist()
@@ -119,7 +118,7 @@ class FakeSimulator(Node):
             publisher.publish(message)
 
     def _odometry(self) -> Odometry:
-        """Return the message of where the robot is."""
+        """Build the odometry message of the present pose."""
         message = Odometry()
         message.header.stamp = Time(sec=int(self._time_s), nanosec=int(self._time_s % 1 * 1e9))
         pose, yaw_rad = message.pose.pose, self._pose.yaw_rad

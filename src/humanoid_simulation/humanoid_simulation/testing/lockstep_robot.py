@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that walks in a world of its own, tick by tick and without ROS: the same each time."""
+"""A robot that walks in a world of its own, in lockstep and without ROS: deterministic."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from humanoid_simulation.model import humanoid
 from humanoid_simulation.scene import Scene
 
 PUSH_S = 0.1
-"""How long a push lasts."""
+"""Duration of a push."""
 
 
 def never() -> bool:
-    """Miss no tick."""
+    """Return False: the controller misses no tick."""
     return False
 
 
 class LockstepRobot:
     """
-    Backend and control in lockstep; at a tick that control misses, the drives go on alone.
+    Backend and controller in lockstep; at a missed tick, the joints keep their last targets.
 
     Parameters
     ----------
     settings, scene
-        How the world is simulated, and what is in it.
+        The settings of the simulation, and the scene.
     misses
-        Called at each tick; returns whether control misses it.
+        Called at each tick; returns whether the controller misses it.
     hands
         Whether the robot has wrists and grippers.
 
@@ -67,25 +67,25 @@ class LockstepRobot:
 
     @property
     def truth(self) -> EntityState:
-        """Return where the base really is, and how it moves."""
+        """Return the true pose and velocity of the base."""
         return self.backend.ground_truth()
 
     @property
     def pose(self) -> PlanarPose:
-        """Return where on the ground the base really is."""
+        """Return the true pose of the base on the ground."""
         truth = self.truth
         x, y, _ = truth.position_m.tolist()
         return PlanarPose(complex(x, y), yaw_of(from_quaternion(truth.orientation)))
 
     @property
     def tilt_rad(self) -> float:
-        """Return the angle between the vertical and the z axis of the base, as it really is."""
+        """Return the true angle between the vertical and the z axis of the base."""
         w, x, y, z = self.truth.orientation.tolist()
         return tilt_rad(x, y, z, w)
 
     @property
     def stands(self) -> bool:
-        """Tell whether it has not fallen; to be asked once while it surely stands."""
+        """Whether the robot has not fallen; the first access, while it stands, sets the height."""
         return self._fall_watch.stands(float(self.truth.position_m[2]), self.tilt_rad)
 
     def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
@@ -121,12 +121,12 @@ class LockstepRobot:
 
     def wait(self, duration_s: float) -> bool:
         """
-        Advance the simulation, until the robot falls at the latest.
+        Advance the simulation for a duration, or until the robot falls.
 
         Parameters
         ----------
         duration_s
-            How long, in s of simulated time.
+            The duration, in s of simulated time.
 
         Returns
         -------
@@ -141,7 +141,7 @@ class LockstepRobot:
         return True
 
     def tick(self) -> None:
-        """Let a period pass."""
+        """Advance the simulation by one control period."""
         if self._misses():
             self.backend.step({})
         else:
@@ -151,12 +151,12 @@ class LockstepRobot:
 
     def reset(self, keyframe: str = 'home') -> None:
         """
-        Reset the robot and the scene to their initial state; time goes on.
+        Reset the robot and the scene to their initial state, but not the time.
 
         Parameters
         ----------
         keyframe
-            The name of the posture of the robot.
+            The name of the keyframe of the robot.
 
         """
         self.backend.reset(keyframe)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics and services of a simulated robot, as its users have them."""
+"""The topics and services of a simulated robot, from the side of its clients."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 
 REPEAT_S = 0.03
-"""How often, on the computer's clock, commands are sent again, so that they do not time out."""
+"""Period in real time at which commands are repeated, so that they do not time out."""
 
 
 class RobotTopics:
     """
-    The newest messages of a simulated robot, its commands, which are repeated, and its services.
+    Subscribers, repeating command publishers, and service clients of a simulated robot.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class RobotTopics:
     Attributes
     ----------
     velocity
-        The command that is repeated on `cmd_vel`; None sends none.
+        The command that is repeated on `cmd_vel`; None for none.
     time_s
         Stamp of the newest ground truth; minus infinity before the first one.
     pose, height_m, tilt_rad
@@ -56,7 +56,7 @@ class RobotTopics:
     positions_rad
         Measured positions by the names of the joints.
     walking_state
-        What the robot does, as `walking_state` says.
+        The newest state on `walking_state`.
     pause, steps, reset, put, push, stand_up
         Clients of the services of the simulator.
     emergency_stop
@@ -67,9 +67,9 @@ class RobotTopics:
     def __init__(self, node: Node, simulator: str) -> None:
         self.velocity: VelocityCommand | None = None
         self.joint_commands: dict[str, float] = {}
-        """Positions of joints that are sent, in radians; none if it is empty."""
+        """Joint positions that are repeated on `joint_commands`, in rad; none if it is empty."""
         self.sent = 0
-        """How many velocities were sent."""
+        """The number of velocity commands that have been sent."""
         self.time_s = -math.inf
         self.pose = PlanarPose()
         self.odometry = PlanarPose()
@@ -95,13 +95,13 @@ class RobotTopics:
 
     @property
     def is_complete(self) -> bool:
-        """Tell whether the simulator is there with all that a test uses."""
+        """Whether all services and subscribers of the simulator that tests use are available."""
         clients = (self.pause, self.steps, self.reset, self.push)
         is_heard = self._publisher.get_subscription_count() > 0
         return is_heard and all(each.service_is_ready() for each in clients)
 
     def send(self) -> None:
-        """Send the commands that there are."""
+        """Publish the current commands."""
         if self.velocity is not None:
             self._publisher.publish(twist_message(self.velocity))
             self.sent += 1
@@ -116,27 +116,27 @@ class RobotTopics:
         Parameters
         ----------
         velocity
-            The command; None sends no more, so that others can drive.
+            The command; None stops sending, so that another node can drive.
 
         """
         self.velocity = velocity
         self.send()
 
     def _take_truth(self, message: Odometry) -> None:
-        """Keep where the robot is."""
+        """Store the ground truth of the base."""
         time_s = seconds(message.header.stamp)
         self.went_back |= time_s < self.time_s
         self.time_s, self.pose = time_s, planar_pose(message)
         self.height_m, self.tilt_rad = height_and_tilt(message)
 
     def _take_odometry(self, message: Odometry) -> None:
-        """Keep where the robot believes to be."""
+        """Store the odometry."""
         self.odometry = planar_pose(message)
 
     def _take_joints(self, message: JointState) -> None:
-        """Keep where the joints are."""
+        """Store the joint positions."""
         self.positions_rad = dict(zip(message.name, message.position))
 
     def _take_state(self, message: String) -> None:
-        """Keep what the robot says that it does."""
+        """Store the walking state."""
         self.walking_state = message.data

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walk along points, as tests do who drive the robot through the apartment."""
+"""Walk along waypoints, for tests that drive the robot through the apartment."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ FROM_HALL = [(-1.6, -0.3), (-1.6, -1.5), (0.2, -1.6)]
 
 def steer(pose: PlanarPose, goal_m: tuple[float, float]) -> tuple[float, float]:
     """
-    Compute the velocities that lead to a point: turn first, then walk.
+    Compute the velocity command towards a point: turn first, then walk.
 
     Parameters
     ----------
     pose
-        Where the robot is.
+        The pose of the robot.
     goal_m
         The point, in m, in the frame of the pose.
 
     Returns
     -------
     float, float
-        Forward in m/s, and to the left in rad/s.
+        Forward velocity in m/s, and yaw rate in rad/s, positive to the left.
 
     """
     way = complex(*goal_m) - pose.position_m
@@ -52,7 +52,7 @@ def distance_m(pose: PlanarPose, goal_m: tuple[float, float]) -> float:
     Parameters
     ----------
     pose
-        Where the robot is.
+        The pose of the robot.
     goal_m
         The point (x, y), in the frame of the pose.
 
@@ -62,19 +62,19 @@ def distance_m(pose: PlanarPose, goal_m: tuple[float, float]) -> float:
 
 def walk(robot: LockstepRobot, route: Sequence[tuple[float, float]]) -> None:
     """
-    Walk along points.
+    Walk along waypoints.
 
     Parameters
     ----------
     robot
         A robot in lockstep with its simulator.
     route
-        The points in turn, in m, in the frame of the world.
+        The waypoints (x, y) in order, in m in the world frame.
 
     Raises
     ------
     AssertionError
-        If the robot falls, is blocked, or does not come to a point within a minute.
+        The robot falls, is blocked, or does not reach a waypoint within a minute.
 
     """
     for goal_m in route:

@@ -21,9 +21,9 @@ from simulation_interfaces.srv import ResetSimulation, SetEntityState, StepSimul
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60.0
-"""How long, on the computer's clock, something may take that should come at once."""
+"""Timeout in real time for responses that should arrive at once."""
 PUSH_S = 0.1
-"""How long a push lasts."""
+"""Duration of a push."""
 
 
 class FellError(AssertionError):
@@ -32,18 +32,18 @@ class FellError(AssertionError):
 
 class SimulatedRobot:
     """
-    A robot in a simulator that runs, which is to stay on its feet in all that a test does.
+    Client of a robot in a running simulator; the robot must stay on its feet throughout a test.
 
     Parameters
     ----------
     ros
-        Where the nodes of the test are, in the domain of the simulator.
+        The nodes of the test, in the domain of the simulator.
     namespace
-        Namespace of the robot; '' if it is alone.
+        Namespace of the robot; '' if it has none.
     simulator
         Name of the simulator node, with its namespace.
     runs
-        Whether simulated time passes already, so that ground truth must come.
+        Whether the simulation is not paused, so that ground truth must arrive.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class SimulatedRobot:
     Raises
     ------
     WaitedInVainError
-        The simulator or its ground truth does not come within `PATIENCE_S`.
+        The simulator or its ground truth is not available within `PATIENCE_S`.
 
     """
 
@@ -75,22 +75,22 @@ class SimulatedRobot:
 
     @property
     def pose(self) -> PlanarPose:
-        """Return where the robot really is."""
+        """Return the true pose of the robot on the ground."""
         return self.topics.pose
 
     @property
     def stands(self) -> bool:
-        """Tell whether it has not fallen."""
+        """Whether the robot has not fallen."""
         return self._fall_watch.stands(self.topics.height_m, self.topics.tilt_rad)
 
     def wait(self, duration_s: float) -> None:
         """
-        Wait while simulated time passes.
+        Wait for a duration in simulated time.
 
         Parameters
         ----------
         duration_s
-            How long, in s of simulated time.
+            The duration, in s of simulated time.
 
         Raises
         ------
@@ -154,7 +154,7 @@ class SimulatedRobot:
         Parameters
         ----------
         direction
-            In the axes of the robot as it stands now: 'forward', 'back', 'left' or 'right'.
+            Relative to the present heading of the robot: 'forward', 'back', 'left' or 'right'.
         impulse_ns
             Force times duration, in N s.
 
@@ -163,7 +163,7 @@ class SimulatedRobot:
         self._ask(self.topics.push, push_request(push, self._namespace, self.pose, PUSH_S))
 
     def reset(self) -> None:
-        """Put the robot where it began, at rest, and let it stand for a second."""
+        """Reset the simulation, and let the robot stand for a second."""
         self.drive()
         self._ask(self.topics.reset, ResetSimulation.Request())
         self._fall_watch, begin_s = FallWatch(), self.topics.time_s
@@ -171,7 +171,7 @@ class SimulatedRobot:
         self.wait(1.0)
 
     def let_go(self) -> None:
-        """Send no velocities from now on: somebody else drives the robot."""
+        """Stop sending velocity commands, so that another node can drive the robot."""
         self.topics.velocity = None
 
     def put(self, pose: PlanarPose) -> None:
@@ -181,7 +181,7 @@ class SimulatedRobot:
         Parameters
         ----------
         pose
-            Where to, upright, in the world frame.
+            The new pose, upright, in the world frame.
 
         Raises
         ------
@@ -201,14 +201,14 @@ class SimulatedRobot:
         self.wait(1.0)
 
     def stand_up(self) -> None:
-        """Help a robot that lies onto its feet, and let it stand for a second."""
+        """Help a fallen robot onto its feet, and let it stand for a second."""
         self.drive()
         self._ask(self.topics.stand_up, Trigger.Request())
         self._ros.wait_until(self._walks, PATIENCE_S, 'a robot that stands by itself')
         self.wait(1.0)
 
     def _walks(self) -> bool:
-        """Tell whether the robot stands and its walk has it again, not a hoist alone."""
+        """Check whether the robot stands by its walking controller, not only by the hoist."""
         return self.stands and self.topics.walking_state == 'stand'
 
     def pause(self, on: bool = True) -> None:
@@ -230,7 +230,7 @@ class SimulatedRobot:
         Parameters
         ----------
         steps
-            How many physics steps.
+            Number of physics steps.
 
         """
         self._ask(self.topics.steps, StepSimulation.Request(steps=steps))
@@ -251,12 +251,12 @@ class SimulatedRobot:
         """
         Advance a paused simulation just after a velocity command has certainly arrived.
 
-        As long as the command does not expire within the steps, the result is the same each time.
+        The result is reproducible as long as the command does not expire within the steps.
 
         Parameters
         ----------
         steps
-            How many physics steps.
+            Number of physics steps.
 
         """
         sent = self.topics.sent
@@ -264,13 +264,13 @@ class SimulatedRobot:
         self.step(steps)
 
     def _ask(self, client: Client, request: Any) -> None:
-        """Send a request, and expect that it is granted."""
+        """Send a request, and assert that it succeeds."""
         future = client.call_async(request)
         self._ros.wait_until(future.done, PATIENCE_S, f'an answer of {client.srv_name}')
         reason = refusal(future.result())
         assert not reason, f'{client.srv_name} refused: {reason}'
 
     def _spin(self, done: Callable[[], bool], duration_s: float) -> None:
-        """Take what comes until a condition holds."""
+        """Spin until a condition holds."""
         patience_s = PATIENCE_S + 3 * duration_s
         self._ros.wait_until(done, patience_s, f'{duration_s:g} s of simulated time')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simulator for the length of a test."""
+"""Run simulators for the duration of a test."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 
 FASTER = {'real_time_factor': '4.0'}
-"""Not as fast as possible: what a test says meanwhile has to come in time on a busy computer."""
+"""Not as fast as possible: commands of a test must still arrive in time on a busy computer."""
 
 
 @contextmanager

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simulator in the process of a test."""
+"""A simulator that runs in the process of a test."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ HEADLESS = {'camera_rate_hz': 0.0, 'real_time_factor': 0.0}
 
 class WatchedSimulator:
     """
-    A simulator in this process, what it publishes, and calls of its services.
+    In-process simulator, with subscribers to its topics and clients of its services.
 
     It runs as fast as possible and without cameras, unless the parameters say otherwise.
 
     Parameters
     ----------
     ros
-        Where the node of the simulator is started.
+        The sandbox in which the node of the simulator is started.
     **parameters
         Parameters of that node.
 
     Attributes
     ----------
     node
-        Subscribes and calls services.
+        The node that subscribes and calls services.
     last
-        Newest message by topic, of those passed to `listen`.
+        Newest message by topic, of the topics passed to `listen`.
     times_s
-        All simulated times that came on `/clock`.
+        All simulated times received on `/clock`.
     simulator
         The node of the simulator.
 
@@ -116,12 +116,12 @@ class WatchedSimulator:
 
     def run(self, seconds: float) -> None:
         """
-        Wait while simulated time passes.
+        Wait for a duration in simulated time.
 
         Parameters
         ----------
         seconds
-            How long, in s of simulated time.
+            The duration, in s of simulated time.
 
         """
         self.wait('a time', lambda: bool(self.times_s))
@@ -164,7 +164,7 @@ class WatchedSimulator:
         Returns
         -------
         str
-            Why the simulator refused; empty if it did not.
+            Why the simulator rejected the request; empty if it did not.
 
         """
         state = state_request(on).state
@@ -177,18 +177,18 @@ class WatchedSimulator:
         Parameters
         ----------
         steps
-            How many physics steps.
+            Number of physics steps.
 
         Returns
         -------
         str
-            Why the simulator refused; empty if it did not.
+            Why the simulator rejected the request; empty if it did not.
 
         """
         return refusal(self.ask(StepSimulation, 'simulator/step_simulation', steps=steps))
 
     def reset(self) -> str:
-        """Put all where it began; return why not."""
+        """Reset the simulation; return why the simulator rejected that, empty if it did not."""
         return refusal(self.ask(ResetSimulation, 'simulator/reset_simulation'))
 
     def put(self, entity: str, x: float, y: float, z: float) -> str:
@@ -200,12 +200,12 @@ class WatchedSimulator:
         entity
             The name of the object or robot.
         x, y, z
-            Where its origin goes, in m in the world frame.
+            The new position of its origin, in m in the world frame.
 
         Returns
         -------
         str
-            Why the simulator refused; empty if it did not.
+            Why the simulator rejected the request; empty if it did not.
 
         """
         state = EntityState()

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which the simulator tells what no robot could know, and what the time is."""
+"""Topics of the simulator: clock, ground truth, contacts, wrenches, scene and world frame."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell the time of the world."""
+"""Publisher of the simulated time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rosgraph_msgs.msg import Clock
 
 class ClockTopic:
     """
-    The topic `/clock`, the same in all namespaces; its time never goes back.
+    Publisher of `/clock`, the same in all namespaces; its time never jumps back.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say what touches a robot."""
+"""Publisher of the contacts of a robot."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rclpy.node import Node
 
 class ContactsTopic:
     """
-    The topic `contacts` of a robot, in world axes.
+    Publisher of the topic `contacts` of a robot, in world axes.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class ContactsTopic:
     robot
         Namespace of the robot, relative to that of the node; '' if it is alone.
     links
-        Names of the bodies of the robot, as `MujocoBackend.links` gives them.
+        Names of the bodies of the robot, as `MujocoBackend.links` returns them.
 
     """
 
@@ -35,7 +35,7 @@ class ContactsTopic:
 
     @property
     def is_wanted(self) -> bool:
-        """Tell whether anybody listens."""
+        """Whether the topic has subscribers."""
         return bool(self._publisher.get_subscription_count())
 
     def publish(self, time_s: float, contacts: Iterable[Contact]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where a robot truly is."""
+"""Publisher of the true odometry of a robot."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ WORLD = 'world'
 
 class GroundTruthTopic:
     """
-    The topic `ground_truth/odom`: pose in the world, velocities in the axes of the base.
+    Publisher of `ground_truth/odom`: pose in the world frame, twist in the axes of the base.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class GroundTruthTopic:
     robot
         Namespace of the robot, relative to that of the node; '' if it is alone.
     prefix
-        What the name of the frame `base_link` begins with.
+        Prefix of the frame `base_link`.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say how fast the time of the world really passes."""
+"""Publisher of the real-time factor."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _PERIOD_S = 1.0
 
 class RealTimeFactorTopic:
     """
-    The topic `real_time_factor`, once a real second, while time passes.
+    Publisher of `real_time_factor`, once per second of real time, while simulated time passes.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class RealTimeFactorTopic:
         self._timer = node.create_timer(_PERIOD_S, self._publish, clock=steady)
 
     def _publish(self) -> None:
-        """Publish what is known."""
+        """Publish the real-time factor, if it is known."""
         speed = self._speed()
         if speed is not None:
             self._publisher.publish(Float64(data=speed.reached))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Show viewers the scene: what is fixed, and where the rest is."""
+"""Publishers of the scene as markers: fixed objects, and those that can move."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
 
 _PERIOD_S = 0.1
-"""No thing is shown more often than that."""
+"""Minimum period at which an object is published."""
 _LEAST_M, _LEAST_TURN = 1e-3, 1e-5
-"""What has moved less stays where it was shown; a turn of 0.5 degrees is 1 - cos(0.25 deg)."""
+"""Smaller motions are not published; a rotation of 0.5 degrees is 1 - cos(0.25 deg)."""
 
 
 class SceneTopics:
     """
-    The topics `ground_truth/scene` and `ground_truth/things`, both latched.
+    Publishers of `ground_truth/scene` and `ground_truth/things`, both latched.
 
-    The first one has all that is fixed, and is published again when walls are cut elsewhere. The
-    second one has what is not: all of it at the start and when somebody joins, and then only what
-    has moved, also while the simulation is paused. At rest nothing is published.
+    The first one has all fixed objects, and is published again when the height at which walls are
+    cut changes. The second one has the others: all of them at the start and for a new subscriber,
+    and then only those that have moved, also in a pause. At rest nothing is published.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class SceneTopics:
     backend
         The world.
     parameters : SimulatorParameters
-        The parameters of the simulator, of which `walls_shown_up_to_m` counts.
+        The parameters of the simulator, of which `walls_shown_up_to_m` is used.
 
     """
 
@@ -66,7 +66,7 @@ class SceneTopics:
         Parameters
         ----------
         parameters : SimulatorParameters
-            The parameters of the simulator, of which `walls_shown_up_to_m` counts.
+            The parameters of the simulator, of which `walls_shown_up_to_m` is used.
 
         """
         if parameters.walls_shown_up_to_m != self._walls_up_to_m:
@@ -74,25 +74,25 @@ class SceneTopics:
             self._show(WALLS)
 
     def change_scene(self) -> None:
-        """Show another scene, which the backend has now."""
+        """Publish the new scene of the backend."""
         self._layers = layers_of(self._backend.scene)
         self._shown: dict[str, list[Marker]] = {}
         self._show(*self._layers)
         self._things.change_scene()
 
     def _show(self, *names: str) -> None:
-        """Make the markers of some layers anew, and publish all."""
+        """Rebuild the markers of some layers, and publish those of all layers."""
         for name in names:
             things = self._layers.get(name, [])
             self._shown[name] = layer_markers(name, things, self._walls_up_to_m)
         markers = [marker for layer in self._shown.values() for marker in layer]
-        # What was cut away is to go, too; and a bare floor is said to be one.
+        # Markers that were cut away must be deleted; a scene without any is published, too.
         self._scene.publish(MarkerArray(markers=[Marker(action=Marker.DELETEALL), *markers]))
 
 
 @dataclass(eq=False)
 class _Shown:
-    """A thing, its markers, and where it was shown last."""
+    """An object, its markers, and the pose at which it was published last."""
 
     thing: Thing
     markers: list[Any]
@@ -100,7 +100,7 @@ class _Shown:
     orientation: Array
 
     def follow(self, position_m: Array, orientation: Array, anyway: bool) -> bool:
-        """Tell whether the thing is to be shown, as it has moved; place its markers then."""
+        """Update the markers if the object has moved or `anyway` is set; return whether it did."""
         moved_m = float(np.abs(position_m - self.position_m).max())
         turned = 1.0 - abs(float(orientation @ self.orientation))
         if not anyway and moved_m < _LEAST_M and turned < _LEAST_TURN:
@@ -112,16 +112,15 @@ class _Shown:
 
 
 class _MovingThings:
-    """Publishes the things that can move, when they have moved."""
+    """Publisher of the objects that can move, when they have moved."""
 
     def __init__(self, node: Node, backend: MujocoBackend) -> None:
-        """Announce the topic."""
         self._backend = backend
         self._publisher = node.create_publisher(MarkerArray, 'ground_truth/things', LATCHED)
         self._subscribers = 0
 
     def change_scene(self) -> None:
-        """Publish all things of another scene, which the backend has now."""
+        """Publish all objects that can move in the new scene of the backend."""
         self._shown = [
             _Shown(thing, thing_markers(thing), np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
             for thing in self._backend.scene.objects
@@ -129,14 +128,14 @@ class _MovingThings:
         self._publish([Marker(action=Marker.DELETEALL)], everything=True)
 
     def look(self) -> None:
-        """Publish what has moved, to those who listen; to a new one everything."""
+        """Publish objects that have moved, if there are subscribers; all for a new subscriber."""
         subscribers = self._publisher.get_subscription_count()
         is_new, self._subscribers = subscribers > self._subscribers, subscribers
         if subscribers:
             self._publish([], everything=is_new)
 
     def _publish(self, markers: list[Marker], everything: bool) -> None:
-        """Publish some markers, and then what has moved since it was shown, or everything."""
+        """Publish some markers, and then those of objects that have moved, or of all objects."""
         for shown in self._shown:
             state = self._backend.entity_state(shown.thing.name)
             if shown.follow(state.position_m, state.orientation, everything):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn the things of a scene into markers."""
+"""Convert the objects of a scene to markers."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _KINDS = {
 
 def layers_of(scene: Scene) -> dict[str, list[Thing]]:
     """
-    Sort the fixed objects of a scene by layers that a viewer can hide.
+    Group the fixed objects of a scene by layers that a viewer can hide.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def layer_markers(name: str, things: Iterable[Thing], walls_up_to_m: float) -> l
     things
         The fixed objects of the layer.
     walls_up_to_m
-        Height in the world at which walls are cut; what hangs higher is left out.
+        Height in the world at which walls are cut; objects that hang higher are left out.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def place(marker: Marker, part: Part, position_m: Array, orientation: Array) -> 
 
 
 def _part_marker(namespace: str, number: int, part: Part) -> Marker:
-    """Return the marker of a part, which is nowhere so far."""
+    """Create the marker of a part, without its pose."""
     marker = _marker(namespace, number, _KINDS[part.shape])
     fill_vector(marker.scale, np.array(part.box_m, dtype=np.float64))
     marker.color = _colour(part)
@@ -150,7 +150,7 @@ def _part_marker(namespace: str, number: int, part: Part) -> Marker:
 
 
 def _marker(namespace: str, number: int, kind: int) -> Marker:
-    """Return an empty marker in the world, which stays there if the viewer's frame moves."""
+    """Create an empty marker that stays in the world frame if the viewer's frame moves."""
     marker = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD, frame_locked=True)
     marker.header.frame_id = WORLD
     marker.pose.orientation.w = 1.0
@@ -159,7 +159,7 @@ def _marker(namespace: str, number: int, kind: int) -> Marker:
 
 
 def _colour(part: Part) -> ColorRGBA:
-    """Return the colour that a part has from far away."""
+    """Return the mean colour of a part, as seen from far away."""
     rgb: Sequence[float] = part.finish.mean_rgb if part.finish else part.colour_rgba[:3]
     red, green, blue = (float(value) for value in rgb)
     return ColorRGBA(r=red, g=green, b=blue, a=1.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All that the simulator tells of its world, each at its own rate."""
+"""All topics of the simulated world, each at its own rate."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class WorldTopics:
         self._scene.change(parameters)
 
     def change_scene(self) -> None:
-        """Show another scene, which the backend has now."""
+        """Publish the new scene of the backend."""
         self._scene.change_scene()
 
     def tell(self, observations: Mapping[str, Observation]) -> None:
@@ -75,7 +75,7 @@ class WorldTopics:
         Parameters
         ----------
         observations
-            Those with which the period began, by the names of the robots.
+            Observations at the start of the period, by robot name.
 
         """
         now_s = self._backend.time_s
@@ -93,7 +93,7 @@ class WorldTopics:
             self._publish_frames(observations)
 
     def _publish_contacts(self, now_s: float) -> None:
-        """Say what touches the robots, to those who listen."""
+        """Publish the contacts of the robots whose topics have subscribers."""
         wanted = [topic for topic in self._contacts if topic.is_wanted]
         if wanted:
             contacts = list(self._backend.contacts())
@@ -101,7 +101,7 @@ class WorldTopics:
                 topic.publish(now_s, contacts)
 
     def _publish_frames(self, observations: Mapping[str, Observation]) -> None:
-        """Say where the world is, seen from where the robots believed they were."""
+        """Publish the world frame in the odometry frame of each robot."""
         for name, frame in self._frames.items():
             status = self._controls[name].walker.status
             if status is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where the world is, seen from where a robot believes it is."""
+"""Publisher of the transform from `odom` to `world`."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _LEAST_M, _LEAST_HEIGHT_M, _LEAST_RAD = 0.005, 0.02, 0.005
 
 class WorldFrame:
     """
-    The transform from `odom` to `world`, for viewers: it is true, and no robot could know it.
+    Publisher of the true transform from `odom` to `world`, for viewers; no robot could know it.
 
-    Odometry is reckoned on the ground, and so is this: a turn about the vertical, and a shift. It
-    is repeated as it was until odometry is off by more than is seen, so that a viewer need not
-    move the whole world at each step.
+    Like the odometry, it is a rotation about the vertical and a translation. It is repeated
+    unchanged until the odometry is visibly off, so that a viewer need not move the whole world at
+    each step.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class WorldFrame:
     robot
         Namespace of the robot, relative to that of the node; '' if it is alone.
     prefix
-        What the name of the frame `odom` begins with.
+        Prefix of the frame `odom`.
 
     """
 
@@ -78,7 +78,7 @@ class WorldFrame:
 
     @property
     def _is_set(self) -> bool:
-        """Tell whether there is a place to compare with."""
+        """Whether there is a previous transform to compare with."""
         return math.isfinite(self._at[3])
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say how the ground pushes the feet of a robot."""
+"""Publisher of the wrenches of the ground on the feet of a robot."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SOLES = ('l_sole', 'r_sole')
 
 class WrenchTopics:
     """
-    The topics `l_sole/wrench` and `r_sole/wrench`, about the sole and in its axes.
+    Publisher of `l_sole/wrench` and `r_sole/wrench`, about the sole and in its axes.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class WrenchTopics:
     robot
         Namespace of the robot, relative to that of the node; '' if it is alone.
     prefix
-        What the names of the frames `l_sole` and `r_sole` begin with.
+        Prefix of the frames `l_sole` and `r_sole`.
 
     """
 

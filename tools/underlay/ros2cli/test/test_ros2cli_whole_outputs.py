@@ -312,7 +312,7 @@ def test_missing_word_is_a_usage_error(words: str, missing: str, ros2_here: Ros2
         ('multicast send --port x', "argument -p/--port: 'x' is no number from 1 to 65535"),
         ('multicast receive --group x', "argument -g/--group: 'x' is no IPv4 address"),
         ('doctor --report --report-failed', 'argument -rf/--report-failed: not allowed with'),
-        ('doctor hello --ttl x', "argument --ttl: invalid int value: 'x'"),
+        ('doctor hello --ttl x', "argument --ttl: 'x' is no number from 0 to 255"),
     ],
 )
 def test_wrong_value_is_a_usage_error(words: str, error: str, ros2_here: Ros2) -> None:

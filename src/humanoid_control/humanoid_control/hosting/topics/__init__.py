@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of one robot, each as a thin class around messages that are used again."""
+"""Topics of one robot, each as a thin class around a preallocated message."""

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Fill messages again and again, cheaply.
+Fill preallocated messages cheaply.
 
-Messages are made once. Arrays are written to in place: assigning a list would check each element.
+Messages are created once. Arrays are written to in place: assigning a list would check each
+element.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ def view(values: Any) -> Array:
     Parameters
     ----------
     values
-        A field of type float64[], whose length must not change any more.
+        A field of type float64[], whose length must not change afterwards.
 
     Returns
     -------

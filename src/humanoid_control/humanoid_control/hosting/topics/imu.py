@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say what the inertial sensor measures."""
+"""Publisher of the IMU measurements."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class ImuTopic:
     """
     Publisher of `imu/data`.
 
-    Covariances are those of the sensor; zero ones mean that they are not known (REP-145). That of
-    the heading grows with the time since the start, as no compass corrects it.
+    Covariances are those of the sensor; zero means unknown (REP-145). The variance of the heading
+    grows with the time since the start, as no magnetometer corrects it.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class ImuTopic:
     robot
         Name of the robot, which is its namespace; empty if it is alone.
     prefix
-        What the name of the frame, imu_link, begins with.
+        Prefix of the name of the frame, imu_link.
     noise
         Standard deviations of the sensor, from which the covariances follow.
 
@@ -53,7 +53,7 @@ class ImuTopic:
 
     def publish(self, observation: Observation) -> None:
         """
-        Publish the measurements of the inertial sensor, in the frame imu_link.
+        Publish the measurements of the IMU, in the frame imu_link.
 
         Parameters
         ----------
@@ -70,7 +70,7 @@ class ImuTopic:
         self._publisher.publish(message)
 
     def _heading_rad2(self, time_s: float) -> float:
-        """Return the variance of the heading at a time."""
+        """Compute the variance of the heading at a time."""
         if self._start_s is None:
             self._start_s = time_s
         return self._noise.heading_variance_rad2(max(time_s - self._start_s, 0.0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where the joints are."""
+"""Publisher of the joint states."""
 
 from __future__ import annotations
 

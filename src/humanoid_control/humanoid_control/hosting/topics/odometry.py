@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where the robot is since it began to walk."""
+"""Publishers of the odometry and its transforms."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ _TWIST = (1e-2, 1e-2, 1e-2, 1e-3, 1e-3, 1e-3)
 
 class OdometryTopics:
     """
-    Publishers of `odom` and `tf`: where the base is, and the ground below it.
+    Publishers of `odom` and `tf`: the pose of the base, and the footprint on the ground.
 
-    The footprint is upright on the ground under the base and faces where the base faces, as
-    REP-120 has it.
+    The footprint is level on the ground under the base, with the heading of the base, as in
+    REP-120.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class OdometryTopics:
     robot
         Name of the robot, which is its namespace; empty if it is alone.
     prefix
-        What the names of frames begin with.
+        Prefix of the frame names.
 
     """
 
@@ -80,7 +80,7 @@ class OdometryTopics:
     def _fill_odometry(
         self, time_s: float, odometry: WalkOdometry, position: Array, orientation: Array
     ) -> None:
-        """Write pose, velocity and how sure both are."""
+        """Write the pose and the twist, with their covariances."""
         message = self._odometry
         fill_stamp(message.header.stamp, time_s)
         fill_vector(message.pose.pose.position, position)
@@ -91,7 +91,7 @@ class OdometryTopics:
         message.twist.covariance[_DIAGONAL] = _TWIST
 
     def _fill_footprint(self, time_s: float, odometry: WalkOdometry, orientation: Array) -> None:
-        """Write where the ground is, seen from the base."""
+        """Write the transform from the base to the footprint on the ground."""
         to_base = from_quaternion(orientation).T
         turn = quaternion_of(to_base @ about_z(odometry.pose.yaw_rad))
         fill_stamp(self._footprint.header.stamp, time_s)
@@ -100,7 +100,7 @@ class OdometryTopics:
 
 
 def _transform(parent: str, child: str) -> TransformStamped:
-    """Return a transform between two frames."""
+    """Create the message of a transform between two frames."""
     transform = TransformStamped(child_frame_id=child)
     transform.header.frame_id = parent
     return transform

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say how the robot walks: its state, its next steps, and how it keeps its balance."""
+"""Publishers of the walk: its state, its planned footsteps and its balance (DCM and ZMP)."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ LEFT_COLOR = ColorRGBA(r=0.2, g=0.8, b=0.3, a=0.7)
 RIGHT_COLOR = ColorRGBA(r=0.9, g=0.4, b=0.2, a=0.7)
 THICK_M = 0.004
 LIFETIME_S = 1
-"""After this time without news, footsteps vanish."""
+"""Footsteps vanish after this time without an update."""
 
 
 class WalkingStateTopic:
     """
-    Publisher of `walking_state`: on each change, latched for those who join late.
+    Publisher of `walking_state`: on each change, latched for late-joining subscribers.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class BalanceTopics:
 
 class FootstepsTopic:
     """
-    Publisher of `footsteps`: where the parts of the feet that carry load are to land next.
+    Publisher of `footsteps`: the planned landings of the load-bearing parts of the soles.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ class FootstepsTopic:
 
     def publish(self, time_s: float, status: WalkStatus) -> None:
         """
-        Publish the planned footsteps as markers, in place of those published before.
+        Publish the planned footsteps as markers, which replace those published before.
 
         Parameters
         ----------
@@ -136,9 +136,10 @@ class FootstepsTopic:
 
     def _marker(self, time_s: float, number: int, step: Footstep) -> Marker:
         """
-        Return the picture of a footstep: a thin plate.
+        Build the marker of a footstep: a thin plate.
 
-        Left and right steps take turns, and have numbers of their own: a plate keeps its colour.
+        Left and right steps alternate and have ids of their own, so that a marker keeps its
+        colour.
         """
         own = number - number % len(SIDES) + step.side
         marker = Marker(ns='footsteps', id=own, type=Marker.CUBE)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The shapes of furniture, lamps and figures of people.
+The shapes of furniture, lamps and human figures.
 
-Every function takes length, width and height, and the colour (red, green, blue), and returns the
-parts. Axes begin on the ground below the middle; x is where the piece faces, so that its length
-is the depth of a cupboard.
+Every function accepts a size (length, width, height) and a colour (red, green, blue), and returns
+the parts. The origin is on the ground below the centre of the piece; x points to its front, so the
+length of a cupboard is its depth.
 """

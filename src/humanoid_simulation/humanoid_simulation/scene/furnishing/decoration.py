@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What makes a home: lamps, plants, rugs, pictures, windows, and people."""
+"""Decoration: lamps, plants, rugs, pictures, windows and human figures."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def picture(size: Vector, rgb: Vector) -> Parts:
 
 def window(size: Vector, rgb: Vector) -> Parts:
     """
-    Build the parts of a window to be hung on a wall, which does not collide.
+    Build the parts of a window that hangs on a wall and does not collide.
 
     Parameters
     ----------

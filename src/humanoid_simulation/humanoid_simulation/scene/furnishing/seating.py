@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What one sits at, on or in front of: tables, chairs, sofas, beds, a television."""
+"""Tables, chairs, sofas, beds and televisions."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ STEEL = (0.72, 0.73, 0.75)
 BOARD_M = 0.03
 """The thickness of a board."""
 ACROSS = (0.0, math.pi / 2.0, 0.0)
-"""Turns a rod, which stands, so that it lies along x."""
+"""The orientation that lays an upright rod along x."""
 
 Parts = list[Part]
 
@@ -58,11 +58,11 @@ def rod(
     Parameters
     ----------
     radius, height
-        Its size, in m; it stands along z before it is turned.
+        Its size, in m; its axis is z before it is turned.
     at, rgb, turn, hits
         As for `box`.
     shine
-        How much it glows, 0 to 1.
+        Emission of light, 0 to 1.
 
     """
     return Part('cylinder', (radius, height), at, turn, (*rgb, 1.0), collides=hits, shine=shine)
@@ -81,7 +81,7 @@ def mesh(name: str, size: Vector, at: Vector, rgb: Vector, shine: float = 0.0) -
     at, rgb
         As for `box`.
     shine
-        How much it glows, 0 to 1.
+        Emission of light, 0 to 1.
 
     """
     return Part(MESH, size, at, colour_rgba=(*rgb, 1.0), collides=False, mesh=name, shine=shine)

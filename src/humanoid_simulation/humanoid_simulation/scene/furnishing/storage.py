@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What things are kept in and on: cupboards and shelves."""
+"""Kitchen and storage furniture: counters, cupboards, shelves and bins."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from humanoid_simulation.scene.furnishing.shapes import (
 from humanoid_simulation.scene.parts import Vector
 
 SHELF_LEVEL = 0.55
-"""Where the board inside of a shelf is, as a part of its height."""
+"""The height of the middle board of a shelf, as a fraction of its height."""
 
 
 def counter(size: Vector, rgb: Vector) -> Parts:
