@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the benchmarks take as arguments: types for argparse, which prints why a text is none."""
+"""Argument types of the benchmarks for argparse, with error messages for invalid values."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callab
     kind
         `int` or `float`.
     least, most
-        The smallest and the largest number that it accepts.
+        The smallest and the largest accepted number.
 
     Returns
     -------
     Callable
-        Parses a text, and raises `argparse.ArgumentTypeError` if it is no such number.
+        Parses a text, and raises `argparse.ArgumentTypeError` if it is not such a number.
 
     """
     bounds = f'at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
@@ -55,7 +55,7 @@ def built_workspace(text: str) -> Path:
     Raises
     ------
     ArgumentTypeError
-        There is no built workspace.
+        The folder is not a built workspace.
 
     """
     if not text.strip():
@@ -71,7 +71,7 @@ def built_workspace(text: str) -> Path:
 
 def workspace_sources(text: str) -> Path:
     """
-    Return the folder of a workspace, built or not, that is a clone of git; a type for argparse.
+    Return the folder of a workspace, built or not, that is a git clone; a type for argparse.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def workspace_sources(text: str) -> Path:
     Raises
     ------
     ArgumentTypeError
-        There is no clone of a workspace.
+        The folder is not a clone of a workspace.
 
     """
     if not text.strip():

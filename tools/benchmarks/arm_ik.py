@@ -2,9 +2,9 @@
 """
 Solve the inverse kinematics of the arms for random poses.
 
-The poses are those of random postures of an arm and the waist, seen from the pelvis; the solver
-knows nothing of these. A pose is solved if the gripper comes within a millimetre and half a degree
-of it, with all joints within their limits.
+The poses are those of random postures of an arm and the waist, in the pelvis frame; the postures
+are unknown to the solver. A pose is solved if the gripper comes within a millimetre and half a
+degree of it, with all joints within their limits.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LEAST = 0.99
 
 
 def main() -> int:
-    """Measure, print a table, and return whether enough was solved."""
+    """Measure, print a table, and return the exit status: 1 if too few poses were solved."""
     parser = argparse.ArgumentParser(description=__doc__.strip().split('\n')[0])
     parser.add_argument('--poses', type=in_range(int, 1), default=10_000, help='for each arm')
     parser.add_argument('--seed', type=in_range(int, 0), default=0)
@@ -62,7 +62,7 @@ def main() -> int:
 
 
 def _poses(body: UpperBody, side: str, count: int, random: np.random.Generator) -> Iterator[Frame]:
-    """Yield poses of a gripper that can be reached, since a random posture does."""
+    """Yield reachable poses of a gripper, from random postures."""
     arm = body.arms[side]
     lower, upper = (body.lower_rad, *arm.lower_rad), (body.upper_rad, *arm.upper_rad)
     for waist_rad, *posture in random.uniform(lower, upper, (count, len(lower))).tolist():
@@ -70,7 +70,7 @@ def _poses(body: UpperBody, side: str, count: int, random: np.random.Generator) 
 
 
 def _is_there(found: Frame, wanted: Frame) -> bool:
-    """Return whether the gripper is where it should be."""
+    """Check whether the pose of the gripper is within the tolerances."""
     away_m = float(np.linalg.norm(found.position_m - wanted.position_m))
     turned_rad = float(np.linalg.norm(log(found.rotation.T @ wanted.rotation)))
     return away_m < NEAR_M and turned_rad < NEAR_RAD

@@ -49,12 +49,12 @@ def main() -> None:
 
 def print_recordings(folder: Path) -> None:
     """
-    Record each of `LOADS`, and print what that costs and whether others read what was sent.
+    Record each of `LOADS`, and print the cost and whether other libraries read the same data.
 
     Parameters
     ----------
     folder
-        Where the bags are kept, for `print_playing`.
+        The folder of the bags, which are kept for `print_playing`.
 
     """
     print(f'{"CPU %":>7} {"MB":>6} {"lost":>6} {"mcap":>6} {"rosbags":>8}  recorded')
@@ -78,12 +78,12 @@ def print_recordings(folder: Path) -> None:
 
 def print_playing(folder: Path) -> None:
     """
-    Play the recordings, and print how far the times between messages are from the recorded ones.
+    Play the recordings, and print the errors of the intervals between messages.
 
     Parameters
     ----------
     folder
-        Where `print_recordings` has put the bags.
+        The folder in which `print_recordings` has stored the bags.
 
     """
     print(f'\n{"mean ms":>8} {"max ms":>8} {"lost":>6}  played')
@@ -107,14 +107,14 @@ def print_playing(folder: Path) -> None:
 
 def print_kills(folder: Path, runs: int) -> None:
     """
-    Kill recorders, and print how old the oldest lost messages are.
+    Kill recorders, and print the age of the oldest lost messages.
 
     Parameters
     ----------
     folder
-        Where the bags are put.
+        The folder of the bags.
     runs
-        How many recorders are killed.
+        The number of recorders to kill.
 
     """
     lost_s = []
@@ -136,7 +136,7 @@ def print_kills(folder: Path, runs: int) -> None:
 
 def record(bag: Path, sender: Traffic, rate_hz: float) -> Cost:
     """
-    Record for `RECORD_S` seconds and measure what that costs, the start of the recorder included.
+    Record for `RECORD_S` seconds and measure the cost, including the start of the recorder.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def record(bag: Path, sender: Traffic, rate_hz: float) -> Cost:
     sender
         Sends the messages.
     rate_hz
-        How many messages it sends a second, on all topics together.
+        The number of messages that it sends per second, on all topics together.
 
     Returns
     -------
@@ -166,7 +166,7 @@ def record(bag: Path, sender: Traffic, rate_hz: float) -> Cost:
 @contextmanager
 def quiet(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
     """
-    Run a command without its output for the time of a `with`, then kill it.
+    Run a command with its output suppressed during a `with` block, then kill it.
 
     Parameters
     ----------
@@ -208,7 +208,7 @@ def topics(count: int) -> list[str]:
     Parameters
     ----------
     count
-        How many.
+        The number of topics.
 
     """
     return [f'/bag_bench_{index}' for index in range(count)]
@@ -221,9 +221,9 @@ def bag_name(rate_hz: int, topic_count: int) -> str:
     Parameters
     ----------
     rate_hz
-        How many messages were sent a second, on all topics together.
+        The number of messages sent per second, on all topics together.
     topic_count
-        On how many topics.
+        The number of topics.
 
     """
     return f'{rate_hz}_hz_{topic_count}_topics'
@@ -278,7 +278,7 @@ def read_by_rosbags(bag: Path) -> Messages:
 
 def errors_ms(recorded: Messages, received: Messages, rate: float) -> list[float]:
     """
-    Compute how wrong the time between each two messages was when a bag was played.
+    Compute the errors of the intervals between consecutive messages of a played bag.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def errors_ms(recorded: Messages, received: Messages, rate: float) -> list[float
         Topic, serialized message and time in ns, as recorded and as they arrived; lost ones are
         skipped.
     rate
-        How many times as fast as recorded the bag was played.
+        The factor of the playback speed.
 
     Returns
     -------

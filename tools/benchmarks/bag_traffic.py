@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is recorded and played by the benchmark of bags: a robot's joint states, numbered."""
+"""The traffic of the bag benchmark: numbered joint states."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SILENCE_S = 1.0
 
 class Traffic:
     """
-    A node that sends serialized messages on some topics, or notes when it receives them.
+    A node that sends serialized messages on some topics, or records when it receives them.
 
     To send, call `connect` first; to receive, `listen` and then `hear`.
 
@@ -52,7 +52,7 @@ class Traffic:
         self.received: list[tuple[str, bytes, int]] = []
 
     def connect(self) -> None:
-        """Make the publishers, and wait until somebody listens to each."""
+        """Create the publishers, and wait until each has a subscriber."""
         self._publishers = {
             topic: self._node.create_publisher(JointState, topic, QoSProfile(depth=DEPTH))
             for topic in self._topics
@@ -71,9 +71,9 @@ class Traffic:
         Parameters
         ----------
         rate_hz
-            How many messages a second, on all topics together.
+            The number of messages per second, on all topics together.
         seconds
-            For how long.
+            The duration.
 
         """
         begin_s = time.monotonic()
@@ -122,7 +122,7 @@ class Traffic:
 @contextmanager
 def traffic(topics: list[str]) -> Iterator[Traffic]:
     """
-    Run a node that sends or receives for the time of a `with`.
+    Run a node that sends or receives during a `with` block.
 
     Parameters
     ----------
@@ -146,12 +146,12 @@ def traffic(topics: list[str]) -> Iterator[Traffic]:
 
 def joint_states(number: int) -> bytes:
     """
-    Serialize a message of joint states of about a kilobyte.
+    Serialize a joint state message of about a kilobyte.
 
     Parameters
     ----------
     number
-        What makes the message different from all others; it is also its stamp, in s.
+        A number that makes the message unique; it is also its stamp, in s.
 
     """
     message = JointState(name=[f'joint_number_{index}' for index in range(JOINTS)])

@@ -55,9 +55,9 @@ def print_costs(workspace: Path, runs: list[Run]) -> None:
     Parameters
     ----------
     workspace
-        Its folder, the heading of the table.
+        Its folder, used as the heading of the table.
     runs
-        What was measured there.
+        The measurements of that workspace.
 
     """
     best = min(runs, key=lambda run: run.total_cpu)

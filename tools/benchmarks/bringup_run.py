@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start the whole bring-up of a workspace, let the robot stand, and read what it takes."""
+"""Start the whole bring-up of a workspace, let the robot stand, and measure its cost."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ TICKS_HZ = os.sysconf('SC_CLK_TCK')
 
 @dataclass(frozen=True)
 class ProcessCost:
-    """CPU time in seconds a simulated second, and memory as PSS."""
+    """CPU time in seconds per simulated second, and memory as PSS."""
 
     cpu: float
     memory_mb: float
@@ -42,7 +42,7 @@ class ProcessCost:
 
 @dataclass(frozen=True)
 class Run:
-    """What a run took, by the names of the processes, and the rates of the topics."""
+    """The cost of a run, by process name, and the rates of the topics."""
 
     costs: dict[str, ProcessCost]
     rates_hz: dict[str, float] = field(default_factory=dict)
@@ -67,9 +67,9 @@ def measured_run(workspace: Path, seconds: float, with_rates: bool) -> Run:
     workspace
         The folder of a workspace that is built.
     seconds
-        For how long to measure, in simulated time.
+        The duration of the measurement, in simulated time.
     with_rates
-        Whether to count the messages of all topics afterwards, for as long.
+        Whether to count the messages of all topics afterwards, for the same duration.
 
     """
     with domain_id() as domain:
@@ -90,7 +90,7 @@ def measured_run(workspace: Path, seconds: float, with_rates: bool) -> Run:
 
 @contextmanager
 def _bringup(workspace: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """Run the bring-up for the time of a `with`; show what it wrote if that fails."""
+    """Run the bring-up during a `with` block; show its output if the block fails."""
     command = [str(workspace / 'tools' / 'in_environment'), *COMMAND]
     launch = subprocess.Popen(command, stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
     try:
@@ -101,7 +101,7 @@ def _bringup(workspace: Path) -> Iterator[subprocess.Popen[bytes]]:
 
 
 class _Witness:
-    """A node that hears of the bring-up only when it is asked, so that it costs nothing else."""
+    """Node that subscribes only on request, so that it causes no cost of its own otherwise."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -109,13 +109,13 @@ class _Witness:
         self._executor.add_node(node)
 
     def wait_until_it_stands(self) -> None:
-        """Wait until the robot stands and all has come to rest."""
+        """Wait until the robot stands and everything has settled."""
         self._first(String, 'walking_state', STATE_QOS)
         end_s = self.time_s() + SETTLE_S
         self._spin_until(lambda: self.time_s() > end_s)
 
     def time_s(self) -> float:
-        """The simulated time."""
+        """Return the simulated time."""
         message = self._first(Clock, '/clock', LISTENING_QOS)
         return float(message.clock.sec + message.clock.nanosec / 1e9)
 
@@ -139,7 +139,7 @@ class _Witness:
         self._node.create_subscription(_class(kind), topic, count, LISTENING_QOS, raw=True)
 
     def _first(self, kind: Any, topic: str, qos: QoSProfile) -> Any:
-        """Subscribe until a message has come."""
+        """Subscribe until a message has arrived."""
         heard: list[Any] = []
         subscription = self._node.create_subscription(kind, topic, heard.append, qos)
         self._spin_until(lambda: bool(heard))
@@ -160,7 +160,7 @@ class _Witness:
 
 @contextmanager
 def _witness() -> Iterator[_Witness]:
-    """Make the node that watches."""
+    """Create the witness node."""
     rclpy.init()
     node = rclpy.create_node('witness')
     try:
@@ -171,7 +171,7 @@ def _witness() -> Iterator[_Witness]:
 
 
 def _class(kind: str) -> Any:
-    """Return the class of a type of messages, such as `std_msgs/msg/String`."""
+    """Return the class of a message type, such as `std_msgs/msg/String`."""
     package, _, name = kind.split('/')
     return getattr(import_module(f'{package}.msg'), name)
 
@@ -188,7 +188,7 @@ def cpu_by_process(process: int) -> dict[int, float]:
     Returns
     -------
     dict of int to float
-        Seconds of user and system time by process id, of the processes that still run.
+        Seconds of user and system time by process id, of the processes that are still running.
 
     """
     found: dict[int, float] = {}
@@ -205,7 +205,7 @@ def cpu_by_process(process: int) -> dict[int, float]:
 
 def pss_mb(process: int) -> float:
     """
-    Read the proportional set size (PSS) of a process: what several share is divided among them.
+    Read the proportional set size (PSS) of a process: shared pages are divided among processes.
 
     Parameters
     ----------

@@ -2,9 +2,9 @@
 """
 Let the humanoid carry half a kilogram through doors, and count how often it keeps it.
 
-`tools/in_environment python3 tools/benchmarks/carry_trials.py --ways 20`. It takes a bottle of
+`tools/in_environment python3 tools/benchmarks/carry_trials.py --ways 20`. It picks up a bottle of
 0.5 kg from the kitchen counter, and walks to and fro between kitchen and living room, some six
-metres and two doors each time. Ground truth says whether it still holds the bottle. It walks in
+metres and two doors per walk. Ground truth shows whether it still holds the bottle. It walks in
 the simulator with physics and noise.
 """
 
@@ -31,12 +31,12 @@ LIGHT, HEAVY = 'name: green_bottle, ', 'name: green_bottle, size: [0.075, 0.075,
 KITCHEN, LIVING_ROOM = (0.9, 2.6, math.pi / 2.0), (2.7, -1.8, -math.pi / 2.0)
 LEAST_WAY_M = 4.0
 HIGH_M, NEAR_M = 0.6, 0.55
-"""What is lower, or farther from the robot, is not in its hand any more."""
+"""An object that is lower, or farther from the robot, is no longer in its hand."""
 PICK_S = 400.0
 
 
 def main() -> int:
-    """Walk, print a line for each way, and return 1 if the bottle was not kept on all of them."""
+    """Walk, print a line for each walk, and return 1 if the bottle was dropped on any of them."""
     parser = argparse.ArgumentParser(description=__doc__.strip().split('\n')[0])
     parser.add_argument('--ways', type=in_range(int, 1), default=20, help='how often it walks')
     parser.add_argument('--factor', type=in_range(float, 0.1, 2.0), default=0.7)
@@ -63,24 +63,24 @@ def main() -> int:
 
 def walk(ros: RosSandbox, ways: int) -> int:
     """
-    Pick the bottle up, carry it to and fro, and print a row for each way.
+    Pick up the bottle, carry it to and fro, and print a row for each walk.
 
     Parameters
     ----------
     ros
         The domain of the robot.
     ways
-        How often it walks to the other room.
+        The number of walks to the other room.
 
     Returns
     -------
     int
-        The exit status: 0 if the bottle was kept on all ways, else 1.
+        The exit status: 0 if the bottle was kept on all walks, else 1.
 
     Raises
     ------
     AssertionError
-        The robot does not reach the kitchen at first, or falls.
+        The robot does not reach the kitchen initially, or falls.
 
     """
     traveller, entities = NavigatingRobot(ros), Entities(ros)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compare what commands cost in this workspace and in another one, run in turn.
 
-Machines differ, and the speed of one wanders with what else it does. What can be trusted is the
-ratio of two programs that ran in turn, and of each the least of many runs.
+Machines differ, and the speed of each varies with its load. Only the ratio of two programs
+that ran in turn is reliable, with the minimum of many runs of each.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Workspace:
         Parameters
         ----------
         folder
-            The folder of the workspace, which `built_workspace` has found to be one.
+            The folder of the workspace, validated by `built_workspace`.
 
         """
         script = folder / 'tools' / 'in_environment'
@@ -54,9 +54,9 @@ class Workspace:
 
     def cpu_s(self, command: str) -> float:
         """
-        Measure the CPU time of a command and of all that it starts, until the last has ended.
+        Measure the CPU time of a command and all its descendants, until the last has ended.
 
-        Call `adopt_orphans` before: otherwise processes that outlive the command do not count.
+        Call `adopt_orphans` before: otherwise processes that outlive the command are not counted.
 
         Parameters
         ----------
@@ -71,7 +71,7 @@ class Workspace:
         Raises
         ------
         RuntimeError
-            The command fails: what does not work costs nothing.
+            The command fails, so that its cost is meaningless.
         ValueError
             The workspace has no such program.
 
@@ -93,16 +93,16 @@ class Workspace:
 
 
 def print_comparison(commands: Iterable[tuple[str, str]], other: Path, runs: int) -> None:
-    """Print a row a command: the least CPU times here and there, and their ratio.
+    """Print a row for each command: the minimum CPU times here and there, and their ratio.
 
     Parameters
     ----------
     commands
-        What is run, and what it is called in the table.
+        The commands, and their names in the table.
     other
         The folder of the other workspace.
     runs
-        How often each command runs in each workspace, after a run that is not counted.
+        The number of runs of each command in each workspace, after a warm-up run.
 
     """
     adopt_orphans()
@@ -117,14 +117,14 @@ def print_comparison(commands: Iterable[tuple[str, str]], other: Path, runs: int
 
 
 def adopt_orphans() -> None:
-    """Become the parent of every process that loses its own, so that none is forgotten."""
+    """Become a subreaper: the parent of orphaned descendants, so that all are counted."""
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0) != 0:
         raise OSError(ctypes.get_errno(), 'this process cannot adopt orphans')
 
 
 def collect_orphans() -> float:
-    """Wait for what a command has left behind, as a server that it forked; return its CPU time."""
+    """Wait for processes that outlive a command, such as a daemon; return their CPU time."""
     total_s = 0.0
     while True:
         try:
@@ -141,7 +141,7 @@ def without_environments(path: str) -> str:
     Parameters
     ----------
     path
-        The text of the variable.
+        The value of the variable.
 
     """
     folders = [Path(folder) for folder in path.split(os.pathsep)]

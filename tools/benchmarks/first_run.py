@@ -38,7 +38,7 @@ WHOLE = {'bringup': 'make bringup, until the robot stands', 'build': 'make build
 
 @dataclass(frozen=True)
 class Cost:
-    """What a first run took: time by the wall, and of the processors."""
+    """The cost of a first run: wall time and CPU time."""
 
     wall_s: float
     cpu_s: float
@@ -71,7 +71,7 @@ def row(costs: list[Cost]) -> str:
     Parameters
     ----------
     costs
-        What was measured in each workspace: one or two.
+        The costs in each workspace: one or two.
 
     """
     text = ''.join(f'{cost.wall_s:8.1f} {cost.cpu_s:8.1f}   ' for cost in costs)
@@ -83,12 +83,12 @@ def row(costs: list[Cost]) -> str:
 
 def least(costs: list[Cost]) -> Cost:
     """
-    Take the least wall time and the least CPU time of several runs.
+    Return the minimum wall time and the minimum CPU time of several runs.
 
     Parameters
     ----------
     costs
-        What each run took.
+        The cost of each run.
 
     """
     return Cost(min(cost.wall_s for cost in costs), min(cost.cpu_s for cost in costs))
@@ -96,12 +96,12 @@ def least(costs: list[Cost]) -> Cost:
 
 def first_run(folder: Path, command: str) -> Cost:
     """
-    Clone a workspace and measure a command of `make` in it, from nothing.
+    Clone a workspace and measure a command of `make` in it, from scratch.
 
     Parameters
     ----------
     folder
-        The workspace that is cloned.
+        The workspace to clone.
     command
         `bringup`, which ends when the robot stands, or `build`.
 
@@ -130,7 +130,7 @@ def first_run(folder: Path, command: str) -> Cost:
 @contextmanager
 def made(clone: Path, command: str) -> Iterator[subprocess.Popen[bytes]]:
     """
-    Run `make` for the time of a `with`, then end it.
+    Run `make` during a `with` block, then end it.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def made(clone: Path, command: str) -> Iterator[subprocess.Popen[bytes]]:
     Yields
     ------
     Popen
-        The process of make, the leader of a session of its own.
+        The process of make, the leader of its own session.
 
     Raises
     ------
@@ -180,7 +180,7 @@ def variables() -> dict[str, str]:
 
 def wait_until_it_stands(clone: Path, process: subprocess.Popen[bytes]) -> None:
     """
-    Wait until the bring-up runs and the robot publishes its walking state: it stands then.
+    Wait until the bring-up runs and the robot stands, which publishes its walking state.
 
     Parameters
     ----------

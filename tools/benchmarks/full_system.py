@@ -39,7 +39,7 @@ TIMEOUT_S, SETTLE_S, BEGIN_S, END_S = 180.0, 15.0, 6.0, 60.0
 
 @dataclass(frozen=True)
 class Share:
-    """What all processes took for a while: cores, PSS by process, and the real-time factor."""
+    """The load of all processes: cores, PSS by process, and the real-time factor."""
 
     cores: float
     memory_mb: dict[str, float]
@@ -48,7 +48,7 @@ class Share:
 
 @dataclass
 class Run:
-    """What a run took."""
+    """The measurements of a run."""
 
     ready_s: float
     page_s: float = 0.0
@@ -79,7 +79,7 @@ def print_run(gui: str, run: Run) -> None:
     gui
         `true` or `false`: whether the page was served.
     run
-        What was measured.
+        The measurements.
 
     """
     page = f', the page is up after {run.page_s:.1f} s' if run.page_s else ''
@@ -104,7 +104,7 @@ def measured_run(gui: str, seconds: float) -> Run:
     gui
         Whether to serve the page: `true` or `false`.
     seconds
-        For how long to measure, in real time.
+        The duration of the measurement, in real time.
 
     """
     with domain_id() as domain:
@@ -166,7 +166,7 @@ def _share(listener: Listener, process: int, seconds: float) -> Share:
 
 @contextmanager
 def _system(gui: str) -> Iterator[tuple[subprocess.Popen[bytes], Capture]]:
-    """Run the full system for the time of a `with`."""
+    """Run the full system during a `with` block."""
     command = [str(HERE / 'tools' / 'in_environment'), *COMMAND, f'gui:={gui}']
     launch = subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
@@ -179,7 +179,7 @@ def _system(gui: str) -> Iterator[tuple[subprocess.Popen[bytes], Capture]]:
 
 
 class Listener:
-    """Somebody who hears what the robot says, and gives commands."""
+    """A node that records the robot's speech, and sends commands."""
 
     def __init__(self) -> None:
         self.node = rclpy.create_node('listener')
@@ -192,7 +192,7 @@ class Listener:
         )
 
     def time_s(self) -> float:
-        """Return the time of the robot; only now is it listened to."""
+        """Return the robot's time; `/clock` is subscribed to only during the call."""
         heard: list[Clock] = []
         subscription = self.node.create_subscription(Clock, '/clock', heard.append, 10)
         self.spin_until(lambda: bool(heard), TIMEOUT_S)
@@ -201,12 +201,12 @@ class Listener:
 
     def spin(self, seconds: float) -> None:
         """
-        Take messages for a while.
+        Process messages for some time.
 
         Parameters
         ----------
         seconds
-            How long, in real time.
+            The duration, in real time.
 
         """
         end_s = time.monotonic() + seconds
@@ -214,19 +214,19 @@ class Listener:
 
     def spin_until(self, is_true: Callable[[], bool], timeout_s: float) -> None:
         """
-        Take messages until a condition holds.
+        Process messages until a condition holds.
 
         Parameters
         ----------
         is_true
             The condition, which is checked at least every 0.1 s.
         timeout_s
-            How long to wait at most, in real time.
+            The maximum time to wait, in real time.
 
         Raises
         ------
         TimeoutError
-            The condition does not hold in time.
+            The condition does not become true in time.
 
         """
         end_s = time.monotonic() + timeout_s

@@ -72,9 +72,9 @@ def print_row(what: str, measure: Callable[[], tuple[float, bool]], runs: int) -
     what
         The name of the row.
     measure
-        Returns the time in s, and whether all nodes or topics were known.
+        Returns the time in s, and whether all nodes or topics were discovered.
     runs
-        How often to measure.
+        The number of measurements.
 
     """
     results = [measure() for _ in range(runs)]
@@ -92,12 +92,12 @@ def listing(command: str, expected: set[str]) -> tuple[float, bool]:
     command
         `topic` or `node`.
     expected
-        The names that it should print.
+        The expected names.
 
     Returns
     -------
     float, bool
-        The wall time in s, and whether it printed just these names.
+        The wall time in s, and whether it printed exactly these names.
 
     """
     begin_s = time.monotonic()
@@ -106,7 +106,7 @@ def listing(command: str, expected: set[str]) -> tuple[float, bool]:
 
 
 def latecomer() -> tuple[float, bool]:
-    """Return how long a new node of rclpy needs."""
+    """Measure the time that a new rclpy node needs for discovery."""
     result = subprocess.run(
         [sys.executable, '-c', RCLPY], capture_output=True, text=True, check=True
     )
@@ -116,12 +116,12 @@ def latecomer() -> tuple[float, bool]:
 @contextmanager
 def running_nodes(folder: Path) -> Iterator[None]:
     """
-    Launch the nodes for the time of a `with`, which begins when all are there, or a minute later.
+    Launch the nodes during a `with` block, which starts when all are up, after a minute at most.
 
     Parameters
     ----------
     folder
-        Where to write the launch file.
+        The folder of the launch file.
 
     """
     file = folder / 'many.launch.py'

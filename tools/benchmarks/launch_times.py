@@ -70,17 +70,17 @@ def main() -> None:
 
 def whole_launches(folder: Path) -> Iterator[tuple[str, str]]:
     """
-    List commands that end by themselves.
+    List commands that end on their own.
 
     Parameters
     ----------
     folder
-        Where to write launch files.
+        The folder of the launch files.
 
     Yields
     ------
     str, str
-        The command as for a shell, and what it is called in a table.
+        The command as for a shell, and its name in a table.
 
     """
     for command in ('python3 -c pass', SHOW_ARGUMENTS):
@@ -92,14 +92,14 @@ def whole_launches(folder: Path) -> Iterator[tuple[str, str]]:
 
 def print_whole_launches(folder: Path, runs: int) -> None:
     """
-    Print what commands cost from their start to their end.
+    Print the cost of commands from their start to their end.
 
     Parameters
     ----------
     folder
-        Where to write launch files.
+        The folder of the launch files.
     runs
-        How many runs of each command count.
+        The number of counted runs of each command.
 
     """
     print(f'\n{COST_HEADER}  command')
@@ -114,9 +114,9 @@ def print_start_and_end(folder: Path, runs: int) -> None:
     Parameters
     ----------
     folder
-        Where to write launch files.
+        The folder of the launch files.
     runs
-        How many runs count for each number in the table.
+        The number of counted runs for each number in the table.
 
     """
     print(f'\n{"start s":>7} {"end s":>7}  processes (command to last start, SIGINT to last end)')
@@ -129,12 +129,12 @@ def print_start_and_end(folder: Path, runs: int) -> None:
 
 def print_imports(runs: int) -> None:
     """
-    Print how long imports take, without the start of Python itself.
+    Print the duration of imports, without the start of Python itself.
 
     Parameters
     ----------
     runs
-        How many runs of each import count.
+        The number of counted runs of each import.
 
     """
     print(f'\n{"ms":>7}  import (python3 -X importtime)')
@@ -145,16 +145,16 @@ def print_imports(runs: int) -> None:
 
 def launch_file(folder: Path, count: int, program: str, argument: str) -> str:
     """
-    Write a launch file of several equal processes and return its path.
+    Write a launch file with several identical processes and return its path.
 
     Parameters
     ----------
     folder
-        Where to write it.
+        The folder of the file.
     count
-        How many processes.
+        The number of processes.
     program, argument
-        What each of them executes, with an argument that may be empty.
+        The program of each process, and its argument, which may be empty.
 
     """
     path = folder / f'{count}_{Path(program).name}.launch.py'
@@ -171,7 +171,7 @@ def start_and_end(file: str, count: int) -> tuple[float, float]:
     file
         The launch file.
     count
-        How many processes it starts.
+        The number of processes that it starts.
 
     Returns
     -------
@@ -195,7 +195,7 @@ def start_and_end(file: str, count: int) -> tuple[float, float]:
 @contextmanager
 def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
     """
-    Run a command with its output in a pipe for the time of a `with`, then kill it.
+    Run a command with its output in a pipe during a `with` block, then kill it.
 
     Parameters
     ----------
@@ -217,7 +217,7 @@ def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
 
 def import_ms(statement: str) -> float:
     """
-    Measure how long Python executes the modules that a statement imports.
+    Measure the execution time of the modules that a statement imports.
 
     Parameters
     ----------

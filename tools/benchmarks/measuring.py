@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the benchmarks share: the cost of a command, and how tables are printed."""
+"""Helpers shared by the benchmarks: the cost of a command, and printing of tables."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import time
 
 @dataclass(frozen=True)
 class Cost:
-    """What a run took, its children included."""
+    """The cost of a run, including its children."""
 
     cpu_s: float
     wall_s: float
@@ -31,7 +31,7 @@ COST_HEADER = f'{"CPU s":>7} {"wall s":>7} {"MB":>6}'
 
 def run_once(command: list[str]) -> Cost:
     """
-    Run a command without its output and measure what it costs.
+    Run a command with its output suppressed and measure its cost.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def median_cost(command: list[str], runs: int) -> Cost:
     command
         The program and its arguments.
     runs
-        How many runs count.
+        The number of counted runs.
 
     """
     costs = [run_once(command) for _ in range(runs + 1)][1:]
@@ -68,14 +68,14 @@ def median_cost(command: list[str], runs: int) -> Cost:
 
 def median_of(measure: Callable[[], float], runs: int) -> float:
     """
-    Return the median of several measurements after one that is not counted.
+    Return the median of several measurements after a warm-up measurement.
 
     Parameters
     ----------
     measure
-        Returns what is measured.
+        Returns a measurement.
     runs
-        How many measurements count.
+        The number of counted measurements.
 
     """
     return median([measure() for _ in range(runs + 1)][1:])
@@ -84,7 +84,7 @@ def median_of(measure: Callable[[], float], runs: int) -> float:
 @contextmanager
 def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
     """
-    Run a command without its output for the time of a `with`, then terminate it.
+    Run a command with its output suppressed during a `with` block, then terminate it.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
 
 def cpu_s(process: int) -> float:
     """
-    Read the CPU time in s that a process has used so far, its children not included.
+    Read the CPU time in s that a process has used so far, excluding its children.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def cpu_s(process: int) -> float:
 
 def memory_mb(process: int) -> float:
     """
-    Read the resident set size (RSS) of a process in MB, with all that it shares.
+    Read the resident set size (RSS) of a process in MB, including shared pages.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def child_of(parent: int, executable: str) -> int:
     Raises
     ------
     SystemExit
-        There is none.
+        There is no such process.
 
     """
     children = Path(f'/proc/{parent}/task/{parent}/children').read_text().split()

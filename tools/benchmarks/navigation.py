@@ -87,7 +87,7 @@ def print_row(cost: float, limit_ms: float | None, what: str) -> None:
     cost
         The CPU time in ms.
     limit_ms
-        How long it may take, if there is a limit.
+        The limit of the time, if there is one.
     what
         The name of the row.
 
@@ -98,12 +98,12 @@ def print_row(cost: float, limit_ms: float | None, what: str) -> None:
 
 def cost_ms(action: Callable[[], object]) -> float:
     """
-    Measure the CPU time in ms that an action takes in this thread.
+    Measure the CPU time in ms of an action in this thread.
 
     Parameters
     ----------
     action
-        What to measure.
+        The action to measure.
 
     """
     begin_s = time.thread_time()

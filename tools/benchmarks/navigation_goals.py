@@ -36,14 +36,14 @@ PACKAGE = Path(__file__).parents[2] / 'src' / 'humanoid_navigation'
 PARAMETERS = PACKAGE / 'config' / 'nav2_params.yaml'
 FAILURES_ALLOWED = 0.03
 NEAR_M, NEAR_RAD = 0.3, 0.4
-"""The tolerance of the goal checker, and what the localisation may be wrong."""
+"""The tolerance of the goal checker, plus the permitted localisation error."""
 WAY_M, PLACE_M = 0.35, 0.40
-"""How far from walls a way and its ends are at least."""
+"""The minimum distance of a path and of its ends from walls."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One way, and how it ended."""
+    """A navigation trial, and its result."""
 
     number: int
     start: Place
@@ -52,14 +52,14 @@ class Trial:
 
     @property
     def is_reached(self) -> bool:
-        """Whether the robot says that it is there, and is."""
+        """Whether the robot reports that it has arrived, and has."""
         outcome = self.outcome
         near = outcome.distance_m <= NEAR_M and outcome.turn_rad <= NEAR_RAD
         return outcome.is_reached and near
 
 
 def main() -> int:
-    """Run, print a table, and return whether enough goals were reached."""
+    """Run, print a table, and return the exit status: 1 if too few goals were reached."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--goals', type=in_range(int, 1), default=100)
     parser.add_argument('--seed', type=in_range(int, 0), default=1)
@@ -125,19 +125,19 @@ def run_trial(robot: LoopbackRobot, number: int, start: Place, goal: Place) -> T
 
 def drawn_pairs(map_file: Path, seed: int) -> Iterator[tuple[Place, Place]]:
     """
-    Draw pairs of poses between which a path exists, without end.
+    Draw an endless sequence of pairs of poses that are connected by a path.
 
     Parameters
     ----------
     map_file
         The YAML file of the map.
     seed
-        Of the random numbers.
+        The seed of the random numbers.
 
     Yields
     ------
     Place, Place
-        Start and goal in the map, both at least `PLACE_M` from what is not free.
+        Start and goal in the map, both at least `PLACE_M` from non-free cells.
 
     """
     table = yaml.safe_load(map_file.read_text(encoding='utf-8'))
@@ -170,7 +170,7 @@ def row(trial: Trial) -> str:
     Parameters
     ----------
     trial
-        The trial that has ended.
+        The finished trial.
 
     """
     outcome = trial.outcome
@@ -188,7 +188,7 @@ def row(trial: Trial) -> str:
 
 def summary(trials: Sequence[Trial]) -> str:
     """
-    Summarize how many goals were reached, and how.
+    Summarize the number of goals reached, and their arrival.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def summary(trials: Sequence[Trial]) -> str:
 
 def cpu_s(pid: int) -> float:
     """
-    Read the CPU time in s that a process has used so far, its children not included.
+    Read the CPU time in s that a process has used so far, excluding its children.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ import yaml
 
 NEAR_M = 0.1
 SEEN_HEIGHTS_M = (0.69, 0.79)
-"""What the scanner sweeps as the body sways; it is 0.74 m above the ground."""
+"""The heights that the scanner sweeps as the body sways; it is 0.74 m above the ground."""
 ROUND_M = (
     *(1.3 + 0.0j, 1.3 + 2.8j, 1.3 + 0.0j),  # kitchen
     *(4.4 + 0.0j, 4.4 + 2.0j, 4.4 + 0.0j),  # bedroom
@@ -40,7 +40,7 @@ GOALS = ((0.7, 2.6, 1.57), (4.4, 1.8, 1.57), (4.6, -1.6, 0.0), (-2.3, 0.0, 3.14)
 
 
 def main() -> int:
-    """Draw a map, judge it, and use it; return 1 if it or a way is not good enough."""
+    """Create a map, evaluate it, and navigate in it; return 1 if any step is insufficient."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--speed', type=in_range(float, 0.05, 0.5), default=0.3, help='in m/s')
     parser.add_argument('--output', type=Path, help='keep the maps in this folder')
@@ -65,14 +65,14 @@ def main() -> int:
 
 def drive_round(robot: SimulatedRobot, speed: float) -> None:
     """
-    Drive through all rooms along `ROUND_M`; ground truth steers, which stands for a person.
+    Drive through all rooms along `ROUND_M`, steered by ground truth in place of a person.
 
     Parameters
     ----------
     robot
         The simulated robot.
     speed
-        The greatest forward velocity in m/s.
+        The maximum forward velocity in m/s.
 
     Raises
     ------
@@ -100,12 +100,12 @@ def _steer(robot: SimulatedRobot, point_m: complex, speed: float, only_turn: boo
 
 def share_near(drawn_file: Path, true_file: Path) -> float:
     """
-    Compute the share of the occupied cells of a map that are near those of another map.
+    Compute the fraction of the occupied cells of a map that are near those of another map.
 
     Parameters
     ----------
     drawn_file, true_file
-        The YAML files of the map that is judged, and of the one that is right.
+        The YAML files of the map to evaluate, and of the true map.
 
     Returns
     -------
@@ -125,7 +125,7 @@ def share_near(drawn_file: Path, true_file: Path) -> float:
 
 
 def _occupied(file: Path) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64], float]:
-    """Return which cells [x, y] are occupied, where the first one begins, and their size in m."""
+    """Return the occupied cells [x, y], the origin of the map, and the resolution in m."""
     table = yaml.safe_load(file.read_text(encoding='utf-8'))
     grey = np.asarray(Image.open(file.parent / table['image']))[::-1].T
     return grey < 50, np.array(table['origin'][:2], float), float(table['resolution'])
@@ -133,7 +133,7 @@ def _occupied(file: Path) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64
 
 def go_round(ros: RosSandbox) -> int:
     """
-    Navigate to `GOALS` in the map that was drawn, and return how many were not reached.
+    Navigate to `GOALS` in the created map, and return the number of goals not reached.
 
     Parameters
     ----------

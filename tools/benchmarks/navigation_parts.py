@@ -56,7 +56,7 @@ PARAMETERS = str(
     Path(get_package_share_directory('humanoid_navigation'), 'config', 'nav2_params.yaml')
 )
 PLANNED_CELLS = {400: 60.0, 2000: 400.0}
-"""The sides of maps in which is planned, and how long that may take in ms."""
+"""The side lengths of the planned maps, and the time limits in ms."""
 CELL_M = 0.05
 RADIUS_M = 0.28
 PERIOD_S = 0.05
@@ -97,9 +97,9 @@ def house(side: int, room: int = 80, door: int = 20) -> Costmap2D:
     Parameters
     ----------
     side
-        The length of its sides in cells of 0.05 m.
+        Its side length in cells of 0.05 m.
     room, door
-        The distance of the walls from each other, and the width of the doors, in cells.
+        The distance between walls, and the width of the doors, in cells.
 
     """
     random = np.random.default_rng(7)
@@ -146,7 +146,7 @@ def planning(grid: Costmap2D) -> tuple[Action, Action, Action]:
         return planner
 
     def plan(planner: GlobalPlanner, to: Pose2D) -> object:
-        """Plan as the server does, with the answer's bytes."""
+        """Plan as the server does, including the serialization of the response."""
         poses = finish(planner.create_plan(start, to))
         path = make_path(poses, 'map', Time())
         return serialize_message(ComputePathToPose.Result(path=path))
@@ -168,7 +168,7 @@ def planning(grid: Costmap2D) -> tuple[Action, Action, Action]:
 
 
 def smoothing() -> dict[str, Action]:
-    """Return requests to the smoothers for a path with a corner."""
+    """Prepare requests to the smoothers for a path with a corner."""
     x = np.minimum(np.arange(400), 200) * CELL_M
     y = np.maximum(np.arange(400) - 200, 0) * CELL_M
     poses = np.column_stack([x + 5.0, y + 5.0, np.zeros(400)])
@@ -186,7 +186,7 @@ def control_step(name: str) -> Action:
     Parameters
     ----------
     name
-        A key of `KINDS`, perhaps with a suffix after a comma; `VALUES` may have its parameters.
+        A key of `KINDS`, optionally with a suffix after a comma; `VALUES` may have its parameters.
 
     Returns
     -------
@@ -230,7 +230,7 @@ def localization(particles: int) -> Action:
     Parameters
     ----------
     particles
-        How many particles the filter has.
+        The number of particles of the filter.
 
     Returns
     -------
@@ -253,7 +253,7 @@ def localization(particles: int) -> Action:
 
 
 def mapping() -> Action:
-    """Return the taking of a further scan into a map, the search for loops included."""
+    """Prepare adding a further scan to a map, including the search for loops."""
     _, caster = _scanned_house()
     mapper = Mapper()
     number = 0
@@ -282,7 +282,7 @@ def _ranges(caster: RayCaster, place: tuple[float, float]) -> npt.NDArray[np.flo
 
 
 def _node(name: str, values: dict[str, Any] | None = None) -> LifecycleNode:
-    """Return a node with the humanoid's parameters, and further ones."""
+    """Create a node with the humanoid's parameters, and further ones."""
     overrides = [Parameter(key, value=value) for key, value in (values or {}).items()]
     words = ['--ros-args', '--params-file', PARAMETERS]
     return LifecycleNode(name, cli_args=words, parameter_overrides=overrides)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start navigation as users do, beside the loopback simulator, and read what it takes."""
+"""Start navigation as users do, with the loopback simulator, and measure its cost."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ SETTLE_S = 4.0
 
 def stack_shares(seconds: float) -> Iterator[tuple[str, float]]:
     """
-    Start the whole, and measure the process that has all servers.
+    Start the whole stack, and measure the process of all servers.
 
     Parameters
     ----------
     seconds
-        How long each row is measured.
+        The measurement time of each row.
 
     Yields
     ------
-    What the robot does, and the share of a core.
+    The activity of the robot, and the share of a core.
 
     """
     with domain_id() as domain:
@@ -65,7 +65,7 @@ def stack_shares(seconds: float) -> Iterator[tuple[str, float]]:
 
 
 class _Driver:
-    """Sends the robot to and fro."""
+    """Client that sends the robot to and fro."""
 
     def __init__(self) -> None:
         self.node = Node('driver')
@@ -76,13 +76,13 @@ class _Driver:
 
     @property
     def is_ready(self) -> bool:
-        """Whether goals are taken, and somebody hears where the robot is."""
+        """Whether the action server is ready, and initial poses have subscribers."""
         return bool(
             self._client.server_is_ready() and self._publisher.get_subscription_count() > 1
         )
 
     def place(self) -> None:
-        """Say where the robot is."""
+        """Publish the initial pose of the robot."""
         message = PoseWithCovarianceStamped()
         message.header.frame_id = 'map'
         message.pose.pose = make_pose(Pose2D(0.0, 0.0, 0.0))
@@ -91,19 +91,19 @@ class _Driver:
         self._publisher.publish(message)
 
     def walk(self) -> None:
-        """Begin to send goals, one after the other; one that is refused is sent again."""
+        """Start sending goals, one after the other; a rejected one is sent again."""
         pose = make_pose_stamped(GOALS[self._next % 2], 'map', PoseStamped().header.stamp)
         self._pending = self._client.send_goal_async(NavigateToPose.Goal(pose=pose))
         self._pending.add_done_callback(self._answered)
 
     def spin(self, seconds: float) -> None:
-        """Go on for a while."""
+        """Spin for some time."""
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s:
             rclpy.spin_once(self.node, timeout_sec=0.1)
 
     def wait(self, is_enough: Callable[[], bool], what: str) -> None:
-        """Go on until something is true."""
+        """Spin until a condition holds."""
         end_s = time.monotonic() + TIMEOUT_S
         while not is_enough():
             if time.monotonic() > end_s:
@@ -111,7 +111,7 @@ class _Driver:
             self.spin(0.2)
 
     def share(self, process: int, seconds: float) -> float:
-        """Return the share of a core that a process takes."""
+        """Measure the share of a core that a process uses."""
         begin_s, begin_cpu_s = time.monotonic(), cpu_s(process)
         self.spin(seconds)
         return (cpu_s(process) - begin_cpu_s) / (time.monotonic() - begin_s)

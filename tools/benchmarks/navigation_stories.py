@@ -29,17 +29,17 @@ LIVING_ROOM: Place = (2.7, -1.8, -1.57)
 BESIDE_THE_TABLE: Place = (4.5, -1.3, -1.57)
 BEHIND_THE_TABLE: Place = (4.5, -4.0, -1.57)
 DOOR_M = (2.7, -0.7)
-"""Of the corridor to the living room, which has another one to the hall."""
+"""The door from the corridor to the living room, which has another one to the hall."""
 
 
 class Stage:
     """
-    The robot, and what is put into its way.
+    The robot, and the obstacles in its way.
 
     Parameters
     ----------
     ros
-        The domain of the robot, which is waited for.
+        The domain of the robot; the stage waits for it.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Stage:
         return self.navigating.robot
 
     def begin(self) -> None:
-        """Put the robot home, where it knows that it is."""
+        """Reset the robot to its home pose, with a correct pose estimate."""
         self.robot.reset()
         self.navigating.say_where(*HOME)
         self.robot.wait(2.0)
@@ -152,12 +152,12 @@ def _place(pose: Any, centre_m: tuple[float, float], height_m: float) -> None:
 
 def blocked_door(stage: Stage) -> Arrival:
     """
-    Go around when the door is closed by something that the map does not have.
+    Walk a detour when the door is blocked by an object that is not in the map.
 
     Parameters
     ----------
     stage
-        Where the story takes place.
+        The robot and its obstacles.
 
     """
     stage.navigating.go(*CORRIDOR)
@@ -169,12 +169,12 @@ def blocked_door(stage: Stage) -> Arrival:
 
 def kidnapped(stage: Stage) -> Arrival:
     """
-    Find out where it is when it was told a place 1 m off.
+    Localize after an initial pose that is 1 m off.
 
     Parameters
     ----------
     stage
-        Where the story takes place.
+        The robot and its obstacles.
 
     """
     stage.navigating.say_where(HOME[0] - 1.0, HOME[1], HOME[2])
@@ -183,12 +183,12 @@ def kidnapped(stage: Stage) -> Arrival:
 
 def lost(stage: Stage) -> Arrival:
     """
-    Find out where it is when nobody tells, by turning and walking about.
+    Localize globally without an initial pose, by turning and walking about.
 
     Parameters
     ----------
     stage
-        Where the story takes place.
+        The robot and its obstacles.
 
     """
     stage.ask(Empty, '/reinitialize_global_localization', Empty.Request())
@@ -203,12 +203,12 @@ def lost(stage: Stage) -> Arrival:
 
 def pushed_chair(stage: Stage) -> Arrival:
     """
-    Walk around what is pushed into the way while it walks.
+    Walk around an obstacle that is pushed into the way while it walks.
 
     Parameters
     ----------
     stage
-        Where the story takes place.
+        The robot and its obstacles.
 
     """
     size_m = (0.4, 0.4, 1.0)
@@ -233,7 +233,7 @@ STORIES: dict[str, tuple[Callable[[Stage], Arrival], Place]] = {
 
 
 def main() -> int:
-    """Tell the stories, and print a line for each; return 1 if one did not end well."""
+    """Run the stories, and print a line for each; return 1 if any failed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('stories', nargs='*', help=f'{", ".join(STORIES)}; all by default')
     parser.add_argument('--launch', nargs='*', default=[], help='further arguments of the launch')

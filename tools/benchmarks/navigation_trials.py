@@ -44,7 +44,7 @@ def main() -> int:
 @contextmanager
 def robot_at_home(*arguments: str) -> Iterator[None]:
     """
-    Run the robot in the apartment with Nav2, from when that is active until a block ends.
+    Run the robot in the apartment during a `with` block, which starts when Nav2 is active.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Guide a robot of the loopback simulator through the apartment, and read what each part takes."""
+"""Guide a robot of the loopback simulator through the apartment, and measure each part."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ KINDS = (PlannerServer, ControllerServer, BehaviorServer, VelocitySmoother, Coll
 
 
 class _Timed:
-    """Replaces a method by one that notes the CPU time of its calls."""
+    """Replaces a method by one that records the CPU time of its calls."""
 
     def __init__(self, kind: Any, method: str, what: Callable[[Any], str]) -> None:
         self.costs_ms: dict[str, list[float]] = {}
@@ -69,16 +69,16 @@ class _Timed:
 
 def walk_costs(seconds: float) -> Iterator[tuple[str, float, int]]:
     """
-    Let the robot walk, and measure.
+    Measure the parts of navigation while the robot walks.
 
     Parameters
     ----------
     seconds
-        For how long.
+        The duration.
 
     Yields
     ------
-    What was done, the median of its CPU time in ms, and how often it was done.
+    The name of an operation, its median CPU time in ms, and its number of calls.
 
     """
     watched = [
@@ -117,7 +117,7 @@ class _Walk:
 
     @property
     def is_there(self) -> bool:
-        """Whether the goal is reached, or given up."""
+        """Whether the goal was reached or aborted."""
         return bool(self._end is not None and self._end.done())
 
     def begin(self) -> None:
@@ -147,21 +147,21 @@ class _Walk:
         self.spin(lambda: self.is_there, 2.0)
 
     def spin(self, is_enough: Callable[[], object], seconds: float) -> bool:
-        """Work until something is true, or so long; return which."""
+        """Spin until a condition holds or the time is over; return whether it holds."""
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s and not is_enough():
             self._executor.spin_once(timeout_sec=0.05)
         return bool(is_enough())
 
     def close(self) -> None:
-        """End everything."""
+        """Destroy all nodes, and shut down."""
         for node in reversed(self._nodes):
             node.destroy_node()
         self._executor.shutdown()
         rclpy.shutdown(context=self._context)
 
     def _place(self) -> None:
-        """Say where the robot is."""
+        """Publish the initial pose of the robot."""
         start = PoseWithCovarianceStamped()
         start.header.frame_id = 'map'
         start.pose.pose = make_pose(Pose2D(0.0, 0.0, 0.0))

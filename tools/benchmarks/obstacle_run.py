@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One trial of the obstacle benchmark: the humanoid is told to walk into something."""
+"""One trial of the obstacle benchmark: the humanoid is commanded to walk into an obstacle."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ SIDES = {'ahead': 0.0, 'behind': math.pi, 'left': math.pi / 2, 'right': -math.pi
 KINDS = ('wall', 'table', 'corner', 'loose')
 SETTLE_S = 1.0
 AFTER_S = 4.0
-"""How long the robot has to stand when the command has ended."""
+"""The time that the robot has to stand after the end of the command."""
 PATIENCE_S = 8.0
-"""How much longer than planned the way to the obstacle may take."""
+"""The tolerated delay of the walk to the obstacle."""
 _REACH_M = {'ahead': 0.2, 'behind': 0.15, 'left': 0.25, 'right': 0.25}
-"""How far the robot's body extends from its base, about."""
+"""The approximate extent of the robot's body from its base."""
 _LOOSE = (
     ('cylinder', (0.09, 0.3), 0.6),
     ('box', (0.2, 0.2, 0.3), 1.0),
@@ -35,25 +35,25 @@ _LOOSE = (
 
 @dataclass(frozen=True)
 class Trial:
-    """What is in the way, and how the robot is told to walk into it."""
+    """The obstacle, and the command to walk into it."""
 
     number: int
     kind: str
     side: str
     speed_m_s: float
-    """As commanded; the gait goes no faster than it can in this direction."""
+    """The commanded speed; the gait limits it to its maximum in this direction."""
     insistence_s: float
-    """How long the command goes on after the first touch."""
+    """The time for which the command continues after the first contact."""
     friction: float
-    """Of the floor."""
+    """The friction of the floor."""
     obstacle: Thing
     distance_m: float
-    """From the robot's base to the obstacle."""
+    """The distance from the robot's base to the obstacle."""
 
     @classmethod
     def drawn(cls, number: int) -> Trial:
         """
-        Draw a trial at random: kinds and sides take turns.
+        Draw a random trial, cycling through kinds and sides.
 
         Parameters
         ----------
@@ -86,16 +86,16 @@ class Trial:
 
 @dataclass(frozen=True)
 class TrialResult:
-    """How a trial ended."""
+    """The result of a trial."""
 
     trial: Trial
     touched_s: float | None
-    """When the robot first touched the obstacle."""
+    """The time of the first contact with the obstacle."""
     reported_s: float | None
-    """When the walk first said that its way is blocked."""
+    """The time when the walk first reported that its way is blocked."""
     fell_s: float | None
     leaned_rad: float
-    """How far the base leaned at most."""
+    """The maximum tilt of the base."""
 
     @property
     def fell(self) -> bool:
@@ -105,7 +105,7 @@ class TrialResult:
 
 def run_trial(trial: Trial) -> TrialResult:
     """
-    Walk a robot into the obstacle, insist, let go, and watch whether it stands.
+    Walk a robot into the obstacle, continue, stop, and check whether it remains standing.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ class _Run:
 
 
 def _obstacle(kind: str, side: str, distance_m: float, random: np.random.Generator) -> Thing:
-    """Return an obstacle whose front is at a distance from the robot's base."""
+    """Create an obstacle whose front is at a given distance from the robot's base."""
     ahead = cmath.exp(1j * SIDES[side])
     turn_rad = float(random.uniform(-0.35, 0.35))
     if kind == 'loose':
@@ -184,7 +184,7 @@ def _obstacle(kind: str, side: str, distance_m: float, random: np.random.Generat
     if kind == 'corner':
         size = (0.8, 0.3, 1.0)
         turn_rad = float(random.uniform(math.radians(30), math.radians(60)))
-        # Turned so, the corner at minus half of both edges is the one that is nearest.
+        # With this rotation, the corner at minus half of both edges is the nearest one.
         corner = complex(size[0], size[1]) / 2 * cmath.exp(1j * turn_rad)
         place = distance_m + 1j * float(random.uniform(-0.2, 0.2)) + corner
         return _thing('box', size, place * ahead, size[2] / 2, turn_rad + SIDES[side])

@@ -22,7 +22,7 @@ FALLS_ALLOWED = 0.02
 
 
 def main() -> int:
-    """Run, print a table, and return whether enough survived."""
+    """Run, print a table, and return the exit status: 1 if too many fell."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--trials', type=in_range(int, 1), default=200)
     parser.add_argument(
@@ -52,7 +52,7 @@ def row(result: TrialResult) -> str:
     Parameters
     ----------
     result
-        How the trial ended.
+        The result of the trial.
 
     """
     trial, touched_s = result.trial, result.touched_s
@@ -77,9 +77,9 @@ def summary(results: Sequence[TrialResult], wall_s: float) -> str:
     Parameters
     ----------
     results
-        How all trials ended.
+        The results of all trials.
     wall_s
-        How long they took together.
+        The total wall time.
 
     """
     lines = ['', '| falls | ' + ' | '.join(SIDES) + ' |', '|---' * (len(SIDES) + 1) + '|']

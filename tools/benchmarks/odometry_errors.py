@@ -28,12 +28,12 @@ FACTOR = 2.0
 
 class OdometryRun:
     """
-    A robot that walks without pushes, and how far its odometry is off.
+    A robot that walks without pushes, and the errors of its odometry.
 
     Parameters
     ----------
     seed
-        Of the commands, and of the noise and biases of the sensors.
+        The seed of the commands, and of the noise and biases of the sensors.
     noise
         The noise of the sensors.
 
@@ -52,7 +52,7 @@ class OdometryRun:
         Parameters
         ----------
         duration_s
-            How long, in simulated time.
+            The duration, in simulated time.
 
         """
         end_s = self._robot.backend.time_s + duration_s
@@ -68,8 +68,8 @@ class OdometryRun:
         return True
 
     def errors(self) -> tuple[Array, Array]:
-        """Return the errors (6,) of the pose, and the variances (6,) that are stated."""
-        # Sensors have measured the state that the last tick has led to; odometry is to know it.
+        """Return the errors (6,) of the pose, and the stated variances (6,)."""
+        # Sensors have measured the state after the last tick; odometry must include it.
         walker, backend = self._robot.walking.walker, self._robot.backend
         walker.update(backend.observe()[''])
         status = walker.status
@@ -91,7 +91,7 @@ class OdometryRun:
 
 
 def main() -> int:
-    """Run, print a table, and return whether the stated variances are right."""
+    """Run, print a table, and return the exit status: 1 if a stated variance is wrong."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--runs', type=int, default=20)
     parser.add_argument('--seconds', type=float, default=60.0, help='length of a run')
@@ -129,15 +129,15 @@ def rows(samples: list[tuple[Array, Array]], after_s: float) -> list[tuple[str, 
     Parameters
     ----------
     samples
-        Of each run the errors (6,) and the stated variances (6,) of x, y, z in m and roll, pitch,
-        yaw in rad.
+        For each run, the errors (6,) and the stated variances (6,) of x, y, z in m and roll,
+        pitch, yaw in rad.
     after_s
-        How long the robot had walked, for the table.
+        The time that the robot had walked, for the table.
 
     Returns
     -------
     list of (str, float)
-        For each of `QUANTITIES` a row, and the ratio of the stated variance to the true one.
+        For each of `QUANTITIES`, a row and the ratio of the stated variance to the true one.
 
     """
     errors = np.array([error for error, _ in samples])

@@ -53,7 +53,7 @@ SETTLE_S = 5.0
 
 
 def main() -> None:
-    """Measure and print what was asked for."""
+    """Run the requested measurements and print the results."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--runs', type=in_range(int, 1), default=50, help='runs of each row')
     parser.add_argument('--robot', action='store_true', help='measure the nodes, launched')
@@ -77,7 +77,7 @@ def main() -> None:
 
 
 def rows() -> Iterator[tuple[str, Any]]:
-    """Yield what is done with a picture of the apartment, in sizes."""
+    """Yield the operations on an image of the apartment, for several sizes."""
     for width, height in ((320, 240), (640, 480), CAMERA_PX):
         color, depth_m, camera = _picture(width, height)
         for backend in ('onnx', 'colour'):
@@ -101,7 +101,7 @@ def _lift_all(found: Any, depth_m: Any, camera: Any) -> None:
 
 
 def _picture(width_px: int, height_px: int) -> tuple[Any, Any, Any]:
-    """Return what the robot sees at its start: colours, depth and the camera."""
+    """Render the robot's view at its start: colour, depth and the camera model."""
     view = CameraView(in_world('', 'head_camera'), width_px, height_px)
     model = build_world(humanoid(), load_scene('apartment'), (Placement(),), Physics())
     data = mujoco.MjData(model)
@@ -121,17 +121,17 @@ def _cost_ms(action: Any) -> float:
 
 class Listener(Node):
     """
-    A node that records how old detections are when they arrive.
+    A node that records the age of detections on arrival.
 
     Parameters
     ----------
     simulated
-        Whether stamps are in simulated time, from `/clock`, instead of that of the computer.
+        Whether stamps are in simulated time, from `/clock`, instead of system time.
 
     Attributes
     ----------
     ages_s, times_s
-        The age of each result, and when it arrived by the monotonic clock.
+        The age of each result, and its arrival time on the monotonic clock.
 
     """
 
@@ -155,12 +155,12 @@ class Listener(Node):
 
     def spin(self, seconds: float) -> None:
         """
-        Take messages for a while.
+        Process messages for some time.
 
         Parameters
         ----------
         seconds
-            How long, in real time.
+            The duration, in real time.
 
         """
         end_s = time.monotonic() + seconds
@@ -168,7 +168,7 @@ class Listener(Node):
             rclpy.spin_once(self, timeout_sec=0.05)
 
     def report(self) -> None:
-        """Print how often results came, and how old they were."""
+        """Print the rate and the age of the results."""
         period_s = median(np.diff(self.times_s)) if len(self.times_s) > 2 else float('nan')
         worst_s = max(self.ages_s, default=float('nan'))
         late = sum(age_s > 2.0 * period_s for age_s in self.ages_s)
@@ -181,7 +181,7 @@ class Listener(Node):
 
 def measure_robot(seconds: float) -> None:
     """
-    Start the robot, and print what its perception takes.
+    Start the robot, and print the cost of its perception.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def measure_robot(seconds: float) -> None:
 
 def measure_camera(seconds: float) -> None:
     """
-    Send large pictures to a detector faster than it can take them, and print how it copes.
+    Send large images to a detector faster than it can process them, and print the results.
 
     Parameters
     ----------

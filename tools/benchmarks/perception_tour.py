@@ -65,9 +65,9 @@ from vision_msgs.msg import (  # noqa: E402
 Array = npt.NDArray[np.float64]
 WORLD, ODOM, CAMERA = 'world', 'odom', 'camera_optical_frame'
 NEAR_M, VISIBLE, FOR_S = 2.5, 0.6, 1.0
-"""What has to be remembered: how near, how much of it visible, and for how long."""
+"""When an object has to be remembered: its distance, visible fraction and view time."""
 RIGHT_M, PRESENT_M = 0.10, 0.25
-"""How exactly; and how far from a thing of its class a remembered one is no false one."""
+"""The required accuracy; and the distance to a true object beyond which one is false."""
 RECALL, FALSE_PER_MINUTE = 0.9, 1.0
 PLACES = (
     *('corridor', 'kitchen', 'kitchen_counter', 'kitchen_table', 'bedroom', 'desk', 'bed'),
@@ -84,7 +84,7 @@ PATIENCE_S = 120.0
 
 @dataclass
 class Tally:
-    """What is true of one thing, over time."""
+    """The ground truth of one object, over time."""
 
     thing: Thing
     in_view_since_s: float = math.inf
@@ -97,14 +97,14 @@ class Tally:
 
     def judge(self, time_s: float, is_in_view: bool) -> None:
         """
-        Update the tally with a new picture.
+        Update the tally with a new image.
 
         Parameters
         ----------
         time_s
-            When the picture was taken, in simulated time.
+            The time of the image, in simulated time.
         is_in_view
-            Whether the thing is near and visible enough in it.
+            Whether the object is near and visible enough in it.
 
         """
         if not is_in_view:
@@ -127,16 +127,16 @@ class Look:
 
 @dataclass
 class Row:
-    """A thing that had to be remembered.
+    """An object that had to be remembered.
 
     Attributes
     ----------
     name, kind
-        The thing of the scene.
+        The object in the scene.
     seen_s
-        The longest time for which it was in view without a break.
+        The longest time for which it was continuously in view.
     error_m
-        How far from it the nearest remembered thing of its class is; infinite if there is none.
+        The distance to the nearest remembered object of its class; infinite if there is none.
 
     """
 
@@ -147,13 +147,13 @@ class Row:
 
     @property
     def is_found(self) -> bool:
-        """Whether it was remembered about where it is."""
+        """Whether it was remembered at approximately its position."""
         return self.error_m <= RIGHT_M
 
 
 @dataclass
 class Report:
-    """What the tour found."""
+    """The results of the tour."""
 
     rows: list[Row] = field(default_factory=list)
     ghosts: dict[str, str] = field(default_factory=dict)
@@ -161,26 +161,26 @@ class Report:
 
     @property
     def errors_m(self) -> list[float]:
-        """The errors of the things that were remembered."""
+        """The errors of the objects that were remembered."""
         return [row.error_m for row in self.rows if row.is_found]
 
     @property
     def recall(self) -> float:
-        """The part of the wanted things that were remembered; NaN if none was wanted."""
+        """The recall: the fraction of wanted objects remembered; NaN if none was wanted."""
         return len(self.errors_m) / len(self.rows) if self.rows else math.nan
 
     @property
     def ghosts_per_minute(self) -> float:
-        """How many false things appeared."""
+        """The rate of false objects."""
         return 60.0 * len(self.ghosts) / max(self.simulated_s, 1.0)
 
     @property
     def is_enough(self) -> bool:
-        """Whether the robot remembers well enough."""
+        """Whether recall and false objects are within the limits."""
         return self.recall >= RECALL and self.ghosts_per_minute <= FALSE_PER_MINUTE
 
     def table(self) -> str:
-        """Write what was found, a line for each thing and each false one."""
+        """Format the results, with a line for each object and each false one."""
         lines = [f'{"thing":24} {"class":8} {"seen s":>7} {"found":5} {"error m":>8}']
         for row in sorted(self.rows, key=lambda each: (each.is_found, each.name)):
             found = 'yes' if row.is_found else 'no'
@@ -198,25 +198,25 @@ class Report:
 
 class Judge(Node):
     """
-    Knows what is true: says where the robot is, and what it should remember.
+    Source of ground truth: publishes the robot's pose, and judges its object memory.
 
     Parameters
     ----------
     detector
         `truth` to publish detections drawn from the scene; otherwise another node detects.
     seed
-        Of the noise of these detections.
+        The seed of the noise of these detections.
     **options
         Further arguments of `Node`.
 
     Attributes
     ----------
     tallies
-        What is true of each thing of the apartment.
+        The ground truth of each object in the apartment.
     objects
         The newest message of remembered objects.
     report
-        The false things so far; `finish` completes it.
+        The false objects so far; `finish` completes it.
     time_s, began_s
         The simulated time of the newest depth image, and of the first that was judged; NaN before.
     velocities, put, ask, scan
@@ -250,14 +250,14 @@ class Judge(Node):
 
     def pose(self, frame: str, child: str, time: Time = Time()) -> tuple[Array, Array]:
         """
-        Look up the pose of a frame in another one.
+        Look up the pose of a frame in another frame.
 
         Parameters
         ----------
         frame, child
             The frame in which the pose is expressed, and the one whose pose it is.
         time
-            When; the latest time for which it is known by default.
+            The time; by default the latest one available.
 
         Returns
         -------
@@ -267,13 +267,13 @@ class Judge(Node):
         Raises
         ------
         TransformException
-            The transform is not known.
+            The transform is not available.
 
         """
         return pose_of(self._buffer.lookup_transform(frame, child, time).transform)
 
     def _localise(self) -> None:
-        """Say where the odometry began in the map, which is the world."""
+        """Publish the true transform from the map, which is the world, to odometry."""
         try:
             found = self._buffer.lookup_transform(WORLD, ODOM, Time())
         except TransformException:
@@ -298,7 +298,7 @@ class Judge(Node):
                 self.report.ghosts.setdefault(each.id, f'({at.x:.2f}, {at.y:.2f}, {at.z:.2f})')
 
     def _is_there(self, detection: Detection3D) -> bool:
-        """Whether there is such a thing about there; people are furniture."""
+        """Whether a true object of this class is near the detection; people are furniture."""
         at = detection.bbox.center.position
         kind = detection.results[0].hypothesis.class_id
         where = np.array([at.x, at.y, at.z])
@@ -309,7 +309,7 @@ class Judge(Node):
         )
 
     def _take_depth(self, message: Image) -> None:
-        """Judge what is visible in a picture."""
+        """Update the tallies with the objects visible in a depth image."""
         depth, pinhole = depth_of(message), self._pinhole
         self.time_s = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
         if depth is None or pinhole is None:
@@ -332,7 +332,7 @@ class Judge(Node):
             self._detect(look, shares)
 
     def _visible(self, look: Look, thing: Thing, pinhole: Pinhole) -> float:
-        """Return which part of a thing is in a picture and not hidden."""
+        """Compute the fraction of an object that is in an image and not occluded."""
         turn = _rotation(thing.orientation_rpy_rad[2])
         offset = look.rotation.T @ (np.array(thing.position_m) - look.position)
         reach = 0.5 * float(np.linalg.norm(thing.box_m))
@@ -357,7 +357,7 @@ class Judge(Node):
         return min(float(inside.sum()) / silhouette_area_px(seen, pinhole), 1.0)
 
     def _detect(self, look: Look, shares: dict[str, float]) -> None:
-        """Publish what a detector might say: with noise, misses, and a wrong thing at times."""
+        """Publish simulated detections, with noise, misses and occasional false positives."""
         message = Detection3DArray()
         message.header.stamp, message.header.frame_id = look.stamp, ODOM
         try:
@@ -382,7 +382,7 @@ class Judge(Node):
         self._detections.publish(message)
 
     def finish(self) -> Report:
-        """Compare what is remembered with what is there."""
+        """Compare the remembered objects with ground truth."""
         report = self.report
         report.simulated_s = self.time_s - self.began_s
         for tally in self.tallies:
@@ -422,14 +422,14 @@ def _detection(at: Array, kind: str, colour: str, size: Sequence[float]) -> Dete
 
 class Tour:
     """
-    Leads the robot through the apartment.
+    Guide of the robot through the apartment.
 
     Parameters
     ----------
     ros
         The domain of the robot.
     judge
-        Hears the robot and drives it; all that it needs is waited for.
+        The judge, whose node observes and drives the robot; the tour waits for its servers.
 
     """
 
@@ -442,7 +442,7 @@ class Tour:
 
     def teleport(self, x_m: float, y_m: float) -> None:
         """
-        Put the robot somewhere without turning it: its gyroscope would miss a turn.
+        Place the robot somewhere without turning it: its gyroscope would miss a turn.
 
         Parameters
         ----------
@@ -452,7 +452,7 @@ class Tour:
         Raises
         ------
         RuntimeError
-            The simulator cannot put it there.
+            The simulator cannot place it there.
 
         """
         state: EntityState = self._answer(
@@ -466,7 +466,7 @@ class Tour:
 
     def turn_to(self, yaw_rad: float) -> None:
         """
-        Turn on the spot, for 30 s of simulated time at most.
+        Turn in place, for at most 30 s of simulated time.
 
         Parameters
         ----------
@@ -489,7 +489,7 @@ class Tour:
 
     def walk(self, x_m: float, y_m: float) -> None:
         """
-        Walk straight to a point and stand, after 90 s of simulated time at the latest.
+        Walk straight to a point and stop, after at most 90 s of simulated time.
 
         Parameters
         ----------
@@ -514,7 +514,7 @@ class Tour:
         self.wait(0.5)
 
     def look_around(self) -> None:
-        """Let the head look around."""
+        """Scan the surroundings with the head."""
         judge = self._judge
         sent = judge.scan.send_goal_async(ScanRoom.Goal())
         self._ros.wait_until(sent.done, PATIENCE_S, 'an answer of scan_room')
@@ -526,12 +526,12 @@ class Tour:
 
     def wait(self, duration_s: float) -> None:
         """
-        Wait while simulated time passes, as the depth images tell it.
+        Wait for some simulated time, measured by the stamps of depth images.
 
         Parameters
         ----------
         duration_s
-            How long.
+            The duration.
 
         """
         end_s = self._judge.time_s + duration_s
@@ -546,7 +546,7 @@ class Tour:
 @contextmanager
 def programs(options: argparse.Namespace) -> Iterator[dict[str, int]]:
     """
-    Run the simulator and the nodes of perception for the time of a `with`.
+    Run the simulator and the nodes of perception during a `with` block.
 
     Parameters
     ----------
@@ -603,7 +603,7 @@ def programs(options: argparse.Namespace) -> Iterator[dict[str, int]]:
 
 def cpu_s(pid: int) -> float:
     """
-    Read the CPU time in s that a process has used so far, its children not included.
+    Read the CPU time in s that a process has used so far, excluding its children.
 
     Parameters
     ----------
@@ -616,7 +616,7 @@ def cpu_s(pid: int) -> float:
 
 
 def main() -> int:
-    """Run, print what was found, and return whether that is enough."""
+    """Run, print the results, and return the exit status: 1 if they are insufficient."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--teleport', action='store_true', help='put the robot, do not walk')
     parser.add_argument('--detector', choices=('node', 'truth'), default='node')

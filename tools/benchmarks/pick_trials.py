@@ -2,11 +2,11 @@
 """
 Let the humanoid take things in the apartment, and count what it holds.
 
-In each trial a thing stands on a surface, within half a metre of where the robot could stand and
-walk up to, turned somehow, and the robot somewhere in that room, facing about there. It looks
-around, and takes the thing by what its camera sees; ground truth says whether it still holds it
-five seconds later, whether a failure was told as one, what was knocked over, and whether the robot
-fell. It walks in the simulator with physics and noise.
+In each trial an object stands on a surface, with a random heading, within half a metre of a place
+that the robot can walk to, and the robot somewhere in that room, roughly facing it. It looks
+around, and picks the object by what its camera sees; ground truth shows whether it still holds it
+five seconds later, whether a failure was reported as one, what was knocked over, and whether the
+robot fell. It walks in the simulator with physics and noise.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ from std_srvs.srv import Trigger
 
 KINDS = ('mug', 'bottle', 'can', 'apple', 'orange', 'cube')
 HELD_M = 0.35
-"""What is nearer to a gripper than that, and off its surface, is held."""
+"""An object that is nearer to a gripper than this, and off its surface, is held."""
 _STANDS_M = 0.5
 _SPOT_M, _SPOT_HIGH_M, _CELL_M = 0.06, 0.3, 0.02
-"""What is free of furniture where a thing is put, such as of the foot of a television."""
+"""The space where an object is placed that is free of furniture, such as a TV stand."""
 TIPPED_M = 0.05
-"""A thing that is farther from where it stood was knocked over, or pushed."""
+"""An object that has moved farther than this was knocked over or pushed."""
 LEAST = 0.8
 CODES = {
     getattr(Pick.Result, name): name
@@ -56,7 +56,7 @@ CODES = {
 
 @dataclass(frozen=True)
 class Trial:
-    """What stands where, and where the robot begins."""
+    """The object, its pose, and the initial pose of the robot."""
 
     thing: str
     surface: Surface
@@ -66,7 +66,7 @@ class Trial:
 
 
 def main() -> int:
-    """Run, print a table, and return whether enough was taken."""
+    """Run, print a table, and return the exit status: 1 if the results are insufficient."""
     parser = argparse.ArgumentParser(description=__doc__.strip().split('\n')[0])
     parser.add_argument('--trials', type=in_range(int, 1), default=40)
     parser.add_argument(
@@ -90,7 +90,7 @@ def main() -> int:
 
 def run(kitchen: Kitchen, options: argparse.Namespace) -> int:
     """
-    Do one trial after another, and print a row for each.
+    Run the trials, and print a row for each.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def run(kitchen: Kitchen, options: argparse.Namespace) -> int:
     Returns
     -------
     int
-        The exit status: 1 if too few things were held, the robot fell, or a success was none.
+        The exit status: 1 if too few objects were held, the robot fell, or a success was false.
 
     """
     random = np.random.default_rng(options.seed)
@@ -129,12 +129,12 @@ def run(kitchen: Kitchen, options: argparse.Namespace) -> int:
 
 class Kitchen:
     """
-    The apartment, its robot, and who moves things in it.
+    The apartment, its robot, and a client that moves objects in it.
 
     Parameters
     ----------
     ros
-        The domain of the robot, whose servers are waited for.
+        The domain of the robot; the constructor waits for its servers.
 
     Attributes
     ----------
@@ -166,7 +166,7 @@ class Kitchen:
 
     def drawn(self, random: np.random.Generator) -> Trial:
         """
-        Draw a trial: a thing near which a robot can stand, and a robot in that room.
+        Draw a trial: an object that a robot can stand near, and a robot in that room.
 
         Parameters
         ----------
@@ -199,7 +199,7 @@ class Kitchen:
     def _start(
         self, random: np.random.Generator, at_m: tuple[float, float]
     ) -> tuple[float, float, float] | None:
-        """Return where the robot begins: 1 to 1.6 m away, in the room, clear of what is fixed."""
+        """Draw the start pose of the robot: 1 to 1.6 m away, in the room, clear of furniture."""
         room = self._places.room_at(*at_m)
         for _ in range(50):
             away, angle = random.uniform(1.0, 1.6), random.uniform(-math.pi, math.pi)
@@ -210,7 +210,7 @@ class Kitchen:
         return None
 
     def _is_near_room(self, x: float, y: float, room: str) -> bool:
-        """Return whether a robot could stand half a metre from a thing, and walk up to there."""
+        """Check whether a robot can walk to a place half a metre from an object."""
         for number in range(16):
             c, s = math.cos(math.tau * number / 16), math.sin(math.tau * number / 16)
             stands = (x + _STANDS_M * c, y + _STANDS_M * s)
@@ -223,7 +223,7 @@ class Kitchen:
     def _is_clear(
         self, x: float, y: float, radius_m: float = 0.45, where: OccupancyMap | None = None
     ) -> bool:
-        """Return whether nothing that is fixed is near, seen from above or in a map."""
+        """Check whether an area is free of fixed objects, in the map or in another one."""
         where = where or self._map
         around = [math.tau * number / 24 for number in range(24)]
         return all(
@@ -234,21 +234,21 @@ class Kitchen:
 
     def tell(self, trial: Trial) -> tuple[str, float, list[str]]:
         """
-        Do a trial: set it up, look around, pick the thing, and drop it again.
+        Run a trial: set it up, look around, pick the object, and drop it again.
 
         Parameters
         ----------
         trial
-            What stands where, and where the robot begins.
+            The object, its pose, and the initial pose of the robot.
 
         Returns
         -------
         str
-            `held`, `told wrongly` if the robot says so and it is not, `fell`, or one of `CODES`.
+            `held`, `told wrongly` for a false report of success, `fell`, or one of `CODES`.
         float
-            How long it took, in s of simulated time.
+            The duration, in s of simulated time.
         list of str
-            The other things that were moved.
+            The other objects that were moved.
 
         """
         self._prepare(trial)
@@ -275,7 +275,7 @@ class Kitchen:
         return told, took_s, tipped
 
     def _prepare(self, trial: Trial) -> None:
-        """Put all things and the robot where they are to be."""
+        """Place all objects and the robot for the trial."""
         self.robot.reset()
         self._entities.put(trial.thing, trial.at_m, trial.turn_rad)
         x, y, yaw = trial.robot
@@ -294,7 +294,7 @@ class Kitchen:
         self._ros.wait_until(forgotten.done, 60.0, 'a memory that forgets')
 
     def _is_held(self, trial: Trial) -> bool:
-        """Return whether the thing is off its surface, and near the robot."""
+        """Check whether the object is off its surface, and near a gripper."""
         at, robot = self._entities.position_m(trial.thing), self.robot.pose.position_m
         away_m = math.hypot(at[0] - robot.real, at[1] - robot.imag)
         return away_m < HELD_M + 0.2 and at[2] > 0.6 and math.dist(at, trial.at_m) > 0.05
@@ -308,7 +308,7 @@ class Kitchen:
 
 
 def _top_of(scene: Scene, surface: Surface) -> OccupancyMap:
-    """Return what is fixed and stands on a surface."""
+    """Compute the occupancy map of fixed objects on a surface."""
     low_m = surface.height_m + 0.01
     return occupancy_of(scene, Layer(low_m, low_m + _SPOT_HIGH_M), _CELL_M)
 

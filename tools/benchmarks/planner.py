@@ -2,8 +2,8 @@
 """
 Measure how long the rules of the planner take for a sentence.
 
-The sentences are those of the planner's tests, with commas and without, the wishes that have to
-be refused, and a long one that is wrong at its end. What is known is the apartment.
+The sentences are those of the planner's tests, with and without commas, the commands that have to
+be rejected, and a long one with an error at its end. The known world is the apartment.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def main() -> int:
 
 
 def apartment() -> tuple[RulePlanner, World]:
-    """Return the planner, and what it knows at home."""
+    """Return the planner, and its world model at home."""
     places = load_places(places_path('apartment'))
     surfaces = {base_name(each.name): places.room_at(*each.middle_m) for each in places.surfaces}
     rooms = tuple(sorted({each.name for each in places.rooms}))
@@ -79,13 +79,13 @@ def cost_ms(planner: RulePlanner, world: World, text: str, runs: int) -> float:
     Parameters
     ----------
     planner
-        The planner by rules.
+        The rule-based planner.
     world
-        What it knows.
+        Its world model.
     text
         The sentence.
     runs
-        How many runs count.
+        The number of counted runs.
 
     """
     planner.plan(text, world, Dialogue())

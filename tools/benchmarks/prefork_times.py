@@ -86,7 +86,7 @@ def generate_launch_description():
 
 @dataclass(frozen=True)
 class Cost:
-    """What it took until all nodes have published, and what they then hold."""
+    """The time until all nodes have published, and their memory then."""
 
     wall_s: float
     cpu_s: float
@@ -102,7 +102,7 @@ def write_package(prefix: str, nodes: int) -> None:
     prefix
         The folder to install into.
     nodes
-        How many nodes the launch file starts.
+        The number of nodes that the launch file starts.
 
     """
     for path, text in FILES.items():
@@ -115,7 +115,7 @@ def write_package(prefix: str, nodes: int) -> None:
 
 def environment_with(prefix: str) -> dict[str, str]:
     """
-    Return the environment in which the package is found.
+    Return the environment variables with which the package is found.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def measure(prefix: str, nodes: int, options: list[str]) -> Cost:
     prefix
         The folder that the package is installed in.
     nodes
-        How many nodes the launch file starts.
+        The number of nodes that the launch file starts.
     options
         Further options of `ros2 launch`.
 
@@ -173,7 +173,7 @@ def measure(prefix: str, nodes: int, options: list[str]) -> Cost:
 
 def cpu_times(pids: list[int]) -> Iterator[float]:
     """
-    Read the CPU time that each process and its ended children have used.
+    Read the CPU time used by each process and its terminated children.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One push to the side of a robot that walks, at a moment of its step."""
+"""A lateral push of a walking robot, at a given phase of its step."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ DIRECTIONS = {'left': 1j, 'right': -1j}
 
 @dataclass(frozen=True)
 class PushTrial:
-    """What is done to the robot."""
+    """The parameters of a push."""
 
     impulse_ns: float
     direction: str
     support: int
-    """The foot that carries the robot, or takes its weight, when the push begins."""
+    """The stance foot, or the foot being loaded, when the push starts."""
     phase: float
-    """The share of the step that has passed then: it begins when the other foot lands."""
+    """The phase of the step at that time, from 0 when the other foot lands."""
     speed_m_s: float = 0.3
     noise: float = 0.0
     seed: int = 0
@@ -33,7 +33,7 @@ class PushTrial:
 
     @property
     def is_outwards(self) -> bool:
-        """Whether the push is to the side of the foot that carries: the other one must cross."""
+        """Whether the push is towards the stance foot, so that the swing foot must cross over."""
         return NAMES[self.support] == self.direction
 
 
@@ -44,15 +44,15 @@ def stands_after(trial: PushTrial) -> bool:
     Parameters
     ----------
     trial
-        The push, and how the robot walks.
+        The push, and the gait of the robot.
 
     Raises
     ------
     RuntimeError
-        The robot does not walk when it is to be pushed.
+        The robot is not walking when it is to be pushed.
 
     """
-    # Legs that pass through each other would make it easy to cross them.
+    # If legs could pass through each other, crossing them would be too easy.
     settings = BackendSettings(
         Physics(self_collision='all'), noise=REALISTIC.scaled(trial.noise), seed=trial.seed
     )
@@ -68,7 +68,7 @@ def stands_after(trial: PushTrial) -> bool:
 
 
 def _wait_for_step(robot: LockstepRobot, support: int) -> None:
-    """Wait until the next step on a foot begins."""
+    """Wait until the next step on a foot starts."""
     while _support(robot) == support:
         robot.tick()
     while _support(robot) != support:
@@ -76,7 +76,7 @@ def _wait_for_step(robot: LockstepRobot, support: int) -> None:
 
 
 def _support(robot: LockstepRobot) -> int:
-    """Return the foot that carries the robot, or is about to."""
+    """Return the current or next stance foot."""
     status = robot.walking.walker.status
     if status is None or not status.footsteps:
         raise RuntimeError('The robot does not walk.')

@@ -57,16 +57,16 @@ def main() -> None:
 
 def print_rows(file: Path, rate_hz: int, runs: int) -> None:
     """
-    Print the rows of one frequency; the two kinds of nodes take turns.
+    Print the rows of one frequency; the two kinds of nodes alternate.
 
     Parameters
     ----------
     file
         The URDF file of the robot.
     rate_hz
-        How many joint states are sent a second.
+        The number of joint states sent per second.
     runs
-        How often each node is measured.
+        The number of measurements of each node.
 
     """
     pairs = [
@@ -81,7 +81,7 @@ def print_rows(file: Path, rate_hz: int, runs: int) -> None:
 
 
 def listener() -> list[str]:
-    """Return the command of a node that does nothing with joint states."""
+    """Return the command of a node that ignores the joint states it receives."""
     return [sys.executable, '-c', LISTENER]
 
 
@@ -94,7 +94,7 @@ def publisher(file: Path, rate_hz: int) -> list[str]:
     file
         The URDF file of the robot.
     rate_hz
-        How many joint states are sent a second: half the frequency that it may publish at.
+        The number of joint states sent per second: half of its maximum publish rate.
 
     """
     return [
@@ -112,12 +112,12 @@ def share_of(command: list[str], rate_hz: int) -> tuple[float, float]:
     command
         The command that runs the node.
     rate_hz
-        How many joint states are sent a second.
+        The number of joint states sent per second.
 
     Returns
     -------
     float, float
-        The share of a core that it takes, and the messages a second on `/tf`.
+        The share of a core that it uses, and the messages per second on `/tf`.
 
     """
     with running(command) as process, sender() as (node, states):
@@ -130,7 +130,7 @@ def share_of(command: list[str], rate_hz: int) -> tuple[float, float]:
 
 @contextmanager
 def sender() -> Iterator[tuple[Any, Any]]:
-    """Make a node that publishes joint states; wait until somebody hears them."""
+    """Create a node that publishes joint states; wait until it has a subscriber."""
     rclpy.init()
     node = rclpy.create_node('sender')
     states = node.create_publisher(JointState, 'joint_states', 10)
@@ -148,7 +148,7 @@ def sender() -> Iterator[tuple[Any, Any]]:
 
 def send(node: Any, states: Any, rate_hz: int, seconds: float) -> int:
     """
-    Publish joint states that change; return how many messages came on `/tf` meanwhile.
+    Publish changing joint states; return the number of messages on `/tf` meanwhile.
 
     Parameters
     ----------
@@ -157,9 +157,9 @@ def send(node: Any, states: Any, rate_hz: int, seconds: float) -> int:
     states
         Its publisher of joint states.
     rate_hz
-        How many joint states are sent a second.
+        The number of joint states sent per second.
     seconds
-        For how long.
+        The duration.
 
     """
     heard: list[bytes] = []
@@ -177,7 +177,7 @@ def send(node: Any, states: Any, rate_hz: int, seconds: float) -> int:
 
 
 def urdf() -> str:
-    """Return a robot whose joints turn about all three axes, one below the other."""
+    """Return the URDF of a serial chain whose joints rotate about all three axes in turn."""
     links = ''.join(f'<link name="link_number_{index}"/>' for index in range(JOINTS + 1))
     joints = ''.join(
         f'<joint name="{name}" type="continuous"><parent link="link_number_{index}"/>'

@@ -46,11 +46,11 @@ CAMERA = {
     'look_at': (0.0, 0.0, 0.0),
     'up_direction': (0.0, 0.0, 1.0),
 }
-"""What a browser says first of all; RViz rests until one has."""
+"""The first message of a browser; RViz rests until it is received."""
 
 
 class Cost(NamedTuple):
-    """What showing robots takes."""
+    """The cost of showing robots."""
 
     cpu: float
     memory_mb: float
@@ -60,7 +60,7 @@ class Cost(NamedTuple):
 
 class Visitor:
     """
-    Counts what a browser gets, and how often a link of the first robot moves.
+    Client that counts the data a browser receives, and the updates of one robot link.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Visitor:
     size
         The number of bytes so far.
     frames
-        How often the orientation of the first `link_1` was set so far.
+        The number of updates of the orientation of the first `link_1` so far.
 
     """
 
@@ -92,7 +92,7 @@ class Visitor:
             pass
 
     def _count(self, message: dict[str, Any]) -> None:
-        """Count the turns of one link: that is how often a picture changes."""
+        """Count the updates of one link, which give the frame rate."""
         if message['type'] == 'SetOrientationMessage' and message['name'].endswith('/link_1'):
             self._first = self._first or message['name']
             self.frames += message['name'] == self._first
@@ -100,7 +100,7 @@ class Visitor:
 
 def messages_in(data: bytes) -> list[dict[str, Any]]:
     """
-    Decode the messages that the server of viser sends together.
+    Decode the messages that the viser server sends in one batch.
 
     Parameters
     ----------
@@ -137,13 +137,13 @@ def print_row(file: Path, count: int, rate_hz: int, runs: int) -> None:
     Parameters
     ----------
     file
-        The RViz configuration that is written.
+        The RViz configuration file to write.
     count
-        How many robots are shown.
+        The number of robots.
     rate_hz
-        How many frames RViz draws a second.
+        The frame rate of RViz.
     runs
-        How often to measure; the row has the medians.
+        The number of measurements; the row has the medians.
 
     """
     file.write_text(rviz_file(count, rate_hz))
@@ -158,19 +158,19 @@ def print_row(file: Path, count: int, rate_hz: int, runs: int) -> None:
 
 def measure(file: Path, count: int) -> Cost:
     """
-    Run robots and RViz, and measure what showing them takes.
+    Run robots and RViz, and measure the cost of showing them.
 
     Parameters
     ----------
     file
         The RViz configuration.
     count
-        How many robots move.
+        The number of moving robots.
 
     Returns
     -------
     Cost
-        The share of a core, the memory, and what a browser gets.
+        The share of a core, the memory, and the data that a browser receives.
 
     """
     robots = Path(__file__).with_name('rviz_robots.py')
@@ -198,7 +198,7 @@ def measure(file: Path, count: int) -> Cost:
 @contextmanager
 def connection(port: int) -> Iterator[ClientConnection]:
     """
-    Connect to viser for the time of a `with`, as a browser does, as soon as the page is served.
+    Connect to viser during a `with` block, as a browser does, as soon as the page is served.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def connection(port: int) -> Iterator[ClientConnection]:
 
 
 def free_port() -> int:
-    """Return a port that nobody uses."""
+    """Return a free port."""
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
         return int(probe.getsockname()[1])
@@ -248,9 +248,9 @@ def rviz_file(count: int, rate_hz: int) -> str:
     Parameters
     ----------
     count
-        How many robots.
+        The number of robots.
     rate_hz
-        How many frames are drawn a second.
+        The frame rate.
 
     """
     robots = ''.join(

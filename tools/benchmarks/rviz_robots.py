@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots for the measurement of `rviz2`: descriptions, and transforms that change all the time.
+"""Robots for the measurement of `rviz2`: descriptions, and continuously changing transforms.
 
-One process sends what a `robot_state_publisher` for each robot would, since those would need the
-cores on which `rviz2` is measured. `python3 rviz_robots.py COUNT RATE_HZ` runs until it is ended.
+One process replaces the `robot_state_publisher` of each robot, since those would use the cores on
+which `rviz2` is measured. `python3 rviz_robots.py COUNT RATE_HZ` runs until it is ended.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ BODY = '<visual><geometry><box size="0.1 0.1 0.2"/></geometry></visual>'
 
 
 def main() -> None:
-    """Send until the process is ended."""
+    """Publish until the process is ended."""
     count, rate_hz = int(sys.argv[1]), float(sys.argv[2])
     rclpy.init()
     node = rclpy.create_node('robots')
@@ -48,7 +48,7 @@ def main() -> None:
 
 
 def urdf() -> str:
-    """Return a robot of two arms and two legs, all joints of which turn."""
+    """Return the URDF of a robot with two arms and two legs, all of whose joints rotate."""
     links = ''.join(f'<link name="link_{index}">{BODY}</link>' for index in range(JOINTS + 1))
     joints = ''.join(
         f'<joint name="joint_{index}" type="continuous"><parent link="link_{above(index)}"/>'
@@ -61,12 +61,12 @@ def urdf() -> str:
 
 def above(index: int) -> int:
     """
-    Return the number of the link that is the parent of a joint: six joints in a row make a limb.
+    Return the index of the parent link of a joint: six joints in a row form a limb.
 
     Parameters
     ----------
     index
-        The number of the joint, from 0 on.
+        The index of the joint, counted from 0.
 
     """
     return 0 if index % 6 == 0 else index
@@ -83,7 +83,7 @@ def describe(node: Any, name: str, index: int) -> TransformStamped:
     name
         The name of the robot, which is the prefix of its topic and frames.
     index
-        Where it stands: so many m along y.
+        Its index, which is its position along y in m.
 
     """
     publisher = node.create_publisher(String, f'/{name}/robot_description', LATCHED)

@@ -53,12 +53,12 @@ def main() -> None:
 
 def print_costs(runs: list[dict[str, float]]) -> None:
     """
-    Print what the parts of a tick cost while the robot walks.
+    Print the cost of the parts of a tick while the robot walks.
 
     Parameters
     ----------
     runs
-        Of each run the CPU time of each part in us.
+        For each run, the CPU time of each part in us.
 
     """
     settings = BackendSettings()
@@ -73,12 +73,12 @@ def print_costs(runs: list[dict[str, float]]) -> None:
 
 def print_share(runs: list[Share], what: str) -> None:
     """
-    Print what share of a core the simulator takes, and how fast its time runs.
+    Print the share of a core that the simulator uses, and its real-time factor.
 
     Parameters
     ----------
     runs
-        What was measured; the row has the medians.
+        The measurements; the row has the medians.
     what
         The name of the row.
 
@@ -89,7 +89,7 @@ def print_share(runs: list[Share], what: str) -> None:
 
 def sweep_us(scene: str) -> float:
     """
-    Measure the least CPU time of a sweep of the laser scanner, with noise, of a robot that stands.
+    Measure the minimum CPU time of a laser scan, with noise, of a standing robot.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ class TickCosts:
     """A robot that walks without ROS, and the CPU time of the parts of its ticks."""
 
     def __init__(self) -> None:
-        """Let it stand for a while, and begin to walk."""
+        """Settle the robot while it stands, and start walking."""
         robot = LockstepRobot()
         self._backend, self._control = robot.backend, robot.walking.control
         self._spent_s: dict[str, float] = {}
@@ -127,13 +127,13 @@ class TickCosts:
         self._go(SETTLE_TICKS, FORWARD_M_S)
 
     def means_us(self) -> dict[str, float]:
-        """Walk, and return the mean time of each part."""
+        """Walk, and return the mean CPU time of each part."""
         self._spent_s = {}
         self._go(TICKS, FORWARD_M_S)
         return {name: spent_s / TICKS * 1e6 for name, spent_s in self._spent_s.items()}
 
     def _go(self, ticks: int, forward_m_s: float) -> None:
-        """Observe, decide and step, many times."""
+        """Run a number of ticks: observe, control and step."""
         backend, control = self._backend, self._control
         for _ in range(ticks):
             control.walk(VelocityCommand(forward_m_s))
@@ -142,7 +142,7 @@ class TickCosts:
             self._timed('step', lambda: backend.step({'': targets}))  # noqa: B023
 
     def _timed(self, name: str, action: Callable[[], T]) -> T:
-        """Do something and add its time."""
+        """Run an action and add its CPU time to a part."""
         begin_s = time.process_time()
         result = action()
         self._spent_s[name] = self._spent_s.get(name, 0.0) + time.process_time() - begin_s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the simulator as users do, let its robot walk, and read what it takes."""
+"""Run the simulator as users do, let its robot walk, and measure its cost."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SEND_S = 0.1
 
 @dataclass(frozen=True)
 class Share:
-    """The share of a core that the simulator takes, and how much faster than real it runs."""
+    """The share of a core that the simulator uses, and its real-time factor."""
 
     cpu: float
     factor: float
@@ -43,7 +43,7 @@ def simulator_share(
     Parameters
     ----------
     real_time_factor
-        How many times as fast as real the simulation may run; 0 is as fast as possible.
+        The limit of the real-time factor; 0 for as fast as possible.
     forward_m_s
         The commanded forward velocity.
     scene
@@ -72,7 +72,7 @@ def simulator_share(
 
 
 def _simulator(real_time_factor: float, scene: str) -> list[str]:
-    """Return the command of a simulator that draws no camera images."""
+    """Return the command of a simulator that renders no camera images."""
     settings = {
         'real_time_factor': real_time_factor,
         'camera_rate_hz': 0.0,
@@ -85,7 +85,7 @@ def _simulator(real_time_factor: float, scene: str) -> list[str]:
 
 
 class _Driver:
-    """Sends a velocity, and hears how fast time runs."""
+    """Node that publishes a velocity, and subscribes to the real-time factor."""
 
     def __init__(self, node: Any, forward_m_s: float) -> None:
         self._node = node
@@ -103,7 +103,7 @@ class _Driver:
         self._node.create_subscription(LaserScan, 'scan', lambda scan: None, SENSOR)
 
     def wait_for_factor(self) -> None:
-        """Wait until the simulator says how fast it is."""
+        """Wait until the simulator publishes its real-time factor."""
         end_s = time.monotonic() + TIMEOUT_S
         while not self._factors:
             if time.monotonic() > end_s:
@@ -111,7 +111,7 @@ class _Driver:
             rclpy.spin_once(self._node, timeout_sec=0.1)
 
     def drive(self, duration_s: float) -> list[float]:
-        """Go on for a while; return the factors that were heard meanwhile."""
+        """Drive for some time; return the real-time factors received meanwhile."""
         self._factors.clear()
         end_s = time.monotonic() + duration_s
         while (left_s := end_s - time.monotonic()) > 0:
@@ -121,7 +121,7 @@ class _Driver:
 
 @contextmanager
 def _driver(forward_m_s: float) -> Iterator[_Driver]:
-    """Make the node that drives."""
+    """Create the driver node."""
     rclpy.init()
     node = rclpy.create_node('driver')
     try:

@@ -21,17 +21,17 @@ MASS_LINK = 'torso'
 HAND_LINK, HAND_KG = 'left_palm', 0.3
 ARM = 'left_arm_controller'
 CARRYING_RAD = (0.2, 0.15, 0.0, -1.77, 0.0, 0.0)
-"""The upper arm hangs, and the forearm is level."""
+"""Arm posture for carrying: the upper arm hangs, and the forearm is level."""
 SETTLE_S = 1.0
 WAY_S = 0.5
 LONGEST_STALL_TICKS = 10
 EXTRAPOLATION_S = 0.03
-"""As the simulator has it by default: a fast foot that goes on for longer misses its place."""
+"""The default of the simulator: a fast foot extrapolated for longer misses its foothold."""
 
 
 @dataclass(frozen=True)
 class Conditions:
-    """What differs from run to run."""
+    """The random conditions of a run."""
 
     seed: int
     friction: float
@@ -46,7 +46,7 @@ class Conditions:
         Parameters
         ----------
         seed
-            Of the random numbers; the same seed gives the same conditions.
+            The seed of the random numbers; the same seed gives the same conditions.
 
         """
         random = np.random.default_rng([seed, 1])
@@ -60,7 +60,7 @@ class Conditions:
 
 @dataclass(frozen=True)
 class Segment:
-    """A command for a while, in which the robot is pushed once."""
+    """A velocity command for some time, with one push."""
 
     command: VelocityCommand
     duration_s: float
@@ -70,7 +70,7 @@ class Segment:
 
 @dataclass(frozen=True)
 class SoakResult:
-    """How a run ended; where it walked and what it was told last."""
+    """The result of a run, with the distance walked and the last command."""
 
     conditions: Conditions
     survived_s: float
@@ -79,7 +79,7 @@ class SoakResult:
     last: Segment
     phase: str
     alarms: int
-    """How often it took its way for blocked, with nothing in it."""
+    """The number of false alarms of a blocked way."""
 
 
 def drawn_segment(random: np.random.Generator, push_ns: float) -> Segment:
@@ -114,18 +114,18 @@ def drawn_segment(random: np.random.Generator, push_ns: float) -> Segment:
 
 class SoakRun:
     """
-    A robot that walks in a world of its own, without ROS.
+    A robot that walks in its own world, without ROS.
 
     Parameters
     ----------
     conditions, push_ns
-        What differs from run to run, and the impulse of the pushes in N s.
+        The conditions of the run, and the impulse of the pushes in N s.
     drop_outs
-        The chance at a tick that control begins to stall.
+        The probability per tick that control starts to stall.
     hands
         Whether the robot has wrists and grippers.
     load_kg
-        What the left hand carries, held before the body; only with hands.
+        The load of the left hand, held in front of the body; only with hands.
 
     """
 
@@ -159,7 +159,7 @@ class SoakRun:
         self._alarms, self._was_blocked = 0, False
 
     def _hold_hand_before_body(self) -> None:
-        """Raise the left hand to where things are carried."""
+        """Raise the left hand to the carrying posture."""
         control = self._robot.walking.control
         arm = control.trajectory_controllers[ARM]
         request = TrajectoryRequest(arm.own, [TrajectoryPoint(SETTLE_S, CARRYING_RAD)])
@@ -167,12 +167,12 @@ class SoakRun:
 
     def run(self, duration_s: float) -> SoakResult:
         """
-        Walk by random commands until the time is over or the robot falls.
+        Walk with random commands until the time is over or the robot falls.
 
         Parameters
         ----------
         duration_s
-            How long at most, in simulated time.
+            The maximum duration, in simulated time.
 
         """
         backend = self._robot.backend
@@ -194,7 +194,7 @@ class SoakRun:
         )
 
     def _obey(self, segment: Segment, at_most_s: float) -> bool:
-        """Obey a command; return whether the robot is on its feet at the end."""
+        """Execute a command; return whether the robot is on its feet at the end."""
         robot, command = self._robot, segment.command
         robot.drive(command.forward_m_s, command.left_m_s, command.turn_rad_s)
         duration_s = min(segment.duration_s, at_most_s)
@@ -206,7 +206,7 @@ class SoakRun:
         return self._walk(duration_s - before_s)
 
     def _walk(self, duration_s: float) -> bool:
-        """Let time pass, and add to the way, half a second after the other."""
+        """Walk for some time, and accumulate the distance, in steps of half a second."""
         left_s = duration_s
         while left_s > 0.0:
             place = self._robot.pose.position_m
@@ -219,7 +219,7 @@ class SoakRun:
         return True
 
     def _count_alarms(self) -> None:
-        """Note whether the walk takes its way for blocked, which lasts half a second at least."""
+        """Count the alarms of a blocked way, each of which lasts at least half a second."""
         is_blocked = self._robot.walking.walker.is_blocked
         self._alarms += is_blocked and not self._was_blocked
         self._was_blocked = is_blocked

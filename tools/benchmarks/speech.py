@@ -3,10 +3,10 @@
 Count how many spoken commands are understood, and how many other sentences are taken for one.
 
 Synthesizers of the system, flite and espeak-ng, speak the commands of the planner's tests, and
-sentences that are none; the recogniser has the grammar of the planner in the apartment, or is
-Whisper with a model of yours (`--whisper FOLDER`), beside which the grammar hears "stop".
-A command is right if the plan of what was recognized is that of what was said, and a stop if it
-stops the robot.
+sentences that are not commands; the recogniser has the grammar of the planner in the apartment,
+or is Whisper with a model of yours (`--whisper FOLDER`), beside which the grammar hears "stop".
+A command is correct if the plan of the recognized text equals that of the spoken one, and a stop
+if it stops the robot.
 """
 
 from __future__ import annotations
@@ -78,14 +78,14 @@ SAMPLES = {
     'flite awb': ('go to the kitchen', 'stop', 'let us watch a movie later'),
     'espeak en-us': ('please call my mother tonight',),
 }  # fmt: skip
-"""What the tests of voice_control hear: commands, and sentences that are none."""
+"""The samples of the voice_control tests: commands, and sentences that are not commands."""
 SAY = re.compile(r'say (dinner|good)|.* say done')
 PEAK = 12_000.0
 
 
 @dataclass
 class Row:
-    """What became of the sentences of a voice: right, rejected, wrong; others taken; stops."""
+    """Counts of the sentences of a voice: right, rejected, wrong; false accepts; stops."""
 
     counts: Counter[str] = field(default_factory=Counter)
     speech_s: float = 0.0
@@ -154,7 +154,7 @@ def measured(
     listener: Listener, options: argparse.Namespace,
 ) -> Row:  # fmt: skip
     """
-    Synthesize all sentences with a voice, recognize them, and count what became of them.
+    Synthesize all sentences with a voice, recognize them, and count the results.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def measured(
     planner, world
         Decide whether two sentences mean the same.
     listener
-        The recogniser that is measured.
+        The recogniser to measure.
     options
         The command line: `noise` and `list`.
 
@@ -205,7 +205,7 @@ def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
     noise
         The standard deviation of the noise, in steps of 16-bit samples.
     seed
-        Of the noise.
+        The seed of the noise.
 
     Returns
     -------
@@ -263,7 +263,7 @@ def write_samples(folder: Path, grammar: str) -> None:
     Parameters
     ----------
     folder
-        Where to write them.
+        The folder of the samples.
     grammar
         The commands in JSGF.
 
@@ -307,14 +307,14 @@ def recognized(listener: Listener, sound: bytes) -> tuple[str, bool, bool]:
 
 def plan_of(planner: RulePlanner, world: World, text: str) -> tuple[object, ...] | None:
     """
-    Plan a sentence, so that plans can be compared.
+    Plan a sentence, in a form in which plans can be compared.
 
     Parameters
     ----------
     planner
-        The planner by rules.
+        The rule-based planner.
     world
-        What it knows.
+        Its world model.
     text
         The sentence.
 

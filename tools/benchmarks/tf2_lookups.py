@@ -72,7 +72,7 @@ def cost_us(action: Callable[[], object]) -> float:
     Parameters
     ----------
     action
-        What to measure.
+        The action to measure.
 
     """
     begin_s = time.process_time()
@@ -88,7 +88,7 @@ def taking_us(buffer: Buffer, messages: list[TransformStamped]) -> float:
     Parameters
     ----------
     buffer
-        The buffer, which has the transforms afterwards.
+        The buffer, which contains the transforms afterwards.
     messages
         All transforms to set.
 
@@ -116,7 +116,7 @@ def message_of(link: int, time_s: float, generator: np.random.Generator) -> Tran
     Parameters
     ----------
     link
-        The number of the parent; the child has the next one.
+        The index of the parent; the child has the next one.
     time_s
         The stamp.
     generator
@@ -135,7 +135,7 @@ def message_of(link: int, time_s: float, generator: np.random.Generator) -> Tran
 
 def scipy_chain(messages: list[TransformStamped]) -> Callable[[], object]:
     """
-    Prepare the same look-up with scipy: all links half-way between two samples, in whole batches.
+    Prepare the same lookup with scipy: all links half-way between two samples, in batches.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def scipy_chain(messages: list[TransformStamped]) -> Callable[[], object]:
 
 def numbers(message: TransformStamped) -> list[float]:
     """
-    Return the numbers of a transform: the translation x, y, z and the quaternion x, y, z, w.
+    Return the components of a transform: the translation x, y, z and the quaternion x, y, z, w.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ from push_trial import DIRECTIONS, PushTrial, stands_after
 
 
 def main() -> int:
-    """Run, print a table, and return whether it stood all pushes."""
+    """Run, print a table, and return the exit status: 1 if the robot fell."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
         '--impulses',
@@ -70,7 +70,7 @@ def main() -> int:
 
 
 def _row(trial: PushTrial, stood: Sequence[bool]) -> str:
-    """Return the row of all phases of a push."""
+    """Format the row of all phases of a push."""
     cells = ' | '.join('stood' if each else 'fell' for each in stood)
     return f'| {trial.impulse_ns:.0f} N s {trial.direction} | {NAMES[trial.support]} | {cells} |'
 

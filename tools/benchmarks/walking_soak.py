@@ -19,7 +19,7 @@ FALLS_ALLOWED = 1 / 20
 
 
 def main() -> int:
-    """Run, print a table, and return whether enough survived."""
+    """Run, print a table, and return the exit status: 1 if too many fell."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--runs', type=int, default=20)
     parser.add_argument('--seconds', type=float, default=60.0, help='length of a run')
@@ -64,7 +64,7 @@ def row(result: SoakResult) -> str:
     Parameters
     ----------
     result
-        How the run ended.
+        The result of the run.
 
     """
     conditions = result.conditions
@@ -81,7 +81,7 @@ def ending(result: SoakResult) -> str:
     Parameters
     ----------
     result
-        The run.
+        The result of the run.
 
     """
     if not result.fell:
@@ -101,9 +101,9 @@ def summary(results: list[SoakResult], cpu_s: float) -> str:
     Parameters
     ----------
     results
-        How they ended.
+        The results of all runs.
     cpu_s
-        The CPU time that they took together.
+        The total CPU time.
 
     """
     stood = sum(not result.fell for result in results)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Set the workspace up, or build it: `python3 tools/setup COMMAND`, which commands.py lists.
 
-This file and prerequisites.py parse under any Python 3, so that a wrong version gets a sentence
+This file and prerequisites.py parse under any Python 3, so that a wrong version gets a message
 instead of a syntax error.
 """
 

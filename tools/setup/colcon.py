@@ -25,8 +25,8 @@ def build_underlay(
     """
     Build packages of tools/underlay into the environment, which thereby gets its setup.bash.
 
-    ros_environment goes first: once the environment has set-up files, it can be named as the
-    prefix in which the other packages find what they depend on.
+    ros_environment is built first: once the environment has set-up files, it can be used as the
+    prefix in which the other packages find their dependencies.
 
     Parameters
     ----------
@@ -37,8 +37,8 @@ def build_underlay(
     names
         Packages to build.
     waiting
-        Packages that are neither built nor to be built now. colcon would look for what they
-        install, as others depend on them for their tests.
+        Packages that are neither built nor to be built now. colcon would look for their installed
+        files, as others depend on them for their tests.
     finished
         Called with the name of each package as soon as it is built.
 

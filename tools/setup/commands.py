@@ -34,7 +34,7 @@ TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
 
 def main(argv: list[str]) -> int:
     """
-    Run a command of the set-up, report what ends it early, and return the exit status.
+    Run a command of the set-up, report an error or interruption, and return the exit status.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def main(argv: list[str]) -> int:
 
 def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
     """
-    Parse the command line; what `build` does not know goes to colcon.
+    Parse the command line; unknown arguments of `build` are passed to colcon.
 
     Parameters
     ----------
@@ -126,10 +126,10 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
 @contextmanager
 def only_one_at_a_time(root: Path) -> Iterator[None]:
     """
-    Lock a workspace against a second set-up or build, waiting for one that runs.
+    Lock a workspace against a second set-up or build, waiting for a running one.
 
-    Programs that are started meanwhile inherit the lock, so what a killed set-up leaves running
-    is waited for, too.
+    Programs that are started meanwhile inherit the lock, so that the next one also waits for
+    processes left behind by a killed set-up.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
 
 def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True) -> int:
     """
-    Bring the environment up to date with this workspace; quick where it is already.
+    Bring the environment up to date with this workspace; quick if it already is.
 
     Parameters
     ----------
@@ -161,8 +161,9 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
     quiet
         Print nothing if the environment is complete, and no hint at the end.
     everything
-        Otherwise, what the command does not need waits: interface packages that nothing in src/
-        depends on, and packages on demand and wheels of parts that ASKED_FOR does not name.
+        Install everything; otherwise defer what the command does not need: interface packages that
+        nothing in src/ depends on, and packages on demand and wheels of parts that ASKED_FOR does
+        not name.
 
     Returns
     -------
@@ -228,7 +229,7 @@ def set_up_tests(locations: Locations) -> int:
     Parameters
     ----------
     locations
-        The workspace and its environment, which is complete but for them.
+        The workspace and its environment, which is complete except for them.
 
     Returns
     -------
@@ -252,7 +253,7 @@ def set_up_tests(locations: Locations) -> int:
 
 def wheels_digest(*requirements: Path) -> str:
     """
-    Compute the digest of what is installed, and of how it is mended.
+    Compute the digest of the pinned wheels, and of the patches to them.
 
     Parameters
     ----------
@@ -271,7 +272,7 @@ def wheels_digest(*requirements: Path) -> str:
 
 def require_machine(locations: Locations, *, has_wheels: bool) -> None:
     """
-    Check that the machine has all that is needed, before anything is downloaded.
+    Check that the machine meets all requirements, before anything is downloaded.
 
     Parameters
     ----------
@@ -323,7 +324,7 @@ def build(locations: Locations, arguments: list[str]) -> int:
 
 def remove(paths: Iterator[Path]) -> None:
     """
-    Delete those of some folders that exist.
+    Delete folders, if they exist.
 
     Parameters
     ----------
@@ -348,7 +349,7 @@ def refuse_what_belongs_to_others(locations: Locations) -> None:
     Raises
     ------
     SetupError
-        It belongs to another workspace, and .venv is no link to it.
+        It belongs to another workspace, and .venv is not a link to it.
 
     """
     other = Home(locations).other_workspace()
@@ -361,7 +362,7 @@ def refuse_what_belongs_to_others(locations: Locations) -> None:
 
 def forget_environment(locations: Locations) -> None:
     """
-    Delete the environment that the set-up placed; of one that the user named, only the link.
+    Delete the environment if the set-up placed it; if the user named it, only the link.
 
     Parameters
     ----------
@@ -384,7 +385,7 @@ def explain_os_error(error: OSError) -> str:
     Parameters
     ----------
     error
-        What was raised during a command.
+        The error raised during a command.
 
     """
     name = f' ({error.filename})' if error.filename else ''

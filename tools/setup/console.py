@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the set-up says: numbered steps, progress within a step, errors as sentences."""
+"""The console output of the set-up: numbered steps, progress within a step, and errors."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ import time
 
 
 class SetupError(Exception):
-    """Something that ends the set-up; its text is a sentence with a way out."""
+    """An error that ends the set-up; its message includes a remedy."""
 
 
 class Steps:
     """
-    Numbered steps with progress: a line that is rewritten on a terminal, else one at times.
+    Numbered steps with progress: a line that is rewritten on a terminal, else occasional lines.
 
     Parameters
     ----------
     count
-        How many steps there will be.
+        The number of steps.
 
     """
 
@@ -48,7 +48,7 @@ class Steps:
 
     def progress(self, text: str) -> None:
         """
-        Show how far the step is; off a terminal, at most every `QUIET_PERIOD_S`.
+        Show the progress of the step; without a terminal, at most every `QUIET_PERIOD_S`.
 
         Parameters
         ----------
@@ -77,7 +77,7 @@ class Steps:
         self._last_line_s = time.monotonic()
 
     def end(self) -> None:
-        """Leave the line of the last progress."""
+        """End the line of the last progress."""
         self._close_line()
 
     def _close_line(self) -> None:

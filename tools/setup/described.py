@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Packages that are not built: interfaces are found and shown, and whoever uses one is told.
+"""Packages that are not built: their interfaces can be shown, and using one is an error.
 
-What is written here is replaced, file by file, when the package is built.
+The files written here are replaced, one by one, when the package is built.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ IN_CMAKE = 'message(FATAL_ERROR "{sentence}")\n'
 
 def describe(package: Package, locations: Locations) -> None:
     """
-    Install the interface definitions of a package, and an error message for whoever uses it.
+    Install the interface definitions of a package, and stubs that raise an error when used.
 
     Importing an interface package in Python or finding it in CMake fails with that message.
 
@@ -65,13 +65,13 @@ def describe(package: Package, locations: Locations) -> None:
     for path, text in files.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding='utf-8')
-    # An interrupted build has told colcon's set-up files of a package that has none of its own.
+    # An interrupted build lists a package in colcon's set-up files that has none of its own.
     (environment / 'share' / 'colcon-core' / 'packages' / package.name).unlink(missing_ok=True)
 
 
 def forget(package: Package, locations: Locations) -> None:
     """
-    Delete the notes on a package that building it does not replace.
+    Delete the stubs of a package that building it does not replace.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the workspace's parts lie: the environment is always reached as .venv, wherever it is."""
+"""The folders of the workspace: the environment is always reached as .venv, wherever it is."""
 
 from __future__ import annotations
 
@@ -38,19 +38,19 @@ class Locations:
 
     @property
     def is_elsewhere(self) -> bool:
-        """Tell whether .venv is, or has to be, a link to the environment."""
+        """Whether .venv is, or has to be, a link to the environment."""
         return self.environment != self.link
 
     @property
     def is_linked(self) -> bool:
-        """Tell whether .venv is a link to this very environment."""
+        """Whether .venv is a link to this environment."""
         real = os.path.realpath
         return self.link.is_symlink() and real(self.link) == real(self.environment)
 
 
 def find_locations(root: Path, wanted: str | None) -> Locations:
     """
-    Decide where the environment lies: as wanted, as it is now, in .venv, or in the cache.
+    Locate the environment: as requested, at its current place, in .venv, or in the cache.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def find_locations(root: Path, wanted: str | None) -> Locations:
     Raises
     ------
     SetupError
-        .venv holds another environment than the wanted one, or scripts cannot name the
+        .venv holds another environment than the requested one, or scripts cannot name the
         interpreter in their first line.
 
     """
@@ -108,14 +108,14 @@ def fits_in_shebang(environment: Path) -> bool:
 
 
 def cache_folder() -> Path:
-    """Return the folder for environments that cannot lie in their workspace."""
+    """Return the folder for environments that cannot be in their workspace."""
     base = os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'
     return Path(base) / OWN_MARK
 
 
 def link_environment(locations: Locations) -> None:
     """
-    Make .venv a link to an environment that lies elsewhere.
+    Make .venv a link to an environment elsewhere.
 
     Parameters
     ----------

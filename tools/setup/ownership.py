@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which workspace an environment belongs to: no other one may change or delete it."""
+"""Ownership of an environment: only its own workspace may change or delete it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def python_version() -> str:
 
 class Home:
     """
-    The note in an environment on the workspace, the place and the Python it was made for.
+    The record in an environment of the workspace, the path and the Python it was made for.
 
     Parameters
     ----------
@@ -33,11 +33,11 @@ class Home:
         self._text = f'{locations.root}\n{locations.environment}\n{python_version()}'
 
     def write(self) -> None:
-        """Note that the environment is made for this workspace."""
+        """Record that the environment is made for this workspace."""
         Stamp(self._path).write(self._text)
 
     def require_same(self) -> None:
-        """Refuse an environment that was moved, or made for another workspace or Python."""
+        """Reject an environment that was moved, or made for another workspace or Python."""
         if not self._path.exists() or Stamp(self._path).matches(self._text):
             return
         environment = self._locations.environment
@@ -63,13 +63,13 @@ class Home:
         return root if is_other else None
 
     def is_deleted_with_the_workspace(self) -> bool:
-        """Tell whether the set-up has placed the environment, for nobody else."""
+        """Check whether the set-up placed the environment, for this workspace only."""
         locations = self._locations
         is_placed = not locations.is_elsewhere or locations.environment.parent == cache_folder()
         return is_placed and self.other_workspace() is None
 
     def _advice(self) -> str:
-        """Say how this workspace gets an environment of its own, without harm to another one."""
+        """Explain how to make a separate environment, without affecting another workspace."""
         if self.is_deleted_with_the_workspace():
             return 'run `make distclean setup` to make it anew'
         if self._locations.is_linked:

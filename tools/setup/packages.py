@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the packages in a folder depend on, and which of the underlay's a command has to have."""
+"""The dependencies of packages, and the underlay packages that a command needs."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ INTERFACES = 'rosidl_interface_packages'
 
 @dataclass(frozen=True)
 class Package:
-    """A package of ROS, as its package.xml tells.
+    """A ROS package, as described by its package.xml.
 
     depends_on: the names in all of its tags such as depend, exec_depend and test_depend;
     is_interface: whether it defines messages, services or actions;
-    on_demand: what a command that needs it names, if not every command does: the words in the tag
-    on_demand of its exports.
+    on_demand: if not every command needs it, the words with which a command asks for it: those in
+    the tag on_demand of its exports.
     """
 
     name: str
@@ -33,12 +33,12 @@ def read_packages(folder: Path) -> dict[str, Package]:
     """
     Find the packages below a folder, by name, without those that colcon ignores.
 
-    One whose package.xml cannot be read is left out: colcon says what is wrong with it.
+    One whose package.xml cannot be read is left out: colcon reports the error.
 
     Parameters
     ----------
     folder
-        Where to look; a COLCON_IGNORE in this very folder does not count.
+        The folder to search; a COLCON_IGNORE in this very folder is ignored.
 
     """
     found: dict[str, Package] = {}
@@ -76,18 +76,18 @@ def needed(
     underlay: dict[str, Package], workspace: dict[str, Package], asked_for: str = ''
 ) -> set[str]:
     """
-    Select the packages of the underlay without which a command does not run.
+    Select the packages of the underlay that a command needs.
 
-    These are all programs and libraries, and of the interface packages, which take long to build,
-    those that something in the workspace or in another needed package depends on. Packages on
-    demand, and what the workspace has for them alone, count when the command names them.
+    These are all programs and libraries, and those interface packages, which are slow to build,
+    that the workspace or another needed package depends on. Packages on demand, and workspace
+    packages that only serve them, are included when the command names them.
 
     Parameters
     ----------
     underlay, workspace
         Packages of tools/underlay and of src/, by name.
     asked_for
-        The arguments of the command; words that end in `:=false` do not count.
+        The arguments of the command; words that end in `:=false` are ignored.
 
     Returns
     -------

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wheels that only some parts of the robot need: which they are, and when they are installed.
+"""Wheels that only some parts of the robot need, which are installed on demand.
 
-`make bringup` without navigation needs no OpenCV, and 190 MB less than everything. What waits is
-told by its modules: whoever imports one learns which command installs it.
+`make bringup` without navigation needs no OpenCV, and 190 MB less than everything. Missing
+modules are replaced by stubs: importing one reports the command that installs it.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ raise ImportError(
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the robot with wheels of its own.
+    """A part of the robot with its own wheels.
 
-    words: a command whose arguments have one of them needs the part; modules: what its wheels are
-    imported as; pins: the lines of its requirements.
+    words: a command whose arguments contain one of them needs the part; modules: the import names
+    of its wheels; pins: the lines of its requirements.
     """
 
     name: str
@@ -46,7 +46,7 @@ class Part:
         Parameters
         ----------
         arguments : str
-            All of them, separated by spaces; those that end in `:=false` do not count.
+            All of them, separated by spaces; those that end in `:=false` are ignored.
 
         """
         given = [word for word in arguments.lower().split() if not word.endswith(':=false')]
@@ -55,7 +55,7 @@ class Part:
 
 def read_parts(requirements: str) -> list[Part]:
     """
-    Parse the parts of a requirements file, in which each begins with a line that names it.
+    Parse the parts of a requirements file, in which each starts with a line that names it.
 
     Parameters
     ----------
@@ -81,14 +81,14 @@ def read_parts(requirements: str) -> list[Part]:
 
 class Parts:
     """
-    The parts of a requirements file in an environment, each with a stamp once it is there.
+    The parts of a requirements file in an environment, each with a stamp once installed.
 
     Parameters
     ----------
     locations
         The workspace and its environment.
     requirements
-        The file, which is read at once.
+        The file, which is read immediately.
     asked_for
         The arguments of the command, which may name parts.
 
@@ -101,7 +101,7 @@ class Parts:
 
     def to_install(self, *, everything: bool) -> list[Part]:
         """
-        List the parts that are wanted, or were installed before, and are not as pinned.
+        List the parts that are wanted or were installed before, and do not match their pins.
 
         Parameters
         ----------
@@ -123,7 +123,7 @@ class Parts:
         Parameters
         ----------
         parts
-            What to install.
+            The parts to install.
         steps
             Shows the progress.
 
@@ -147,7 +147,7 @@ class Parts:
             self._stamp(part).write(_digest(part))
 
     def describe_others(self) -> None:
-        """Put a sentence where the modules of missing parts would be."""
+        """Write stubs for the modules of missing parts, which report how to install them."""
         packages = wheels.site_packages(self._locations)
         for part in self._parts:
             if self._stamp(part).exists():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a machine must have before anything is downloaded, each with the command that mends it.
+"""Requirements of the machine, checked before any download, each with a remedy.
 
-Every check returns a sentence, or None where all is well.
+Every check returns an error message, or None on success.
 """
 
 import os
@@ -76,7 +76,7 @@ def platform_problem(
 
 
 def venv_problem() -> Optional[str]:
-    """Name a Python that cannot make virtual environments."""
+    """Report a Python that cannot create virtual environments."""
     try:
         import ensurepip
         import venv
@@ -148,7 +148,7 @@ def space_problem(folder: str, needed: int) -> Optional[str]:
     folder
         The folder of the environment, which need not exist yet.
     needed
-        How much space has to be free, in bytes.
+        The required free space, in bytes.
 
     """
     while not os.path.isdir(folder):
@@ -164,7 +164,7 @@ def space_problem(folder: str, needed: int) -> Optional[str]:
 
 def problems(root: str, environment: str, has_wheels: bool) -> List[str]:
     """
-    Check all that a machine must have for a workspace and its environment.
+    Check all requirements of a workspace and its environment.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def problems(root: str, environment: str, has_wheels: bool) -> List[str]:
     Returns
     -------
     list of str
-        A message for each problem, none if all is well.
+        A message for each problem.
 
     """
     checks = [

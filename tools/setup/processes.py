@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the tools of the environment, untouched by whatever the user's shell has set up."""
+"""Run the tools of the environment, isolated from the setup of the user's shell."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import Any
 from console import SetupError
 
 GRACE_S = 5.0
-KEPT_OPEN: list[int] = []  # descriptors that the programs inherit, as the lock of the workspace
+KEPT_OPEN: list[int] = []  # descriptors that the programs inherit, such as the workspace lock
 INHERITED = {
     'AMENT_PREFIX_PATH',
     'CMAKE_PREFIX_PATH',
@@ -24,7 +24,7 @@ INHERITED = {
     'PIP_PREFIX',
     'PIP_TARGET',
     'PIP_USER',
-    'PYTHONDONTWRITEBYTECODE',  # what is installed is compiled, which halves its start-up
+    'PYTHONDONTWRITEBYTECODE',  # installed modules are compiled, which halves the start-up time
     'PYTHONHOME',
     'PYTHONPATH',
     'ROS_DISTRO',
@@ -35,7 +35,7 @@ INHERITED = {
 
 def environment_variables(environment: Path) -> dict[str, str]:
     """
-    Compute the variables with which the environment's own programs run.
+    Compute the environment variables for the environment's own programs.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def without_inherited() -> dict[str, str]:
 @contextmanager
 def started(command: Sequence[str | Path], **options: Any) -> Iterator[subprocess.Popen[str]]:
     """
-    Start a program in a session of its own; an exception ends it with all that it started.
+    Start a program in its own session; an exception ends it with all its descendants.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def started(command: Sequence[str | Path], **options: Any) -> Iterator[subproces
 
 
 def _end_session(process: subprocess.Popen[str]) -> None:
-    """Ask all of a session to end, and make it end."""
+    """Terminate all processes of a session, and kill those that remain."""
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGTERM)
         with suppress(subprocess.TimeoutExpired):
@@ -175,9 +175,9 @@ def last_words(log: Path, mark: str, count: int = 3) -> str:
     log
         The file.
     mark
-        A text such as `ERROR`.
+        A string such as `ERROR`.
     count
-        How many lines to quote at most.
+        The maximum number of lines to quote.
 
     """
     lines = [line for line in log.read_text(encoding='utf-8').splitlines() if line.strip()]
@@ -186,7 +186,7 @@ def last_words(log: Path, mark: str, count: int = 3) -> str:
 
 def run_or_fail(command: Sequence[str | Path], *, cwd: Path, failure: str) -> None:
     """
-    Run a program that needs to print nothing when all is well.
+    Run a program whose output is only shown on failure.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def run_or_fail(command: Sequence[str | Path], *, cwd: Path, failure: str) -> No
     cwd
         Its working directory.
     failure
-        The beginning of the message if it fails.
+        The start of the message if it fails.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a result is still that of its sources: a digest of them, kept beside the result."""
+"""Stamps of build results: digests of their sources, to detect changes."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def files_below(folder: Path) -> Iterator[str]:
     Parameters
     ----------
     folder
-        Where to look.
+        The folder to search.
 
     Yields
     ------
     str
-        The path of each file, which begins with the folder.
+        The path of each file, which starts with the folder.
 
     """
     for base, folders, files in os.walk(folder):
@@ -33,14 +33,14 @@ def files_below(folder: Path) -> Iterator[str]:
 
 def digest(paths: Iterable[str | Path], *more: str) -> str:
     """
-    Compute a digest of the names and contents of files, and of some texts.
+    Compute a digest of the names and contents of files, and of further strings.
 
     Parameters
     ----------
     paths
-        The files; their order counts.
+        The files; their order matters.
     *more
-        The texts.
+        The strings.
 
     Returns
     -------
@@ -71,7 +71,7 @@ class Stamp:
 
     def matches(self, current: str) -> bool:
         """
-        Whether the result was made, to its end, from these sources.
+        Whether the result is complete and was made from these sources.
 
         Parameters
         ----------
@@ -85,11 +85,11 @@ class Stamp:
             return False
 
     def exists(self) -> bool:
-        """Tell whether the result was made to its end, from these sources or others."""
+        """Check whether the result is complete, from these sources or others."""
         return self._path.exists()
 
     def clear(self) -> None:
-        """Say that the result is being made: an interruption leaves no stamp."""
+        """Delete the stamp while the result is being made, in case of an interruption."""
         self._path.unlink(missing_ok=True)
 
     def write(self, current: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The underlay in the environment: which of its packages are built, from which sources."""
+"""The underlay in the environment: the selection and build of its packages."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class Underlay:
     """
     The packages of tools/underlay, each with a stamp once it is built into the environment.
 
-    An interface package that nothing in src/ depends on waits until everything is asked for, and
-    so does one on demand until it, or everything, is. Until then it is only described, so that
-    `ros2` finds and shows it, and who imports it is told what to do. One that was built before is
-    kept up to date.
+    An interface package that nothing in src/ depends on is deferred until everything is requested,
+    and a package on demand until it, or everything, is. Until then it is only described, so that
+    `ros2` finds and shows it, and importing it reports what to do. A package that was built before
+    is kept up to date.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class Underlay:
 
     def to_build(self, *, everything: bool) -> list[str]:
         """
-        List the packages that are wanted and are not built, or from other sources.
+        List the packages that are wanted and not built, or built from other sources.
 
         Parameters
         ----------
@@ -61,12 +61,12 @@ class Underlay:
 
     def build(self, names: list[str], steps: Steps) -> None:
         """
-        Build packages; what an interruption leaves half built is built anew the next time.
+        Build packages; one left incomplete by an interruption is rebuilt the next time.
 
         Parameters
         ----------
         names
-            Which packages.
+            The names of the packages.
         steps
             Shows the progress.
 
@@ -88,7 +88,7 @@ class Underlay:
         colcon.build_underlay(self._locations, steps, names, waiting, finished)
 
     def describe_others(self) -> None:
-        """Describe the packages that wait, unless that is done."""
+        """Describe the deferred packages, unless already done."""
         for name in sorted(set(self._packages) - self._wanted()):
             stamp = self._stamp(name, 'described')
             if not stamp.matches(self._digest(name)):
@@ -113,7 +113,7 @@ class Underlay:
         return self._digests[name]
 
     def _compute_digest(self, package: Package) -> str:
-        """Return the digest of what a package is built from: of interfaces others are compiled."""
+        """Return the digest of the sources of a package, for interfaces with dependencies."""
         if not package.is_interface:
             return digest(files_below(package.folder), self._requirements)
         others = sorted(name for name in package.depends_on if name in self._packages)

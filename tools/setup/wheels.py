@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheels of requirements.txt, and those of tests: installed, complete, and mended."""
+"""The wheels of requirements.txt, and those of tests: installation, repair and patches."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def make_environment(locations: Locations, interpreter: str) -> None:
 
 def has_pip(locations: Locations) -> bool:
     """
-    Whether the environment is complete to the last step of its creation, which installs pip.
+    Whether the environment is complete, including pip, which is installed last.
 
     Parameters
     ----------
@@ -147,10 +147,10 @@ def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> Non
 
 def compile_all(locations: Locations) -> None:
     """
-    Compile every module, on all processors at once; what does not compile is never imported.
+    Compile every module, in parallel; modules that do not compile are never imported.
 
-    pip would do so too, but one after the other, and most are not used by the robot: until then
-    Python compiles a module when it is first imported.
+    pip could do so too, but sequentially, and most are not used by the robot: until then Python
+    compiles a module when it is first imported.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def compile_all(locations: Locations) -> None:
 
 def incomplete_distributions(packages: Path, environment: Path) -> Iterator[str]:
     """
-    Find the distributions whose files are missing or not of the size that RECORD gives.
+    Find the distributions whose files are missing or differ in size from their RECORD.
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ def _is_complete(info: Path, environment: Path) -> bool:
 
 
 def _is_whole(path: Path, recorded_size: str, environment: Path) -> bool:
-    if path.suffix == '.pyc':  # Python writes these anew
+    if path.suffix == '.pyc':  # Python rewrites these
         return True
     try:
         size = path.stat().st_size

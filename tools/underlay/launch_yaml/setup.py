@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Installation of the package."""
+"""Setup script of the package."""
 
 from setuptools import find_packages, setup
 

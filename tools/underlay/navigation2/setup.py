@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Install the packages of navigation, each under its own name.
+Install the navigation packages, each under its own name.
 
-`packages.yaml` says what each of them has. From it come the entries in the index of resources, the
-executables, which are scripts of a few lines, and the list of components.
+`packages.yaml` describes their contents. It determines the entries in the ament resource index,
+the executables, which are scripts of a few lines, and the list of components.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ import yaml
 package_name = 'navigation2'
 HERE = Path(__file__).resolve().parent
 SHARED = ('behavior_trees', 'config', 'launch', 'maps', 'params', 'rviz')
-"""The folders of a package that go to its share folder."""
+"""The folders of a package that are installed to its share folder."""
 
 PACKAGES = yaml.safe_load((HERE / 'packages.yaml').read_text(encoding='utf-8'))
 
@@ -55,10 +55,10 @@ MANIFEST = """\
 
 
 class Install(install):
-    """Write what is made from the table, after everything else."""
+    """Install command that also generates files from `packages.yaml`."""
 
     def run(self):
-        """Install the package and what the table says."""
+        """Install the package and the generated files."""
         super().run()
         for name, package in PACKAGES.items():
             self._write(f'share/ament_index/resource_index/packages/{name}', '')
@@ -87,12 +87,12 @@ class Install(install):
 
 
 def shared_files():
-    """Return the files of the packages' share folders, as setup() takes them."""
+    """Collect the files of the packages' share folders, in the format of setup()."""
     found = []
     for name in PACKAGES:
         for folder in SHARED:
             if (HERE / name / folder / '__init__.py').exists():
-                continue  # a module, not what is shared
+                continue  # a module, not a shared file
             for path in sorted((HERE / name / folder).glob('**/*')):
                 if path.is_file():
                     place = path.parent.relative_to(HERE / name)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish the positions of the joints of a robot: defaults, merged with other sources."""
+"""Publish the joint states of a robot: default values merged with those of source topics."""

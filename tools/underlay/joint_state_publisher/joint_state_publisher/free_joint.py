@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A joint that follows no other one."""
+"""The state of an independent joint, which mimics no other joint."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['FreeJoint']
 
 @dataclass
 class FreeJoint:
-    """What is known of a joint; what is not is None."""
+    """The limits and the state of an independent joint; unknown quantities are None."""
 
     lower: float
     upper: float
@@ -31,9 +31,9 @@ class FreeJoint:
         Parameters
         ----------
         joint
-            What the URDF says of the joint.
+            The joint in the URDF.
         use_soft_limits
-            Whether to keep to the limits of `<safety_controller>` as well.
+            Whether to apply the soft limits of `<safety_controller>` as well.
 
         Returns
         -------
@@ -51,20 +51,20 @@ class FreeJoint:
 
     @property
     def is_known(self) -> bool:
-        """Tell if anything is known of it."""
+        """Whether the position, velocity or effort is known."""
         return (self.position, self.velocity, self.effort) != (None, None, None)
 
     @property
     def zero(self) -> float:
-        """Return the position that is shown by default: 0, or the middle if it cannot go there."""
+        """Return the default position: 0, or the middle of the range if 0 is out of range."""
         return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2.0
 
     def move(self, delta: float) -> None:
         """
-        Advance the position by a step, to and fro between the limits.
+        Advance the position by a step, back and forth between the limits.
 
-        A continuous joint goes on at the other limit instead. Nothing moves without a known
-        position.
+        A continuous joint wraps around to the other limit instead. Without a known position, the
+        joint does not move.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that publishes the positions of the joints of a robot."""
+"""The node that publishes the joint states of a robot."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ REPEAT_S = 10.0
 
 class JointStatePublisher(Node):
     """
-    Publishes the joint states of a robot: defaults, merged with what other topics tell.
+    Publishes the joint states of a robot: default values merged with those of source topics.
 
     Parameters
     ----------
     file
-        A file with the URDF; by default the parameter or the topic robot_description has the text.
+        A URDF file; by default, the URDF is read from the parameter or topic robot_description.
 
     Raises
     ------
@@ -46,7 +46,7 @@ class JointStatePublisher(Node):
     """
 
     EXTRAS: ClassVar[Mapping[str, Extra]] = {}
-    """The parameters of a node that does more."""
+    """Additional parameters that a subclass declares."""
 
     def __init__(self, file: str | None = None) -> None:
         super().__init__('joint_state_publisher', parameter_overrides=parameters_from_file(file))
@@ -66,7 +66,7 @@ class JointStatePublisher(Node):
         self.add_post_set_parameters_callback(self._swap)
 
     def _take(self, topic: str, message: JointState) -> None:
-        """Take over what a source tells."""
+        """Merge the joint states received from a source topic."""
         if self._joints is None or self._watch is None:
             return
         for sentence in self._watch.misspelt(message.name):
@@ -82,11 +82,11 @@ class JointStatePublisher(Node):
             self._left_out(f'{topic}: no number, and left out, is the position of {names}.')
 
     def _left_out(self, sentence: str) -> None:
-        """Say what a source told in vain; sources may do so again and again."""
+        """Log a warning about rejected values, throttled because sources may repeat them."""
         self.get_logger().warning(sentence, throttle_duration_sec=REPEAT_S)
 
     def _refused(self, sentence: str) -> None:
-        """Say why a robot is not taken over."""
+        """Log why a robot description was rejected."""
         self.get_logger().error(sentence)
 
     def _find_robot(self, file: str | None) -> None:
@@ -101,7 +101,7 @@ class JointStatePublisher(Node):
         )
 
     def _load(self, settings: Settings, source: str) -> None:
-        """Begin anew with a robot, or raise ValueError and go on with the one that there was."""
+        """Load a robot; on ValueError, the previous robot remains in use."""
         model = parse_urdf(settings.robot_description, source)
         joints = MergedJoints(model, settings)
         self._settings = settings
@@ -110,12 +110,12 @@ class JointStatePublisher(Node):
             self.get_logger().warning(sentence)
 
     def _begin(self, model: RobotModel, joints: MergedJoints) -> None:
-        """Publish the states of a robot from now on."""
+        """Start publishing the joint states of a robot."""
         self._joints, self._watch = joints, StateWatch(model)
         self.get_logger().info(model.describe())
 
     def _on_description(self, message: String) -> None:
-        """Take over a robot that is published, unless it is unusable."""
+        """Load the robot description that was received, unless it is invalid."""
         try:
             self._load(self._changed({'robot_description': message.data}), 'robot_description')
         except ValueError as error:
@@ -135,12 +135,12 @@ class JointStatePublisher(Node):
         self._publisher.publish(message)
 
     def _on_patience_end(self) -> None:
-        """Name what is still awaited, once."""
+        """Report once which topics are still silent."""
         self._patience.cancel()
         self._report_silence([self._silence(topic) for topic in self._awaited()])
 
     def _awaited(self) -> list[str]:
-        """Return the topics on which nothing was heard."""
+        """Return the topics on which no message has been received yet."""
         awaited = sorted(self._sources.silent)
         if self._joints is None:
             awaited.append(self.resolve_topic_name('robot_description'))
@@ -153,12 +153,12 @@ class JointStatePublisher(Node):
         return f'Nothing was heard on {topic} so far: {who}.'
 
     def _report_silence(self, sentences: list[str]) -> None:
-        """Say what is still awaited."""
+        """Log warnings about topics that are still silent."""
         for sentence in sentences:
             self.get_logger().warning(sentence)
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
-        """Accept changes only if all can be done that they ask for."""
+        """Accept parameter changes only if all of them can be applied."""
         try:
             settings = self._changed(_values(changes))
             if settings.robot_description != self._settings.robot_description:
@@ -168,14 +168,14 @@ class JointStatePublisher(Node):
         return SetParametersResult(successful=True)
 
     def _swap(self, changes: list[Parameter]) -> None:
-        """Do what accepted changes ask for."""
+        """Apply accepted parameter changes."""
         settings = self._changed(_values(changes))
         if settings.robot_description != self._settings.robot_description:
             self._load(settings, 'robot_description')
         self._settings = settings
 
     def _changed(self, values: dict[str, Any]) -> Settings:
-        """Return the settings with new values of what may change while the node runs."""
+        """Return the settings with new values for the parameters that may change at run time."""
         new = settings_of(values)
         names = [name for name in CHANGEABLE if name in values]
         return replace(self._settings, **{name: getattr(new, name) for name in names})

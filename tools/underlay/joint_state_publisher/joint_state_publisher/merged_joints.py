@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The joints of a robot with what several sources tell of them."""
+"""Joint states of a robot, merged from several sources."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ QUANTITIES = ('position', 'velocity', 'effort')
 
 @dataclass
 class States:
-    """Names with as many values of each quantity, or none of it."""
+    """Joint states by name; each quantity has a value for every name, or is empty."""
 
     name: list[str] = field(default_factory=list)
     position: list[float] = field(default_factory=list)
@@ -29,24 +29,24 @@ class States:
 
 class MergedJoints:
     """
-    Merges joint states of several sources, and computes the states of all joints from them.
+    Merges joint states of several sources and computes the states of all joints.
 
     Parameters
     ----------
     model
         The robot.
     settings
-        The parameters: defaults, limits, and which joints follow others.
+        The parameters: default positions, limits and dependent joints.
 
     Attributes
     ----------
     free
-        The joints that follow no other one, by name.
+        The independent joints, which mimic no other joint, by name.
 
     Raises
     ------
     ValueError
-        `dependent_joints` names a leader that is no moving joint, or makes a loop.
+        `dependent_joints` names a parent that is not a movable joint, or contains a loop.
 
     """
 
@@ -66,7 +66,7 @@ class MergedJoints:
         self.defaults = {
             name: settings.zeros.get(name, joint.zero) for name, joint in self.free.items()
         }
-        """The positions by default."""
+        """The default positions."""
         self._set_defaults(settings)
 
     def _set_defaults(self, settings: Settings) -> None:
@@ -80,9 +80,9 @@ class MergedJoints:
 
     def take(self, states: States) -> None:
         """
-        Take over what a source tells of the joints that follow no other one.
+        Update the independent joints with the joint states of a source.
 
-        What it leaves out, or is not finite, stays as it was.
+        Missing and non-finite values leave the state unchanged.
 
         Parameters
         ----------
@@ -93,7 +93,8 @@ class MergedJoints:
         Raises
         ------
         ValueError
-            A quantity has values, but not as many as there are names; nothing is taken over.
+            A quantity has values, but their number differs from that of the names; nothing is
+            updated.
 
         """
         for quantity in QUANTITIES:
@@ -107,12 +108,12 @@ class MergedJoints:
 
     def not_finite(self, states: States) -> list[str]:
         """
-        List the joints that follow no other one and whose position is not finite in a message.
+        List the independent joints whose position in a message is not finite.
 
         Parameters
         ----------
         states
-            What a source tells.
+            The joint states of a source.
 
         """
         return [
@@ -123,7 +124,7 @@ class MergedJoints:
 
     def move(self, delta: float) -> None:
         """
-        Advance every joint that follows no other one by a step, to and fro between its limits.
+        Advance every independent joint by a step, back and forth between its limits.
 
         Parameters
         ----------
@@ -136,9 +137,9 @@ class MergedJoints:
 
     def states(self) -> States:
         """
-        Return the states of all joints of which anything is known, in the order of the URDF.
+        Return the known joint states, in the order of the URDF.
 
-        A quantity that is known of some of them only is 0 for the others.
+        A quantity that is known for some of the joints only is 0 for the others.
         """
         known = {
             name: leader
@@ -153,11 +154,12 @@ class MergedJoints:
         )
 
     def _values(self, leaders: Sequence[Mimic], quantity: str) -> list[float]:
-        """Return the values of a quantity; none if it is not known of any joint."""
+        """Return the values of a quantity; empty if it is unknown for every joint."""
         values = [getattr(self.free[leader.joint], quantity) for leader in leaders]
         if all(value is None for value in values):
             return []
-        # Velocities follow without the offset; so do, as there is no better rule, efforts.
+        # The offset applies to positions only. There is no established rule for efforts; they are
+        # scaled like velocities.
         with_offset = quantity == 'position'
         return [
             leader.multiplier * (value or 0.0) + (leader.offset if with_offset else 0.0)
@@ -189,7 +191,7 @@ class MergedJoints:
 
 
 def _mimics(model: RobotModel, settings: Settings) -> dict[str, Mimic]:
-    """Return which joints follow others; what parameters say is above what the URDF says."""
+    """Return the mimic joints; `dependent_joints` takes precedence over the URDF."""
     moving = {joint.name for joint in model.moving_joints}
     dependents = {
         name: mimic for name, mimic in settings.dependent_joints.items() if name in moving

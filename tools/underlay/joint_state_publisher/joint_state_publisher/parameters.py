@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of joint_state_publisher, as a node has them."""
+"""Declaration of the parameters of joint_state_publisher."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CHANGEABLE = ('robot_description', 'delta')
 
 @dataclass(frozen=True)
 class Extra:
-    """A parameter of a node that does more; it cannot be changed."""
+    """An additional, read-only parameter of a derived node."""
 
     default: Any
     description: str
@@ -27,22 +27,22 @@ class Extra:
 
 def declare_settings(node: Node, extras: Mapping[str, Extra]) -> Settings:
     """
-    Declare the parameters of the node, with those of joints as they were given.
+    Declare the parameters of the node, including those given for individual joints.
 
-    rclpy has no public way to ask what was given; what it declares by itself it cannot describe,
-    and it does not take an empty list.
+    rclpy has no public API for parameter overrides; parameters that it declares automatically have
+    no description, and it does not accept an empty list.
 
     Parameters
     ----------
     node
-        The node; it logs a warning for each parameter that it does not know.
+        The node; it logs a warning for each unknown parameter.
     extras
-        Further parameters of a node that does more, by name.
+        Additional parameters of a derived node, by name.
 
     Returns
     -------
     Settings
-        The first values, without those of `extras`.
+        The initial values, without those of `extras`.
 
     Raises
     ------

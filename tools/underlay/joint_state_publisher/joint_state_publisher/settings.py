@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of joint_state_publisher, checked."""
+"""Validation of the parameters of joint_state_publisher."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ DESCRIPTIONS = {
     'robot_description': 'The text of the URDF; it is taken from the topic if this is empty.',
 }
 MAPS = ('zeros.', 'dependent_joints.')
-"""What begins the names of parameters that belong to joints."""
+"""Prefixes of the parameters that belong to individual joints."""
 RATES = (0.001, 1000.0)
 DEPENDENT_KEYS = ('parent', 'factor', 'offset')
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What the node is to do; `zeros` and `dependent_joints` are by joint."""
+    """Settings of the node; `zeros` and `dependent_joints` are by joint name."""
 
     rate: float = 10
     source_list: tuple[str, ...] = ()
@@ -49,17 +49,18 @@ class Settings:
 
 def settings_of(values: Mapping[str, Any]) -> Settings:
     """
-    Validate parameters, and convert them to settings.
+    Validate parameters and convert them to settings.
 
     Parameters
     ----------
     values
-        Values of parameters by name; unknown names are ignored, and missing ones get defaults.
+        Parameter values by name; unknown names are ignored, and missing ones get defaults.
 
     Raises
     ------
     ValueError
-        A value has a wrong type or range, or `dependent_joints` is incomplete or makes a loop.
+        A value has the wrong type or is out of range, or `dependent_joints` is incomplete or
+        contains a loop.
 
     """
     known = {each.name: each.default for each in fields(Settings)}
@@ -78,7 +79,7 @@ def settings_of(values: Mapping[str, Any]) -> Settings:
 
 
 def _zeros(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return the positions in `zeros.JOINT`."""
+    """Return the default positions given as `zeros.JOINT`."""
     return {
         name.removeprefix('zeros.'): checked(name, value, 0.0)
         for name, value in values.items()
@@ -87,7 +88,7 @@ def _zeros(values: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _dependents(values: Mapping[str, Any]) -> dict[str, Mimic]:
-    """Return what `dependent_joints.JOINT.parent`, `.factor` and `.offset` say."""
+    """Parse `dependent_joints.JOINT.parent`, `.factor` and `.offset` into mimic relations."""
     parts: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
         if name.startswith('dependent_joints.'):
@@ -122,25 +123,25 @@ def checked(name: str, value: Any, default: Any) -> Any:
     Parameters
     ----------
     name
-        The parameter, for the error message.
+        The name of the parameter, for the error message.
     value
-        What was given.
+        The given value.
     default
-        A value of the type that is wanted: a tuple of texts, a bool, a text or a number.
+        A value of the required type: a tuple of strings, a bool, a string or a number.
 
     Returns
     -------
     object
-        The value; numbers as a float, lists as a tuple.
+        The value; numbers as floats, lists as tuples.
 
     Raises
     ------
     ValueError
-        The value has another type, or is a number that is not finite.
+        The value has another type or is not finite.
 
     """
     if isinstance(default, tuple):
-        # ROS knows no type of an empty list, and hands over None.
+        # ROS has no type for an empty list; None is passed instead.
         texts = [] if value is None else value
         if not isinstance(texts, (list, tuple)) or not all(
             isinstance(text, str) for text in texts

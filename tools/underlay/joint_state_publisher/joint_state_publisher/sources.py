@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics whose joint states are taken over."""
+"""Subscriptions to the source topics of joint states."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 
 __all__ = ['Sources']
 
-# Hears reliable sources and others.
+# Best effort is compatible with reliable and best-effort publishers.
 ANY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 Take = Callable[[str, JointState], None]
 
@@ -25,23 +25,23 @@ class Sources:
     node
         The node that subscribes.
     names
-        The topics, as they are given in the parameter.
+        The topics, as given in the parameter.
     own_topic
-        The topic on which the node itself publishes, with its full name.
+        The fully qualified name of the topic on which the node itself publishes.
     take
-        Called with the full name of the topic and the message, for each message.
+        Called for each message with the fully qualified topic name and the message.
 
     Raises
     ------
     ValueError
-        A name can be no topic, or is that of the node's own topic.
+        A name is not a valid topic name, or is that of the node's own topic.
 
     """
 
     def __init__(self, node: Node, names: Iterable[str], own_topic: str, take: Take) -> None:
         self._take = take
         self.silent: set[str] = set()
-        """The topics on which nothing was heard so far."""
+        """The topics on which no message has been received yet."""
         for name in names:
             topic = _resolved(node, name)
             if topic == own_topic:
@@ -63,7 +63,7 @@ class Sources:
 
 
 def _resolved(node: Node, name: str) -> str:
-    """Return the whole name of a topic, or raise ValueError if there can be none."""
+    """Return the fully qualified name of a topic, or raise ValueError if the name is invalid."""
     try:
         return str(node.resolve_topic_name(name))
     except RuntimeError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that publishes the positions of joints, which a page in the browser sets."""
+"""The node that publishes joint positions set by sliders on a browser page."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ FRAME_S = 0.1
 
 class JointStatePublisherGui(JointStatePublisher):
     """
-    Publishes the joint states of a robot, whose joints are moved in the browser.
+    Publishes the joint states of a robot whose joints are moved by sliders in the browser.
 
     Parameters
     ----------
     file
-        A file with the URDF; by default the parameter or the topic robot_description has the text.
+        A URDF file; by default, the URDF is read from the parameter or topic robot_description.
 
     Attributes
     ----------
@@ -67,12 +67,12 @@ class JointStatePublisherGui(JointStatePublisher):
         self.get_logger().info(f'The sliders are at {" and ".join(self.page.urls)}')
 
     def _make_queue(self) -> WorkQueue:
-        """Return a queue whose work the node does as soon as there is some."""
+        """Create a work queue that runs in the node's executor as soon as work is posted."""
         queue = WorkQueue(lambda: self._do_soon(queue.run))
         return queue
 
     def _do_soon(self, work: Callable[[], None]) -> None:
-        """Have something done in the thread in which the node works; any thread may ask."""
+        """Schedule work in the thread of the executor; may be called from any thread."""
         if self.executor is not None:
             self.executor.create_task(work)
 
@@ -84,31 +84,31 @@ class JointStatePublisherGui(JointStatePublisher):
             self.joint_page.show(self._board)
 
     def _left_out(self, sentence: str) -> None:
-        """Say it in the page too."""
+        """Log the warning and show it on the page."""
         super()._left_out(sentence)
         if self.joint_page is not None:
             self.joint_page.warn(sentence)
 
     def _refused(self, sentence: str) -> None:
-        """Say it in the page too."""
+        """Log the error and show it on the page."""
         super()._refused(sentence)
         if self.joint_page is not None:
             self.joint_page.notice.say(sentence)
 
     def _report_silence(self, sentences: list[str]) -> None:
-        """Say it in the page too."""
+        """Log the warnings and show them on the page."""
         super()._report_silence(sentences)
         if self.joint_page is not None:
             self.joint_page.warn(*sentences)
 
     def destroy_node(self) -> None:
-        """Serve the page no longer, too."""
+        """Stop the page server, and destroy the node."""
         self.page.close()
         super().destroy_node()
 
 
 def _serve(values: Mapping[str, Any]) -> Page:
-    """Serve the page, or raise ValueError."""
+    """Start the page server, or raise ValueError."""
     try:
         return Page(PROGRAM, page_settings_of(values))
     except PortError as error:
@@ -116,5 +116,5 @@ def _serve(values: Mapping[str, Any]) -> Page:
 
 
 def _poses_folder() -> Path:
-    """Return where poses are kept."""
+    """Return the folder of the saved poses."""
     return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / PROGRAM

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters that the publisher with a page has in addition."""
+"""The additional parameters of the publisher with a page."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ EXTRAS = {
 
 def page_settings_of(values: Mapping[str, Any]) -> PageSettings:
     """
-    Validate the parameters that say where the page is served, and to whom.
+    Validate the parameters that set the address, port and access token of the page.
 
     Parameters
     ----------
     values
-        Values of `host`, `port` (0 for the first free one) and `token` by name.
+        Values of `host`, `port` (0 for the first free port) and `token` by name.
 
     Raises
     ------

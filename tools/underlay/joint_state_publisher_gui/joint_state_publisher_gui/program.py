@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program; it imports the node only when signals can wait, so that none is an error."""
+"""Entry point; imports the node only once signals are deferred, so that Ctrl-C raises no error."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['main']
 
 
 def _make_node(words: list[str]) -> Node:
-    """Make the node from its arguments: none, or the file of a URDF."""
+    """Create the node from its arguments: none, or a URDF file."""
     from joint_state_publisher_gui.joint_state_publisher_gui import JointStatePublisherGui, PROGRAM
     from robot_state_publisher.description_file import file_argument
 
@@ -30,7 +30,7 @@ def main(args: Sequence[str] | None = None) -> None:
     Parameters
     ----------
     args : Sequence[str] | None
-        The command line with the program's name; by default that of the process.
+        The command line including the program name; by default that of the process.
 
     """
     sys.exit(run_node(_make_node, args))

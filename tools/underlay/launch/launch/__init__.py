@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Describe a system of processes, start it and watch over it."""
+"""Describe a system of processes, launch it and monitor it."""
 
 from __future__ import annotations
 

@@ -26,15 +26,15 @@ def find_arguments(
     Parameters
     ----------
     entities
-        Where to search, in the order in which they are visited.
+        The entities to search, in visiting order.
     conditional
-        Whether they are visited under a condition only, which is noted on the arguments declared
+        Whether they are visited conditionally; this is recorded on the arguments declared
         directly among them.
 
     Returns
     -------
     list of tuple
-        Each declaration, with the includes that lead to it, the outermost first.
+        Each declaration with the includes that lead to it, outermost first.
 
     """
     found: Found = {}
@@ -49,9 +49,9 @@ def _search(
     found: Found,
 ) -> None:
     """
-    Search depth-first; behind a reset of the configurations nothing can be told.
+    Search depth-first; stop at a reset of the launch configurations.
 
-    What is no entity is an error when it is visited, not here.
+    Objects that are not entities are skipped here; visiting them raises an error.
     """
     for entity in entities:
         if isinstance(entity, ResetLaunchConfigurations):
@@ -68,7 +68,7 @@ def _note(
     includes: list[IncludeLaunchDescription],
     found: Found,
 ) -> None:
-    """Keep the declaration unless its name is known already."""
+    """Record a declaration unless its name has been declared before."""
     if argument.name not in found:
         argument._conditionally_included = conditional or argument.condition is not None
         found[argument.name] = (argument, includes)
@@ -79,7 +79,7 @@ def _descend(
     includes: list[IncludeLaunchDescription],
     found: Found,
 ) -> None:
-    """Search what an entity brings in; only its direct children count as conditional."""
+    """Search the sub-entities; only direct children under a condition count as conditional."""
     if isinstance(entity, IncludeLaunchDescription):
         if _is_inside_itself(entity, includes):
             return
@@ -93,7 +93,7 @@ def _is_inside_itself(
     entity: IncludeLaunchDescription,
     includes: list[IncludeLaunchDescription],
 ) -> bool:
-    """Return whether a file is included that is being searched already."""
+    """Check whether an include refers to a file that is already being searched."""
     location = entity.launch_description_source._location_in_advance()
     return location is not None and any(
         each.launch_description_source._location_in_advance() == location for each in includes

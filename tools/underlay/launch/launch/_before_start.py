@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is looked at when all has been visited, before the first process starts."""
+"""Checks that run after the first visit and before the first process starts."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _Check = TypeVar('_Check')
 
 
 class BeforeStart:
-    """Holds the checks of a launch; what they raise keeps everything from being started."""
+    """Pre-start checks of a launch; if one raises an error, no process is started."""
 
     def __init__(self) -> None:
-        """Create it without checks; LAUNCH_PREFLIGHT=0 leaves missing programs to the start."""
+        """Create an empty set of checks; LAUNCH_PREFLIGHT=0 disables the check for programs."""
         self.resolves_programs = os.environ.get(SWITCH, '1') != '0'
         self.checks: list[Callable[[LaunchContext], None]] = []
         self.hints: list[Callable[[LaunchContext], str]] = []
@@ -28,12 +28,12 @@ class BeforeStart:
 
     def check_of_type(self, kind: Callable[[], _Check]) -> _Check:
         """
-        Get the check of a class, which is added on first use.
+        Get the check of a class; create it on first use.
 
         Parameters
         ----------
         kind
-            The class; its instances are called with the context and raise what they find.
+            The class; its instances are called with the context and raise an error on failure.
 
         """
         for check in self.checks:
@@ -47,8 +47,8 @@ class BeforeStart:
         """
         Run all checks before the first process is started.
 
-        What waits for events is checked first, then the checks that were added run, and last comes
-        a warning of installed files that are older than their source.
+        Entities that wait for events are checked first, then the added checks run. Finally, it
+        warns about installed files that are older than their source.
 
         Parameters
         ----------
@@ -58,7 +58,7 @@ class BeforeStart:
         Raises
         ------
         Exception
-            Whatever a check has found.
+            The error raised by a check.
 
         """
         waiting = any(handler.describe()[1] for handler in context._event_handlers)
@@ -81,12 +81,12 @@ class BeforeStart:
         Parameters
         ----------
         context
-            The context of the launch, which each hint is given.
+            The context of the launch, passed to each hint.
 
         Returns
         -------
         list of str
-            Lines for the log; hints that have nothing to say are left out.
+            Lines for the log; empty hints are omitted.
 
         """
         return [text for text in (hint(context) for hint in self.hints) if text]
@@ -99,7 +99,7 @@ def note_file(context: LaunchContext, path: str) -> None:
     Parameters
     ----------
     context
-        Where it is recorded; nothing is once the checks have run.
+        The context that records it; nothing is recorded once the checks have run.
     path
         The path of the file, as it is opened.
 

@@ -18,7 +18,7 @@ _OWN_PACKAGES = frozenset(
         'launch_yaml',
     )
 )
-# What runs the launch of somebody else: packages, and modules of the packages above.
+# Packages, and modules of the packages above, that run launches written by others.
 _COMMANDS = frozenset(
     ('launch._event_processor', 'launch_testing._single_run', 'ros2cli', 'ros2launch')
 )
@@ -27,21 +27,21 @@ _STANDARD_LIBRARY = os.path.dirname(os.__file__) + os.sep
 
 
 class CallSite(NamedTuple):
-    """A line of a file; the line is 0 if it is not known."""
+    """A line of a file; the line is 0 if it is unknown."""
 
     file_name: str
     line: int
 
     def __str__(self) -> str:
-        """Return the line as people write it."""
+        """Format the file name and the line number."""
         return f"'{self.file_name}'" + (f', line {self.line}' if self.line else '')
 
 
 def calling_line() -> Optional[CallSite]:
     """
-    Return the innermost line that is neither of launch nor of Python itself.
+    Return the innermost line on the stack outside launch and the standard library.
 
-    There is none if launch has called itself, while it runs or for a command.
+    None if launch itself is the caller, at run time or in a command.
     """
     frame = sys._getframe(1)
     while frame is not None:
@@ -87,7 +87,7 @@ def _package(variables: dict[str, object]) -> str:
 
 
 def _is_of_a_user(file_name: str) -> bool:
-    """Return whether a file is neither of Python itself nor of an installed library."""
+    """Check whether a file belongs neither to Python nor to an installed library."""
     if file_name.startswith('<') or any(part in file_name for part in _INSTALLED):
         return False
     return not file_name.startswith(_STANDARD_LIBRARY)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arguments of actions: of the right type, or an error that names the keyword."""
+"""Type checks for arguments of actions, with errors that name the keyword."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def optional_text_like(keyword: str, value: Any) -> Optional[list[Substitution]]
     Raises
     ------
     TypeError
-        The value is neither None nor anything that `text_like` takes.
+        The value is neither None nor anything that `text_like` accepts.
 
     """
     return None if value is None else text_like(keyword, value)
@@ -66,12 +66,12 @@ def list_like(keyword: str, value: Any, items: str) -> list[Any]:
     value
         Any iterable except a string, a path, a substitution or a mapping.
     items
-        What the list is made of, as a plural for the error.
+        The kind of items, in the plural, for the error.
 
     Raises
     ------
     TypeError
-        The value is no such iterable. The items are not checked.
+        The value is not such an iterable; the items are not checked.
 
     """
     is_single = isinstance(value, (str, bytes, os.PathLike, Substitution, Mapping))
@@ -116,7 +116,7 @@ def of_type(keyword: str, value: Any, types: tuple[type, ...], expected: str) ->
     types
         The classes of which the value must be an instance.
     expected
-        These classes in words, for the error.
+        A description of these classes, for the error.
 
     Raises
     ------
@@ -130,26 +130,26 @@ def of_type(keyword: str, value: Any, types: tuple[type, ...], expected: str) ->
 
 def typed(keyword: str, value: Any, kind: Any, expected: str) -> Any:
     """
-    Normalise an argument that is a value of a type, or stands for one.
+    Normalise an argument that has a type, or substitutions that resolve to it.
 
     Parameters
     ----------
     keyword, value
         The name of the argument, for the error, and its value.
     kind
-        The type that the argument has in the end, such as `bool`.
+        The type of the performed argument, such as `bool`.
     expected
-        What the value may be, in words for the error.
+        A description of valid values, for the error.
 
     Returns
     -------
     Any
-        A value of the type as it is; substitutions, or a text, as a list of substitutions.
+        A value of the type, unchanged; a string or substitutions as a list of substitutions.
 
     Raises
     ------
     TypeError
-        The value neither has the type nor can stand for it.
+        The value neither has the type nor can be a substitution for it.
 
     """
     try:
@@ -167,7 +167,7 @@ def unknown_keyword(owner: type, keyword: str) -> TypeError:
     owner
         The class that was to be constructed; its base classes are searched as well.
     keyword
-        The keyword that none of them knows.
+        The unknown keyword.
 
     Returns
     -------
@@ -193,7 +193,7 @@ def _refuse(
     value: Any,
     error: Optional[TypeError] = None,
 ) -> NoReturn:
-    """Raise the error; what made it unfit is added."""
+    """Raise a TypeError about an argument, with the underlying error if there is one."""
     found = f"{value!r} of type '{type(value).__name__}'"
     inside = f' ({error})' if error is not None else ''
     raise TypeError(f"the argument '{keyword}' must be {expected}, but it is {found}{inside}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why a command line that is made of several texts does not work."""
+"""Advice on failed command lines that were joined from several strings."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ def advice_on_failure(parts: Sequence[str], said: str) -> str:
     Parameters
     ----------
     parts
-        The texts that were joined to the command line.
+        The strings that were joined into the command line.
     said
-        The error output of the command; what it says already is not repeated.
+        The error output of the command; advice that it already contains is not repeated.
 
     Returns
     -------
@@ -31,12 +31,12 @@ def advice_on_failure(parts: Sequence[str], said: str) -> str:
 
 def advice_on_program(parts: Sequence[str]) -> str:
     """
-    Advise on a program that was not found because no blank ends its name.
+    Advise on a program that was not found because of a missing space after its name.
 
     Parameters
     ----------
     parts
-        The texts that were joined to the command line.
+        The strings that were joined into the command line.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def advice_on_program(parts: Sequence[str]) -> str:
 
 
 def _split_path(parts: Sequence[str]) -> str:
-    """Return a line about a part with a space in it that is no longer one word."""
+    """Return advice on a path that was split into several words at a space."""
     words = shlex.split(''.join(parts))
     for part in parts[1:]:
         is_path = os.path.isabs(part) and len(part.split()) > 1
@@ -67,7 +67,7 @@ def _split_path(parts: Sequence[str]) -> str:
 
 
 def _missing_path(command: str, said: str) -> str:
-    """Return a line about the first path that does not exist."""
+    """Return advice on the first path that does not exist."""
     from launch._missing_file import explain_missing_file
 
     for word in shlex.split(command)[1:]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch configurations, and what anyone has wanted to know of them."""
+"""The launch configurations, with a record of look-ups."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 class LaunchConfigurations(dict[str, Any]):
-    """A dictionary that notes which names are looked up; who goes through all sees all."""
+    """Dictionary that records which names are looked up; iterating looks up all of them."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -16,16 +16,16 @@ class LaunchConfigurations(dict[str, Any]):
         self.declared: set[str] = set()
 
     def snapshot(self) -> dict[str, Any]:
-        """Return a plain copy; this is not a look-up."""
+        """Return a plain copy without recording a look-up."""
         return dict(dict.items(self))
 
     def __getitem__(self, name: str) -> Any:
-        """Return a value."""
+        """Return a value and record the look-up."""
         self.looked_up.add(name)
         return super().__getitem__(name)
 
     def __contains__(self, name: object) -> bool:
-        """Return whether there is a value."""
+        """Check whether a name is set, and record the look-up."""
         self.looked_up.add(name)
         return super().__contains__(name)
 
@@ -36,7 +36,7 @@ class LaunchConfigurations(dict[str, Any]):
         Parameters
         ----------
         name, default
-            The name, and what is returned if there is no such configuration.
+            The name, and the value returned if the configuration is not set.
 
         """
         self.looked_up.add(name)
@@ -51,12 +51,12 @@ class LaunchConfigurations(dict[str, Any]):
         name
             The name of the configuration.
         *default
-            What is returned if there is none.
+            The value returned if it is not set.
 
         Raises
         ------
         KeyError
-            There is no such configuration, and no default.
+            The configuration is not set, and there is no default.
 
         """
         self.looked_up.add(name)
@@ -64,7 +64,7 @@ class LaunchConfigurations(dict[str, Any]):
 
     def setdefault(self, name: str, default: Any = None) -> Any:
         """
-        Get the value of a launch configuration, which is set first if there is none.
+        Get the value of a launch configuration; set it first if it is not set.
 
         Parameters
         ----------
@@ -96,6 +96,6 @@ class LaunchConfigurations(dict[str, Any]):
         return super().items()
 
     def copy(self) -> dict[str, Any]:
-        """Return a plain copy, of which anything may be read."""
+        """Return a plain copy and record a look-up of every name."""
         self.looked_up.update(self.snapshot())
         return self.snapshot()

@@ -8,7 +8,7 @@ from typing import Any
 
 
 class ContextLocals:
-    """Variables that last for the handling of one event, above variables that stay."""
+    """Local variables, valid while one event is handled, on top of global variables."""
 
     def __init__(self) -> None:
         self._globals: dict[str, Any] = {}
@@ -45,11 +45,11 @@ class ContextLocals:
         self._globals.update(extra)
 
     def push(self) -> None:
-        """Keep the variables for the next pop."""
+        """Save the local variables until the next pop."""
         self._stack.append(dict(self._locals))
 
     def pop(self) -> None:
-        """Restore the variables of the last push."""
+        """Restore the local variables saved by the last push."""
         if not self._stack:
             raise RuntimeError('cannot pop the locals: none have been pushed')
         self._locals = self._stack.pop()
@@ -62,7 +62,7 @@ class LocalsView:
     Parameters
     ----------
     owner
-        The variables that are shown, as they are at each access.
+        The variables to view; each access reflects their current values.
 
     """
 
@@ -72,7 +72,7 @@ class LocalsView:
         object.__setattr__(self, '_owner', owner)
 
     def __getattr__(self, name: str) -> Any:
-        """Return a variable; an AttributeError lists those that there are."""
+        """Return a variable; for an unknown name, raise an error that lists the available ones."""
         known = self._owner.as_dict()
         if name in known:
             return known[name]
@@ -82,7 +82,7 @@ class LocalsView:
         )
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Refuse: variables are added by extend_locals()."""
+        """Reject assignment; variables are added with `extend_locals`."""
         raise AttributeError(
             f"context.locals.{name} cannot be set; use context.extend_locals({{'{name}': ...}})"
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The entry points of installed distributions, looked up cheaply where there are none."""
+"""Fast look-up of entry points that avoids `importlib.metadata` if there are none."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def entry_points_of(group: str) -> list[EntryPoint]:
 
 
 def _contents() -> Iterator[bytes]:
-    """Yield what the files with entry points contain, wherever modules are found."""
+    """Yield the contents of the entry point files on the module search path."""
     for folder in sys.path:
         try:
             names = os.listdir(folder or '.')
         except OSError:
-            continue  # no folder: an archive, or nothing at all
+            continue  # not a directory: an archive, or it does not exist
         for name in names:
             if name.endswith(('.dist-info', '.egg-info')):
                 yield _content(os.path.join(folder, name, 'entry_points.txt'))

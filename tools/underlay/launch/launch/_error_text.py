@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The text of an error, for people."""
+"""Human-readable error messages."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def error_text(error: BaseException) -> str:
     Parameters
     ----------
     error
-        The exception; a `RecursionError`, whose own text says little, is explained.
+        The exception; an explanation is added to a `RecursionError`.
 
     """
     if isinstance(error, RecursionError):

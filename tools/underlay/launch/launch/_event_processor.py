@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Handle the events of a launch until nothing is left to do."""
+"""Process the events of a launch until it is idle or shut down."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 class EventProcessor:
     """
-    Handles the events in the queue of a launch context, one after the other.
+    Processor that handles the queued events of a launch context one at a time.
 
-    To be created in the thread that runs the loop.
+    Create it in the thread that runs the event loop.
 
     Parameters
     ----------
@@ -56,13 +56,13 @@ class EventProcessor:
         self._logger: logging.Logger = get_logger('launch')
 
     def wake_up(self) -> None:
-        """Let the processor look at the queue; this may be called from any thread."""
+        """Wake up the processor to check the event queue; thread-safe."""
         if threading.get_ident() == self._thread:
             self._awake.set()
             return
         try:
             self._loop.call_soon_threadsafe(self._awake.set)
-        except RuntimeError:  # the loop is closed: nobody handles events any more
+        except RuntimeError:  # the loop is closed; events are no longer handled
             pass
 
     async def run(self, *, shutdown_when_idle: bool) -> int:
@@ -99,7 +99,7 @@ class EventProcessor:
 
     def fail(self, error: BaseException) -> None:
         """
-        Report an error and shut the launch down, with 1 as its return code.
+        Report an error and shut the launch down with return code 1.
 
         Parameters
         ----------
@@ -122,14 +122,14 @@ class EventProcessor:
         """
         Report an exception that a callback of the event loop raised.
 
-        The exception handler for `loop.set_exception_handler`.
+        Exception handler for `loop.set_exception_handler`.
 
         Parameters
         ----------
         loop
             The event loop, which is not used.
         details
-            What asyncio tells: a `message`, and the `exception` if there is one.
+            The context passed by asyncio: `message`, and `exception` if there is one.
 
         """
         self.fail(details.get('exception') or RuntimeError(details['message']))
@@ -137,7 +137,7 @@ class EventProcessor:
     # Events.
 
     def _handle(self, event: Event) -> None:
-        """Run the handlers that match; a shutdown reaches all of them, come what may."""
+        """Run the matching handlers; on shutdown, run all of them even if one raises an error."""
         is_shutdown = isinstance(event, Shutdown)
         if is_shutdown:
             self._shutting_down = True
@@ -152,7 +152,7 @@ class EventProcessor:
                     return
 
     def _run_handler(self, handler: BaseEventHandler, event: Event) -> None:
-        """Run a handler and visit what it returns, with local variables of their own."""
+        """Run a handler and visit the entities it returns, in a new scope of local variables."""
         futures: list[tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
         self._context._push_locals()
         self._context._open_files = getattr(handler, '_open_files', ())
@@ -166,7 +166,7 @@ class EventProcessor:
             self._track([future for _, future in futures])
 
     def _check_before_start(self) -> None:
-        """Run the checks once, when the first description has been visited."""
+        """Run the pre-start checks once, after the first description has been visited."""
         checks, self._context._before_start = self._context._before_start, None
         if checks is not None:
             checks.run(self._context)
@@ -174,7 +174,7 @@ class EventProcessor:
     # Futures.
 
     def _track(self, futures: list[asyncio.Future[Any]]) -> None:
-        """Wait for futures before the launch counts as idle."""
+        """Track futures; the launch is not idle until they are done."""
         for future in futures:
             if future not in self._pending:
                 self._pending.add(future)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Note on an exception which line of which launch file it comes from."""
+"""Annotate exceptions with the line of the launch file that they come from."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class FailurePlace(NamedTuple):
-    """Where an error comes from: a line, the class of the action, and the lines of includes."""
+    """Origin of an error: a line, the class of the action, and the lines of the includes."""
 
     call_site: CallSite
     action: str = ''
     includes: tuple[CallSite, ...] = ()
 
     def __str__(self) -> str:
-        """Return it as text for people, with a line for each include."""
+        """Format the origin for the user, with a line for each include."""
         action = f' ({self.action})' if self.action else ''
         lines = [f'It comes from {self.call_site}{action}']
         lines += [f'  included from {each}' for each in self.includes]
@@ -29,7 +29,7 @@ class FailurePlace(NamedTuple):
 
 def place_of(error: Optional[BaseException]) -> Optional[FailurePlace]:
     """
-    Find the place that was noted on an error, or else on one that caused it.
+    Find the origin that was recorded on an error, or else on one of its causes.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def place_of(error: Optional[BaseException]) -> Optional[FailurePlace]:
     Returns
     -------
     FailurePlace or None
-        The first place along the chain of `__cause__`, None if there is none.
+        The first origin along the chain of `__cause__`, None if there is none.
 
     """
     while error is not None:
@@ -57,20 +57,20 @@ def note_line(
     includes: tuple[CallSite, ...] = (),
 ) -> None:
     """
-    Note on an error which line of a launch file it comes from.
+    Record on an error the line of the launch file that it comes from.
 
-    Nothing is done if the line is not known, or a place has been noted already.
+    Does nothing if the line is unknown or an origin has been recorded already.
 
     Parameters
     ----------
     error
-        The exception on which the place is noted.
+        The exception to annotate.
     call_site
         The line of the file.
     action
         The tag or the class of the action at that line, if it is known.
     includes
-        The lines of the includes that led there so far, the innermost first.
+        The lines of the includes that led there so far, innermost first.
 
     """
     if call_site is not None and place_of(error) is None:
@@ -83,14 +83,14 @@ def note_place(
     context: LaunchContext,
 ) -> None:
     """
-    Note on an error which entity failed, with all includes that led to it.
+    Record on an error which entity failed, with all includes that led to it.
 
-    To be called at each level of a visit that the error passes: the innermost call counts.
+    Call at each level of a visit through which the error propagates; the innermost call counts.
 
     Parameters
     ----------
     error
-        The exception on which the place is noted.
+        The exception to annotate.
     entity
         The entity whose visit raised it.
     context
@@ -121,7 +121,7 @@ def _place_of_entity(
     action: str,
     context: LaunchContext,
 ) -> Optional[FailurePlace]:
-    """Return the place of an entity; one that has no line lies in the file that is read."""
+    """Return the origin of an entity; without a line, use the launch file being read."""
     if call_site is None and context._open_files:
         call_site = CallSite(context._open_files[-1].path, 0)
     if call_site is None:
@@ -134,7 +134,7 @@ def _includes(
     including: Optional[CallSite],
     context: LaunchContext,
 ) -> tuple[CallSite, ...]:
-    """Return the lines of the includes that led to a line, the innermost first."""
+    """Return the lines of the includes that led to a line, innermost first."""
     lines = [including, *(each.call_site for each in reversed(context._open_files))]
     return tuple(dict.fromkeys(each for each in lines if each is not None and each != call_site))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell the user what went wrong in a launch file."""
+"""Report errors in launch files to the user."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def report_failure(logger: logging.Logger, error: BaseException) -> None:
     Parameters
     ----------
     logger
-        The logger that gets it.
+        The logger to use.
     error
         The exception.
 

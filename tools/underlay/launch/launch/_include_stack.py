@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch files that are being read, one inside the other."""
+"""The include stack: the launch files being read, each included by the previous one."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MAX_NESTED = 64
 
 
 class OpenFile(NamedTuple):
-    """A launch file, the line that included it, and the state in which it was included."""
+    """Entry of the include stack: a launch file, the including line, and the state then."""
 
     path: str
     call_site: Optional[CallSite]
@@ -24,17 +24,17 @@ class OpenFile(NamedTuple):
 
 
 class CircularIncludeError(RuntimeError):
-    """A launch file includes itself, and nothing has changed since the last time."""
+    """A launch file includes itself without any change of state in between."""
 
 
 def open_file(context: LaunchContext, path: str, call_site: Optional[CallSite]) -> OpenFile:
     """
-    Create the entry of the include stack for a launch file that is to be read.
+    Create the include stack entry of a launch file, and detect circular includes.
 
     Parameters
     ----------
     context
-        The context of the launch; its stack is read only.
+        The context of the launch; its include stack is not modified.
     path
         The absolute path of the launch file.
     call_site
@@ -62,7 +62,7 @@ def _same_state(one: OpenFile, other: OpenFile) -> bool:
 
 
 def _circle(files: tuple[OpenFile, ...], last: OpenFile) -> str:
-    """Say which file includes which, from the last time that this file was included on."""
+    """Format the chain of a circular include, starting at the last include of the same file."""
     start = 1 + max(index for index, each in enumerate(files) if each.path == last.path)
     steps = [*files[start:], last]
     lines = [f"circular include: '{last.path}' includes itself for ever"]

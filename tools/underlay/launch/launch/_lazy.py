@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Import the public names of a package only when they are used."""
+"""Lazy import of the public names of a package."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _WORD_BORDER = re.compile(r'(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])')
 
 def snake_case(name: str) -> str:
     """
-    Convert the name of a class to that of the module that holds it.
+    Convert the name of a class to that of its module.
 
     Parameters
     ----------
@@ -38,9 +38,9 @@ def lazy_exports(
     package
         The `__name__` of the package.
     names
-        Its public names, each of which lies in the module of its snake_case name.
+        Its public names, each defined in the module of its snake_case name.
     elsewhere
-        The modules of names that lie in others; an empty text marks a sub-package.
+        The modules of names defined elsewhere; an empty string marks a sub-package.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def lazy_exports(
 
 
 def _unknown(package: str, name: str, known: Iterable[str]) -> str:
-    """Say that a package lacks a name, and which known name comes closest."""
+    """Format the error about an unknown name of a package, with a suggestion."""
     text = f"module '{package}' has no attribute '{name}'"
     if name.startswith('_'):
         return text

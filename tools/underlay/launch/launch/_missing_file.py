@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say that a file does not exist, and which one was meant perhaps."""
+"""Error messages for missing files, with suggestions."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ def explain_missing_include(path: str, reading: Container[str]) -> str:
     Parameters
     ----------
     path
-        The path of the file, as it was asked for.
+        The path of the file, as requested.
     reading
         The absolute paths of the launch files being read, which are not suggested.
 
     Returns
     -------
     str
-        The lines of the message; for a relative path they say where it is looked up.
+        The lines of the message; for a relative path they state where it is looked up.
 
     """
     text = explain_missing_file('launch file', path, reading)
@@ -42,22 +42,22 @@ def explain_missing_include(path: str, reading: Container[str]) -> str:
 
 def explain_missing_file(what: str, path: str, but: Container[str] = ()) -> str:
     """
-    Explain that a file does not exist, and suggest which one is meant.
+    Explain that a file does not exist, and suggest a similar one.
 
     Parameters
     ----------
     what
-        What the file is, such as `launch file`.
+        The kind of file, such as `launch file`.
     path
-        The path of the file, as it was asked for.
+        The path of the file, as requested.
     but
         The absolute paths of files that are not suggested.
 
     Returns
     -------
     str
-        The lines of the message: the closest name or what is in the folder, and whether the source
-        of an installed package has the file.
+        The lines of the message: the closest name or the contents of the directory, and whether
+        the source of an installed package has the file.
 
     """
     return '\n'.join(filter(None, [_sentence(what, path, but), _source_of(path)]))
@@ -81,7 +81,7 @@ def _sentence(what: str, path: str, but: Container[str]) -> str:
 
 
 def _unsuitable(path: str) -> str:
-    """Return what there is under a path that is no file, empty if there is nothing."""
+    """Describe what a path is instead of a regular file; empty if it does not exist."""
     if os.path.isdir(path):
         return 'a folder'
     if os.path.exists(path):
@@ -99,7 +99,7 @@ def _closest_folder(folder: str) -> str:
 
 
 def _source_of(path: str) -> str:
-    """Say what to do if an installed package has the file in its source only."""
+    """Return advice if the file exists only in the source of an installed package."""
     try:
         from ros_environment.workspace import explain_uninstalled_file
     except ModuleNotFoundError:
@@ -108,7 +108,7 @@ def _source_of(path: str) -> str:
 
 
 def _listing(names: list[str]) -> str:
-    """Return what is in a folder, unless that is too much to be of help."""
+    """List the contents of a directory, unless there are too many entries."""
     if not names or len(names) > _LISTED:
         return ''
     return f'In this folder there are: {", ".join(names)}'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find out in advance what would fail when an event comes, without doing anything."""
+"""Check in advance, without side effects, for errors that a later event would cause."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def check_what_waits(context: LaunchContext) -> None:
     """
     Check the entities that wait for events, without visiting them.
 
-    Entities under a condition are left out.
+    Conditional entities are skipped.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def check_what_waits(context: LaunchContext) -> None:
     Raises
     ------
     Exception
-        The first error that is certain already, with the place that it comes from.
+        The first error that is certain to occur, annotated with its origin.
 
     """
     seen: set[int] = set()
@@ -70,7 +70,7 @@ def constant_text(parts: Any, context: LaunchContext) -> Optional[str]:
     Returns
     -------
     str or None
-        The text, or None if it may be another one later.
+        The text, or None if it may differ later.
 
     """
     from launch.utilities.normalize_to_list_of_substitutions_impl import (
@@ -86,9 +86,9 @@ def constant_text(parts: Any, context: LaunchContext) -> Optional[str]:
 
 def may_look_up(name: str, context: LaunchContext) -> bool:
     """
-    Whether what waits for an event may look up a launch configuration.
+    Whether an entity that waits for an event may look up a launch configuration.
 
-    Code of the user cannot be searched, so it may.
+    User code cannot be searched, so it is assumed to do so.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def may_look_up(name: str, context: LaunchContext) -> bool:
 
 def substitutions_in(value: Any) -> list[Substitution]:
     """
-    Collect all substitutions that a value holds, at any depth.
+    Collect all substitutions in a value, at any depth.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def substitutions_in(value: Any) -> list[Substitution]:
     Returns
     -------
     list of Substitution
-        Each of them once, an outer one before those in it.
+        Each substitution once, outer ones before nested ones.
 
     """
     found: list[Substitution] = []
@@ -150,7 +150,7 @@ def _check_all(
 
 
 def _inside(entity: LaunchDescriptionEntity) -> list[LaunchDescriptionEntity]:
-    """Return what an entity brings in without reading any file."""
+    """Return the sub-entities of an entity without reading any file."""
     from launch.actions.include_launch_description import IncludeLaunchDescription
 
     if isinstance(entity, IncludeLaunchDescription):
@@ -177,7 +177,7 @@ def _search(value: Any, found: list[Substitution], seen: set[int]) -> None:
 
 
 def _parts(value: Any) -> list[Any]:
-    """Return what lies directly in a value, if it is a container or belongs to launch."""
+    """Return the direct members of a value, if it is a container or an object of launch."""
     if isinstance(value, (list, tuple, set, frozenset)):
         return list(value)
     if isinstance(value, dict):

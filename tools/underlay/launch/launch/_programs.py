@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say whether a program can be started, before it is."""
+"""Check that programs can be executed before they are started."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ if TYPE_CHECKING:
 
 
 class ProgramNotFoundError(FileNotFoundError):
-    """A program is not there."""
+    """A program does not exist or is not executable."""
 
 
 def require_program(details: Mapping[str, Any]) -> None:
     """
-    Check that the program of a process exists and may be executed.
+    Check that the program of a process exists and is executable.
 
-    A folder that does not exist is only warned of, as it may be made until then: a process that
-    cannot be started in it is an error of that process alone.
+    A missing working directory only causes a warning, as it may be created before the start; if it
+    is not, only this process fails.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def require_program(details: Mapping[str, Any]) -> None:
     Raises
     ------
     ProgramNotFoundError
-        The program is not there, or may not be executed.
+        The program does not exist or is not executable.
 
     """
     program, folder = details['cmd'][0], details['cwd']
@@ -54,21 +54,21 @@ def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
     """
     Check the program of a process that waits for an event, as far as it is known.
 
-    What a path names may be made until then, and is only warned of.
+    A missing path only causes a warning, as it may be created before the start.
 
     Parameters
     ----------
     parts
-        The substitutions that stand for the program.
+        The substitutions of the program.
     env
-        The whole environment of the process; nothing is checked unless it is None.
+        The complete environment of the process; nothing is checked unless it is None.
     context
         The context in which the substitutions are performed.
 
     Raises
     ------
     ProgramNotFoundError
-        A program that is given by its name is not on the PATH.
+        A program given by name is not on the PATH.
 
     """
     from launch._preflight import constant_text
@@ -86,16 +86,16 @@ def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
 
 def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str]]) -> bool:
     """
-    Whether a program exists and may be executed.
+    Whether a program exists and is executable.
 
     Parameters
     ----------
     program
         Its name, or its path.
     folder
-        The working directory, from which a relative path leads; None for that of this process.
+        The working directory for relative paths; None for that of this process.
     env
-        The environment with the PATH that is searched; None for that of this process.
+        The environment whose PATH is searched; None for that of this process.
 
     """
     if os.path.dirname(program):
@@ -107,14 +107,14 @@ def find_program(program: str, env: Optional[Mapping[str, str]] = None) -> Optio
     """
     Find a program on the PATH, as the shell does.
 
-    `shutil.which` does the same, but shutil loads five libraries of compression.
+    `shutil.which` does the same, but shutil loads five compression libraries.
 
     Parameters
     ----------
     program
         Its name; a path is checked and returned as it is.
     env
-        The environment with the PATH that is searched; None for that of this process.
+        The environment whose PATH is searched; None for that of this process.
 
     Returns
     -------
@@ -138,7 +138,7 @@ def explain_missing_program(
     env: Optional[Mapping[str, str]] = None,
 ) -> str:
     """
-    Explain that a program is not there, or may not be executed.
+    Explain that a program does not exist or is not executable.
 
     Parameters
     ----------

@@ -7,30 +7,30 @@ import os
 
 
 class EnvironmentScopes:
-    """Keeps copies of the environment and restores them."""
+    """Stack of saved copies of the environment."""
 
     def __init__(self) -> None:
-        """Remember the environment of now for a reset."""
+        """Save the current environment for a reset."""
         self._at_start = dict(os.environ)
         self._stack: list[dict[str, str]] = []
 
     def push(self) -> None:
-        """Keep the environment for the next pop."""
+        """Save the environment until the next pop."""
         self._stack.append(dict(os.environ))
 
     def pop(self) -> None:
-        """Restore the environment of the last push."""
+        """Restore the environment saved by the last push."""
         if not self._stack:
             raise RuntimeError('cannot pop the environment: none has been pushed')
         _restore(self._stack.pop())
 
     def reset(self) -> None:
-        """Restore the environment of the start."""
+        """Restore the initial environment."""
         _restore(self._at_start)
 
 
 def _restore(kept: dict[str, str]) -> None:
-    """Make the environment equal to a copy, touching only what differs."""
+    """Restore the environment from a copy, modifying only variables that differ."""
     for name in [name for name in os.environ if name not in kept]:
         del os.environ[name]
     for name, value in kept.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""React to signals while a launch runs."""
+"""Signal handling while a launch runs."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def handled_signals(
     react: Callable[[signal.Signals], None],
 ) -> Iterator[None]:
     """
-    Handle the signals that ask to end, as a context manager.
+    Handle termination signals within a context.
 
     These are SIGINT, SIGTERM, SIGQUIT, and SIGHUP unless it is ignored, as under nohup. The
-    handlers of before are restored at the end. To be used in the main thread.
+    previous handlers are restored on exit. Use this in the main thread only.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def handled_signals(
     }
 
     def on_signal(number: int, frame: object) -> None:
-        """Wake up the loop, which waits for files only, and let it react."""
+        """Wake up the loop, which only waits for file descriptors, and schedule the reaction."""
         loop.call_soon_threadsafe(react, signal.Signals(number))
 
     for number in before:
@@ -49,5 +49,5 @@ def handled_signals(
 
 
 def _is_wanted(number: signal.Signals) -> bool:
-    """Return whether a signal is to be handled: not a hang-up that nohup ignores."""
+    """Check whether to handle a signal; a SIGHUP that nohup ignores is not handled."""
     return number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN

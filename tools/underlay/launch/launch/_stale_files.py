@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Warn of files that were changed in the workspace after they had been installed."""
+"""Warnings about files that were modified in the workspace after they had been installed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _SHARE = '/share/'
 
 def warn_of_stale_files(paths: Iterable[str]) -> None:
     """
-    Warn of installed files whose source is newer and has another content.
+    Warn about installed files whose source is newer and differs.
 
     Without the package `ros_environment` nothing is checked.
 
@@ -52,7 +52,7 @@ def note_files_of_command(context: LaunchContext, command: str) -> None:
     Parameters
     ----------
     context
-        Where they are recorded; nothing is once the checks have run.
+        The context that records them; nothing is recorded once the checks have run.
     command
         The command line, which is split as a shell does.
 

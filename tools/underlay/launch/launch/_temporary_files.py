@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that are written for the processes of a launch, and removed when it ends."""
+"""Temporary files for the processes of a launch, removed when it ends."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class FileListening:
     Parameters
     ----------
     listener
-        Called with the path of each file that there is, and of each other one before it is made.
+        Called with the path of each existing file, and of each new one before it is created.
 
     """
 
@@ -31,7 +31,7 @@ class FileListening:
             listener(path)
 
     def close(self) -> None:
-        """Tell no more."""
+        """Cancel the subscription; if it was the last one, remove all temporary files."""
         _listeners.remove(self._listener)
         if not _listeners:
             _remove_all()
@@ -44,7 +44,7 @@ def write_temporary_file(prefix: str, text: str) -> str:
     Parameters
     ----------
     prefix
-        The beginning of its name, before random digits.
+        The prefix of its name, before random digits.
     text
         The content, which is written as UTF-8.
 
@@ -68,7 +68,7 @@ def write_temporary_file(prefix: str, text: str) -> str:
 
 def is_temporary_file(path: str) -> bool:
     """
-    Whether `write_temporary_file` has made a file that is still there.
+    Whether a file was created by `write_temporary_file` and still exists.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def is_temporary_file(path: str) -> bool:
 
 
 def _folder() -> str:
-    """Return what tempfile.gettempdir() does, in the usual cases without that large module."""
+    """Return the temporary directory, usually without importing the large module `tempfile`."""
     for folder in (*map(os.environ.get, ('TMPDIR', 'TEMP', 'TMP')), '/tmp'):
         if folder and os.path.isdir(folder) and os.access(folder, os.W_OK | os.X_OK):
             return os.path.abspath(folder)

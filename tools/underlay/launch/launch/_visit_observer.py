@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What can be told to whoever watches a visit."""
+"""Interface of observers of a visit."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class VisitObserver:
-    """Is told about each entity; this one ignores it all."""
+    """Observer of visited entities; this base class ignores all notifications."""
 
     def enter(self, entity: LaunchDescriptionEntity) -> None:
         """
@@ -31,7 +31,7 @@ class VisitObserver:
         Parameters
         ----------
         entity
-            The entity, which has been visited with all that it returned.
+            The entity, which has been visited with all its sub-entities.
 
         """
 
@@ -42,7 +42,7 @@ class VisitObserver:
         Parameters
         ----------
         text
-            What the expression became.
+            The expanded expression.
 
         """
 
@@ -72,14 +72,14 @@ class VisitObserver:
 
     def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
         """
-        Handle what the entity that is being visited leaves waiting for an event.
+        Handle the entities that the visited entity leaves waiting for an event.
 
         Parameters
         ----------
         event
-            The event in words.
+            A description of the event.
         entities
-            The entities that are visited when it comes.
+            The entities that are visited on the event.
 
         """
 

@@ -23,9 +23,9 @@ class Action(LaunchDescriptionEntity):
     Parameters
     ----------
     condition
-        The action is executed only if this is fulfilled; without one, always.
+        The condition under which the action is executed; None for always.
     **unknown
-        Keywords that no class knows, which are an error.
+        Unknown keywords, which raise an error.
 
     Attributes
     ----------
@@ -57,16 +57,16 @@ class Action(LaunchDescriptionEntity):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
         """
-        Read from an element of a launch file what its action is constructed with.
+        Parse the constructor arguments of the action from an element of a launch file.
 
-        Subclasses extend what this returns.
+        Subclasses extend the result.
 
         Parameters
         ----------
         entity
             The element; here its attributes `if` and `unless` are read.
         parser
-            The parser of the file, which makes substitutions of texts.
+            The parser of the file, which parses substitutions.
 
         Returns
         -------
@@ -98,15 +98,15 @@ class Action(LaunchDescriptionEntity):
         return self.__condition
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that executing this action brings in; subclasses override this."""
+        """Return the sub-entities of the action; subclasses override this."""
         return []
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'Action({self!r})'
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that are visited with this one in any case."""
+        """Return the sub-entities that are visited unconditionally."""
         return self.get_sub_entities() if self.__condition is None else []
 
     def describe_conditional_sub_entities(
@@ -124,12 +124,12 @@ class Action(LaunchDescriptionEntity):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         Returns
         -------
         iterable of LaunchDescriptionEntity or None
-            What `execute` returns; None if the condition is not fulfilled.
+            The result of `execute`; None if the condition is not fulfilled.
 
         """
         if self.__condition is not None and not self._is_wanted(self.__condition, context):
@@ -140,22 +140,22 @@ class Action(LaunchDescriptionEntity):
             self._announce_completion(context)
 
     def _is_wanted(self, condition: Condition, context: LaunchContext) -> bool:
-        """Return the value of the condition, and tell who watches."""
+        """Evaluate the condition, and notify the observer."""
         value = bool(condition.evaluate(context))
         if context._observer is not None:
             context._observer.decided(self, value)
         return value
 
     def _outline(self) -> dict[str, Any]:
-        """Return what can be told about the action before it is executed."""
+        """Return the facts that are known about the action before it is executed."""
         return {}
 
     def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """Return what the action will leave waiting for events, with the events."""
+        """Return the entities that the action will leave waiting, with the event in words."""
         return []
 
     def _announce_completion(self, context: LaunchContext) -> None:
-        """Emit an event at the end of the execution if anyone waits for it by now."""
+        """Emit ExecutionComplete at the end of the execution if a handler matches it."""
         from launch.events.execution_complete import ExecutionComplete
 
         event = ExecutionComplete(action=self)
@@ -169,12 +169,12 @@ class Action(LaunchDescriptionEntity):
 
     def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """
-        Carry out the action; subclasses override this.
+        Execute the action; subclasses override this.
 
         Parameters
         ----------
         context
-            The state of the launch, in which substitutions are performed.
+            The launch context, in which substitutions are performed.
 
         Returns
         -------

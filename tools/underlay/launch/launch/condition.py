@@ -25,17 +25,17 @@ class Condition:
         self._predicate = predicate
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
         """
-        Evaluate the condition as things are now.
+        Evaluate the condition in the current state of the launch.
 
         Parameters
         ----------
         context
-            The state of the launch, which the predicate is given.
+            The launch context, which is passed to the predicate.
 
         Returns
         -------

@@ -7,10 +7,10 @@ from typing import Any
 
 
 class Event:
-    """Something that happened while the launch runs."""
+    """Base class of events that occur while a launch runs."""
 
     name = 'launch.Event'
 
     def _outline(self) -> dict[str, Any]:
-        """Return the facts about the event that a rehearsal shows."""
+        """Return the facts about the event that a dry run shows."""
         return {'event': type(self).__name__}

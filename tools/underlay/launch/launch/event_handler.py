@@ -36,21 +36,21 @@ class BaseEventHandler:
 
     @property
     def handle_once(self) -> bool:
-        """Return whether the handler reacts only once."""
+        """Whether the handler reacts only once."""
         return self.__handle_once
 
     @property
     def handler_description(self) -> str:
-        """Return what the handler does, for people."""
+        """Return a human-readable description of the handler."""
         return ''
 
     @property
     def matcher_description(self) -> str:
-        """Return which events the handler accepts, for people."""
+        """Return a human-readable description of the accepted events."""
         return getattr(self.__matcher, '__name__', repr(self.__matcher))
 
     def _awaited(self) -> str:
-        """Return what the handler waits for, in words."""
+        """Describe the event that the handler waits for."""
         return f'an event ({type(self).__name__})'
 
     def matches(self, event: Event) -> bool:
@@ -66,19 +66,19 @@ class BaseEventHandler:
         return self.__matcher(event)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a short description for people, and the entities behind it."""
+        """Return a short human-readable description, and the entities that are visited."""
         return f"{type(self).__name__}(matcher='{self.matcher_description}')", []
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
         """
-        Make the event known to the context; subclasses react to it.
+        Add the event to the local variables of the context; subclasses react to it.
 
         Parameters
         ----------
         event
             The event that has happened, which `matches` accepts.
         context
-            The state of the launch, in which the local variable `event` is set.
+            The launch context, in which the local variable `event` is set.
 
         Returns
         -------
@@ -101,7 +101,7 @@ class EventHandler(BaseEventHandler):
     matcher
         Called with an event; returns whether the handler reacts to it.
     entities
-        What is visited then; an iterable is gone through at each event.
+        The entities to visit on each event; an iterable is converted to a list.
     handle_once
         Whether the handler unregisters itself when it handles an event.
 
@@ -120,7 +120,7 @@ class EventHandler(BaseEventHandler):
                 [] if entities is None else [entities]
             )
         else:
-            self.__entities = list(entities)  # they are looked at before they are visited
+            self.__entities = list(entities)  # they are inspected before they are visited
 
     @property
     def entities(self) -> Iterable[LaunchDescriptionEntity]:
@@ -128,7 +128,7 @@ class EventHandler(BaseEventHandler):
         return self.__entities
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a short description for people, and the entities behind it."""
+        """Return a short human-readable description, and the entities that are visited."""
         return super().describe()[0], list(self.__entities)
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:

@@ -9,10 +9,10 @@ from launch._error_text import error_text
 
 
 class InvalidLaunchFileError(Exception):
-    """No loader could read a launch file; the text tells what each of them found."""
+    """No loader could read a launch file; the message lists the error of each of them."""
 
     def __init__(self, extension: str = '', *, likely_errors: Sequence[BaseException] = ()):
-        """Create the error of a file with this extension from what each loader raised."""
+        """Create the error for a file extension from the errors of all loaders."""
         self.extension = extension.lstrip('.')
         self.likely_errors = tuple(likely_errors)
         super().__init__(self._text())

@@ -36,7 +36,7 @@ class LaunchContext:
     argv
         The arguments that the launch was started with.
     noninteractive
-        Whether nobody sits at a terminal.
+        Whether the launch runs without a user at a terminal.
 
     """
 
@@ -67,7 +67,7 @@ class LaunchContext:
         self._before_start: Optional[BeforeStart] = None
         self._first_failure: Optional[int] = None
 
-    # What the launch was started with, and its state.
+    # Arguments and state of the launch.
 
     @property
     def argv(self) -> list[str]:
@@ -76,12 +76,12 @@ class LaunchContext:
 
     @property
     def noninteractive(self) -> bool:
-        """Return whether nobody sits at a terminal."""
+        """Whether the launch runs without a user at a terminal."""
         return self.__noninteractive
 
     @property
     def is_shutdown(self) -> bool:
-        """Return whether the launch is shutting down."""
+        """Whether the launch is shutting down."""
         return self.__is_shutdown
 
     def _set_is_shutdown(self, state: bool) -> None:
@@ -97,7 +97,7 @@ class LaunchContext:
         loop: Optional[asyncio.AbstractEventLoop],
         wake_up: Optional[Callable[[], None]],
     ) -> None:
-        """Tell which loop runs the launch, and how to wake it up for a new event."""
+        """Set the event loop that runs the launch, and the callback that wakes it up."""
         self.__loop = loop
         self.__wake_up = wake_up
 
@@ -115,14 +115,14 @@ class LaunchContext:
         Returns
         -------
         str
-            The text that it stands for now.
+            The string that it currently resolves to.
 
         """
         return sub.perform(self)
 
     @property
     def launch_configurations(self) -> LaunchConfigurations:
-        """Return the launch configurations, which may be changed."""
+        """Return the launch configurations, which may be modified."""
         return self.__launch_configurations
 
     def _push_launch_configurations(self) -> None:
@@ -205,7 +205,7 @@ class LaunchContext:
         Parameters
         ----------
         event_handler
-            The handler, which gets each event from now on.
+            The handler, which receives each event from now on.
         append
             Whether it comes after all other handlers rather than before them.
 

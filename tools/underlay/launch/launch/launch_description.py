@@ -25,8 +25,8 @@ class LaunchDescription(LaunchDescriptionEntity):
     initial_entities
         The entities, to which others can be added.
     deprecated_reason
-        Why the description should no longer be used, which is warned of when it is visited; None
-        if it may.
+        Why the description is deprecated, logged as a warning when it is visited; None if it is
+        not.
 
     """
 
@@ -46,12 +46,12 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Return whether the description should no longer be used."""
+        """Whether the description is deprecated."""
         return self.__deprecated_reason is not None
 
     @property
     def deprecated_reason(self) -> Optional[str]:
-        """Return why the description should no longer be used, or None."""
+        """Return the reason for the deprecation, or None."""
         return self.__deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
@@ -61,7 +61,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         Parameters
         ----------
         entity
-            The entity, which is visited after those that there are.
+            The entity, which is visited after the existing ones.
 
         """
         self.__entities.append(entity)
@@ -85,7 +85,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         Parameters
         ----------
         context
-            The state of the launch, which knows the launch file for the warning.
+            The launch context, which knows the launch file for the warning.
 
         """
         if self.deprecated:
@@ -106,12 +106,12 @@ class LaunchDescription(LaunchDescriptionEntity):
         conditional_inclusion: bool = False,
     ) -> list[DeclareLaunchArgument]:
         """
-        List the launch arguments declared here and in what is included.
+        List the launch arguments declared here and in included descriptions.
 
         Parameters
         ----------
         conditional_inclusion
-            Whether the description itself is included under a condition only.
+            Whether the description itself is included conditionally.
 
         Returns
         -------
@@ -139,7 +139,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         Returns
         -------
         list of tuple
-            The first declaration of each name, and its includes, the outermost first.
+            The first declaration of each name, and its includes, outermost first.
 
         """
         from launch._argument_discovery import find_arguments

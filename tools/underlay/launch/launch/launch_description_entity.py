@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDescriptionEntity:
-    """A part of a launch description; visiting it makes it happen."""
+    """Base class of the parts of a launch description; visiting an entity executes it."""
 
     _runs_code_of_the_user = False
 
@@ -22,12 +22,12 @@ class LaunchDescriptionEntity:
         context: LaunchContext,
     ) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """
-        Do what the entity stands for.
+        Execute the entity.
 
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         Returns
         -------
@@ -45,22 +45,22 @@ class LaunchDescriptionEntity:
         )
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return repr(self)
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that are visited with this one in any case."""
+        """Return the sub-entities that are visited unconditionally."""
         return []
 
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """Return the entities that may be visited, each list with the reason for it."""
+        """Return the entities that may be visited, each list with a reason."""
         return []
 
     def _check_in_advance(self, context: LaunchContext) -> None:
-        """Raise an error if it can be told already that visiting the entity later will fail."""
+        """Raise an error if a later visit of the entity is certain to fail."""
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[Any]]:
-        """Return a future that is done when the entity is; None if it is done at once."""
+        """Return a future that is done when the entity is complete; None if it is at once."""
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a launch description comes from."""
+"""Sources of launch descriptions."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ class LaunchDescriptionSource:
     launch_description
         The description; None if a subclass loads it from `location`.
     location
-        The path of the launch file, or what the source is called.
+        The path of the launch file, or a name for the source.
     method
-        How the description is loaded, for people.
+        A human-readable name of the loading method.
 
     """
 
@@ -49,14 +49,14 @@ class LaunchDescriptionSource:
 
     @property
     def location(self) -> str:
-        """Return the location, described by its parts as long as it is not known."""
+        """Return the location; until it is known, the description of its substitutions."""
         if self.__expanded_location is None:
             return ' + '.join(sub.describe() for sub in self.__location)
         return self.__expanded_location
 
     @property
     def method(self) -> str:
-        """Return how the description is loaded, for people."""
+        """Return a human-readable name of the loading method."""
         return self.__method
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
@@ -66,7 +66,7 @@ class LaunchDescriptionSource:
         Parameters
         ----------
         context
-            The state of the launch, in which the location is performed.
+            The launch context, in which the location is performed.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def _require_file(self, location: str, context: LaunchContext) -> None:
-        """Raise an error if the location is to be a file and is none."""
+        """Raise an error if the location must be a file, but is not."""
         if self._loads_file and not os.path.isfile(location):
             from launch._missing_file import explain_missing_include
 
@@ -91,7 +91,7 @@ class LaunchDescriptionSource:
             raise FileNotFoundError(explain_missing_include(location, reading))
 
     def _expand_location(self, context: LaunchContext) -> str:
-        """Return the location, which stays what it is the first time."""
+        """Return the location, which is performed once and then cached."""
         if self.__expanded_location is None:
             self.__expanded_location = perform_substitutions(context, self.__location)
         return self.__expanded_location
@@ -101,7 +101,7 @@ class LaunchDescriptionSource:
         return self.__location
 
     def _location_in_advance(self) -> Optional[str]:
-        """Return the location if it can be told before the launch runs, else None."""
+        """Return the location if it is known before the launch runs, else None."""
         from launch.launch_context import LaunchContext
 
         try:
@@ -110,7 +110,7 @@ class LaunchDescriptionSource:
             return None
 
     def try_get_launch_description_without_context(self) -> Optional[LaunchDescription]:
-        """Return the description if it can be had before the launch runs, else None."""
+        """Return the description if it is available before the launch runs, else None."""
         if self.__launch_description is not None:
             return self.__launch_description
         from launch.launch_context import LaunchContext
@@ -133,7 +133,7 @@ class LaunchDescriptionSource:
         return description
 
     def _from_preview(self, location: str) -> Optional[LaunchDescription]:
-        """Return what was loaded before if it would be loaded in the same way again."""
+        """Return the preview if neither the location nor the environment has changed."""
         if self.__preview is None:
             return None
         known_location, environment, description = self.__preview

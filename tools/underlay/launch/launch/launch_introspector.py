@@ -16,7 +16,7 @@ _STEP = '    '
 
 
 class LaunchIntrospector:
-    """Formats what can be told about entities before they are visited."""
+    """Formatter of the facts that are known about entities before they are visited."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
         """
@@ -25,19 +25,19 @@ class LaunchIntrospector:
         Parameters
         ----------
         launch_description
-            The description; what it includes is loaded if that needs no context.
+            The description; included files are loaded if that needs no context.
 
         Returns
         -------
         str
-            A line for each entity, indented by how deep it lies.
+            A line for each entity, indented by its depth.
 
         """
         return '\n'.join(_lines(launch_description, ()))
 
 
 def _lines(entity: LaunchDescriptionEntity, locations: tuple[str, ...]) -> Iterator[str]:
-    """Yield the lines of an entity and of what it brings in; a circle of includes ends."""
+    """Yield the lines of an entity and its sub-entities; stop at a circular include."""
     yield _head(entity)
     source = getattr(entity, 'launch_description_source', None)
     if source is not None:
@@ -55,7 +55,7 @@ def _lines(entity: LaunchDescriptionEntity, locations: tuple[str, ...]) -> Itera
 
 
 def _head(entity: LaunchDescriptionEntity) -> str:
-    """Return what an entity says about itself, or the name of its class and what is known."""
+    """Return the description of an entity, or the name of its class with the known facts."""
     if not isinstance(entity, Action) or type(entity).describe is not Action.describe:
         return entity.describe()
     facts = (f'{name}={value}' for name, value in entity._outline().items() if value is not None)

@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 
 class LaunchService:
     """
-    Runs launch descriptions: visits them and handles events until nothing is left to do.
+    Service that runs launch descriptions: visits them and handles events until it is idle.
 
     Parameters
     ----------
     argv
-        The arguments that the context knows the launch to be started with.
+        The arguments that the launch was started with, for the context.
     noninteractive
-        Whether nobody sits at a terminal.
+        Whether the launch runs without a user at a terminal.
     debug
         Whether the log level is set to DEBUG.
     prefork
@@ -104,12 +104,12 @@ class LaunchService:
         Parameters
         ----------
         force_sync
-            Whether None is returned in any case.
+            Whether to return None in any case.
 
         Returns
         -------
         Future or None
-            A future that is done already, in the main thread while the service runs; else None.
+            A completed future, in the main thread while the service runs; else None.
 
         """
         self.emit_event(Shutdown(reason='LaunchService.shutdown() called'))
@@ -126,7 +126,7 @@ class LaunchService:
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
         """
-        Run the service in a new event loop until all is done.
+        Run the service in a new event loop until the launch is done.
 
         Parameters
         ----------
@@ -158,7 +158,7 @@ class LaunchService:
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """
-        Run the service in the running event loop until all is done.
+        Run the service in the running event loop until the launch is done.
 
         Parameters
         ----------
@@ -194,7 +194,7 @@ class LaunchService:
         loop: asyncio.AbstractEventLoop,
         shutdown_when_idle: bool,
     ) -> int:
-        """Set up what a run needs, and take it down again whatever happens."""
+        """Set up the resources of a run, and always release them again."""
         from launch._event_processor import EventProcessor
         from launch._signals import handled_signals
         from launch._supervision.process_registry import ProcessRegistry
@@ -233,7 +233,7 @@ class LaunchService:
             launch_config.level = logging.DEBUG
 
     def _on_signal(self, number: signal.Signals) -> None:
-        """End the service; whoever asks twice is told that it is ending."""
+        """Shut the service down; only warn if a signal has already been received."""
         from launch.logging import get_logger
 
         self.__signals += 1
@@ -252,7 +252,7 @@ class LaunchService:
         self.emit_event(Shutdown(reason=reason, due_to_sigint=interrupted))
 
     async def _let_screen_catch_up(self) -> None:
-        """Wait for a slow reader of the output, until another signal says not to."""
+        """Wait for a slow reader of the output, until another signal arrives."""
         import asyncio
 
         from launch.logging._screen import screen
@@ -262,12 +262,12 @@ class LaunchService:
             await asyncio.sleep(0.01)
 
     def _on_screen_closed(self) -> None:
-        """End the service when nobody reads what it writes any more, as in `| head`."""
+        """Shut the service down when the reader of its output is gone, as in `| head`."""
         self.emit_event(Shutdown(reason='the standard output was closed'))
 
 
 class _IncludeHandler(EventHandler):
-    """Visits the launch descriptions that are queued."""
+    """Event handler that visits the queued launch descriptions."""
 
     def __init__(self) -> None:
         """Create the handler."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands for one or more entities given as the reaction to an event."""
+"""Type of one or more entities that are given as the reaction to an event."""
 
 from __future__ import annotations
 

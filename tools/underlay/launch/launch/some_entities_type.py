@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands for one or more entities of a launch description."""
+"""Type of one or more entities of a launch description."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands for a text that is known only when the launch runs."""
+"""Type of a string, or of substitutions that are performed when the launch runs."""
 
 from __future__ import annotations
 

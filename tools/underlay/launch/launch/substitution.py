@@ -14,14 +14,14 @@ class Substitution:
     """A text that is known only when the launch runs."""
 
     _is_constant = False  # whether it depends only on what is installed, and changes nothing
-    # What `$(name ...)` takes in a launch file, by the names that the constructor has for it.
+    # Arguments of `$(name ...)` in a launch file, by the names that the constructor has for them.
     frontend_required: ClassVar[tuple[str, ...]] = ()
     frontend_optional: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
         """
-        Read the arguments that a substitution has in a launch file.
+        Parse the arguments of a substitution in a launch file.
 
         Parameters
         ----------
@@ -50,12 +50,12 @@ class Substitution:
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Resolve the text that the substitution stands for; subclasses override this.
+        Perform the substitution and return its result; subclasses override this.
 
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         Raises
         ------
@@ -68,15 +68,15 @@ class Substitution:
         )
 
     def __add__(self, other: Any) -> NoReturn:
-        """Raise an error that says how to put texts together."""
+        """Raise an error that explains how to concatenate substitutions."""
         raise _no_sum(self)
 
     def __radd__(self, other: Any) -> NoReturn:
-        """Raise an error that says how to put texts together."""
+        """Raise an error that explains how to concatenate substitutions."""
         raise _no_sum(self)
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return repr(self)
 
 

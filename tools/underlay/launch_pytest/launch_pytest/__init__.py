@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Test what a launch description starts with ordinary pytest functions."""
+"""Test launch descriptions with ordinary pytest functions."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Collect the test functions with the marker `launch`."""
+"""Collect test functions with the marker `launch`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NODES: dict[str, Any] = {
 
 
 class LaunchTest(NamedTuple):
-    """What is known about a test that needs a launch."""
+    """Metadata of a test that needs a launch."""
 
     fixture: LaunchFixture
     is_after_shutdown: bool
@@ -39,27 +39,27 @@ def collect(
     """
     Collect the items of a test function with the marker `launch`.
 
-    A generator function is split if it shares its launch with other tests: what comes behind its
-    `yield` is an item of its own, which runs after the shutdown.
+    A generator function is split if it shares its launch with other tests: the code after its
+    `yield` becomes a separate item, which runs after shutdown.
 
     Parameters
     ----------
     collector
-        The module or class that the function is in.
+        The module or class that contains the function.
     name, function
         The test function.
     mark
-        The marker, with `fixture` and perhaps `shutdown`.
+        The marker, with `fixture` and optionally `shutdown`.
 
     Returns
     -------
     list of pytest.Function
-        The items, which note what they need in their stash.
+        The items, with their LaunchTest in the stash.
 
     Raises
     ------
     pytest.UsageError
-        The marker names no fixture that launches something.
+        The marker does not refer to a launch fixture.
 
     """
     fixture = launch_fixture_of(mark, f'{collector.nodeid}::{name}')
@@ -78,7 +78,7 @@ def _is_generator(function: Callable[..., Any]) -> bool:
 
 
 def _second_part(item: pytest.Function, fixture: LaunchFixture) -> pytest.Function:
-    """Return an item for what a test does behind its `yield`, when the launch has ended."""
+    """Create the item for the part of a test after its `yield`, which runs after shutdown."""
     result: pytest.Function = pytest.Function.from_parent(
         item.parent,
         name=f'{item.name}[shutdown]',
@@ -92,12 +92,12 @@ def _second_part(item: pytest.Function, fixture: LaunchFixture) -> pytest.Functi
 
 def put_after_shutdown_last(items: list[pytest.Item]) -> None:
     """
-    Move the tests that end a launch behind all others on the same launch.
+    Move tests that run after shutdown behind all other tests on the same launch.
 
     Parameters
     ----------
     items
-        All tests of the run, which are reordered in place.
+        All tests of the run, reordered in place.
 
     """
     launches = [_launch_of(item) for item in items]
@@ -112,7 +112,7 @@ def put_after_shutdown_last(items: list[pytest.Item]) -> None:
 
 
 def _launch_of(item: pytest.Item) -> Optional[tuple[Any, ...]]:
-    """Return what tests on the same launch have in common."""
+    """Return a key that is shared by all tests on the same launch."""
     test = item.stash.get(LAUNCH_TEST, None)
     if test is None:
         return None

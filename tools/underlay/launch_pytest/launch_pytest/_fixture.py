@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The decorator of fixtures that launch something."""
+"""Decorator for launch fixtures."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _ATTRIBUTE = '_launch_pytest_fixture'
 
 
 class LaunchFixture(NamedTuple):
-    """What is known about a fixture that launches something."""
+    """Metadata of a launch fixture."""
 
     name: str
     scope: str
@@ -30,26 +30,26 @@ def fixture(
     **kwargs: Any,
 ) -> Any:
     """
-    Make a fixture of a function that returns a launch description.
+    Create a launch fixture from a function that returns a launch description.
 
-    The function may also return, or yield, a sequence that begins with a launch description.
+    The function may also return or yield a sequence that starts with a launch description.
 
     Parameters
     ----------
     decorated
-        The function, if this is used as a decorator without arguments.
+        The function, if used as a decorator without arguments.
     scope
-        How long the launch lasts, as for pytest.fixture.
+        The lifetime of the launch, as for pytest.fixture.
     auto_shutdown
-        Whether the launch is shut down when the tests are done, and stays until then; otherwise it
-        ends when its processes have.
+        Whether the launch continues until the tests are done and is then shut down; otherwise it
+        ends with its processes.
     **kwargs
         The other arguments of pytest.fixture.
 
     Returns
     -------
     Any
-        The fixture, or the decorator that makes it.
+        The fixture, or the decorator that creates it.
 
     """
 
@@ -65,7 +65,7 @@ def fixture(
 
 def launch_fixture_of(mark: pytest.Mark, nodeid: str) -> LaunchFixture:
     """
-    Return the launch fixture that the marker of a test names.
+    Return the launch fixture that the marker of a test refers to.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def launch_fixture_of(mark: pytest.Mark, nodeid: str) -> LaunchFixture:
     Raises
     ------
     pytest.UsageError
-        The marker names no fixture that launches something.
+        The marker does not refer to a launch fixture.
 
     """
     found = getattr(mark.kwargs.get('fixture'), _ATTRIBUTE, None)
@@ -90,7 +90,7 @@ def launch_fixture_of(mark: pytest.Mark, nodeid: str) -> LaunchFixture:
 
 
 def _launching(function: Callable[..., Any], *, auto_shutdown: bool) -> Callable[..., Any]:
-    """Return the function of the fixture."""
+    """Wrap a function into the generator function of the fixture."""
     signature = inspect.signature(function)
     takes_request = 'request' in signature.parameters
 
@@ -120,7 +120,7 @@ def _launching(function: Callable[..., Any], *, auto_shutdown: bool) -> Callable
 
 
 def _description(value: Any, function: Callable[..., Any]) -> LaunchDescription:
-    """Return the launch description in what a fixture returned."""
+    """Extract the launch description from the value of a fixture."""
     first = value[0] if isinstance(value, (list, tuple)) and value else value
     if not isinstance(first, LaunchDescription):
         raise TypeError(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the test functions with the marker `launch`."""
+"""Run test functions with the marker `launch`."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ _END = object()
 
 def session_of(item: pytest.Item, fixture_name: str) -> LaunchSession:
     """
-    Return the session that a fixture has started for a test.
+    Return the launch session that a fixture has started for a test.
 
     Parameters
     ----------
     item
         The test.
     fixture_name
-        The fixture.
+        The name of the fixture.
 
     Raises
     ------
     RuntimeError
-        The fixture has launched nothing for it.
+        The fixture has not started a launch for the test.
 
     """
     for node in reversed(item.listchain()):
@@ -40,14 +40,14 @@ def session_of(item: pytest.Item, fixture_name: str) -> LaunchSession:
 
 def run(item: pytest.Function, test: LaunchTest) -> None:
     """
-    Run a test; if it fails, its report shows the processes.
+    Run a test; on failure, add the state of the processes to its report.
 
     Parameters
     ----------
     item
         The test function.
     test
-        The launch that it needs, and when it runs.
+        The launch that the test needs, and when it runs.
 
     """
     session = session_of(item, test.fixture.name)
@@ -83,7 +83,7 @@ def _run_parts(
     session: LaunchSession,
     generator: Any,
 ) -> None:
-    """Run a test to its `yield`, and further if the launch is for it alone."""
+    """Run a test to its `yield`, and beyond if it does not share its launch."""
     if _step(session, generator) is _END:
         return
     if test.fixture.scope == 'function' or test.is_after_shutdown:
@@ -99,7 +99,7 @@ def _resume(session: LaunchSession, generator: Any) -> None:
 
 
 def _step(session: LaunchSession, generator: Any) -> Any:
-    """Run a generator to its next `yield` or its end."""
+    """Advance a generator to its next `yield` or its end."""
     if inspect.isasyncgen(generator):
         return session.wait_for(partial(_next, generator))
     return session.call(partial(next, generator, _END))
@@ -111,7 +111,7 @@ async def _next(generator: Any) -> Any:
 
 def run_marked(item: pytest.Function) -> bool:
     """
-    Run a test if it needs a launch, and return whether it does.
+    Run a test if it needs a launch; return whether it was run.
 
     Parameters
     ----------

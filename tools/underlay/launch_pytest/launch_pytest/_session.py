@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A launch that goes on while tests run."""
+"""Launch sessions, which run alongside tests."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ SESSIONS: pytest.StashKey[dict[str, LaunchSession]] = pytest.StashKey()
 
 class LaunchSession:
     """
-    Runs a launch, in the main thread, whenever a test is running or waited for.
+    Launch that runs in the main thread, whenever a test is running or awaited.
 
     Parameters
     ----------
     description
-        What is launched by `start`.
+        The launch description that `start` launches.
     auto_shutdown
-        Whether the launch is shut down by `shutdown`; otherwise it ends when its processes have.
+        Whether `shutdown` shuts the launch down; otherwise it ends with its processes.
     ready_timeout_s
-        How long `start` waits for every ReadyToTest, in s.
+        The timeout of `start` for all ReadyToTest actions, in s.
 
     Attributes
     ----------
     service
         The launch service.
     suspended
-        The generators of tests that have come to their `yield`, by the ids of their nodes.
+        The generators of tests that have reached their `yield`, by node id.
 
     """
 
@@ -66,14 +66,14 @@ class LaunchSession:
 
     @property
     def is_running(self) -> bool:
-        """Return whether the launch goes on."""
+        """Whether the launch is running."""
         return self._task is not None and not self._task.done()
 
     def report(self) -> str:
-        """Return how the processes are, and what they have written last."""
+        """Format the states of the processes and their last output, for error messages."""
         return self._observation.report().strip()
 
-    # Begin and end.
+    # Start and shutdown.
 
     def start(self) -> None:
         """Start the launch and wait until it is ready."""
@@ -105,7 +105,7 @@ class LaunchSession:
         self._require_success(were_tests_running=ready.done())
 
     def shutdown(self) -> None:
-        """Shut the launch down, or wait for its end if it ends by itself."""
+        """Shut the launch down, or wait for its end without auto_shutdown."""
         if self._auto_shutdown and self.is_running:
             self.service.shutdown()
         if self._task is not None:
@@ -113,7 +113,7 @@ class LaunchSession:
         self._require_success(were_tests_running=True)
 
     def close(self) -> None:
-        """End the launch, whatever state it is in."""
+        """Shut the launch down in any state and release its event loop."""
         try:
             self._auto_shutdown = True
             self.shutdown()
@@ -130,7 +130,7 @@ class LaunchSession:
         self._loop.run_until_complete(self._loop.shutdown_asyncgens())
 
     def _require_success(self, *, were_tests_running: bool) -> None:
-        """Fail if the launch has ended in a way in which it should not."""
+        """Fail the test if the launch has failed or has ended early."""
         task = self._task
         if task is None or not task.done():
             return
@@ -146,12 +146,12 @@ class LaunchSession:
 
     def call(self, function: Callable[[], Any]) -> Any:
         """
-        Call a function in another thread while the launch goes on, and return its result.
+        Call a function in another thread while the launch is running; return its result.
 
         Parameters
         ----------
         function
-            Called without arguments; in this thread if the launch has ended.
+            Called without arguments; in the calling thread if the launch has ended.
 
         """
         if not self.is_running:
@@ -160,9 +160,9 @@ class LaunchSession:
 
     def wait_for(self, function: Callable[[], Awaitable[Any]]) -> Any:
         """
-        Await something in the event loop of the launch, and return its result.
+        Await an object in the event loop of the launch; return its result.
 
-        The test fails if the launch fails meanwhile.
+        The test fails if the launch fails in the meantime.
 
         Parameters
         ----------
@@ -210,7 +210,7 @@ def _in_thread(
             problem = error
         try:
             loop.call_soon_threadsafe(finish, result, problem)
-        except RuntimeError:  # the launch was given up meanwhile
+        except RuntimeError:  # the launch was closed in the meantime
             pass
 
     threading.Thread(target=work, name='launch test', daemon=True).start()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The plugin of pytest.
+Pytest plugin.
 
-It is loaded in every run of pytest, so it imports the rest only for tests with the marker.
+It is loaded in every pytest run, so it imports the rest only for tests with the marker.
 """
 
 from __future__ import annotations
@@ -50,12 +50,12 @@ def pytest_pycollect_makeitem(
     collector
         The module or class that is being collected.
     name, obj
-        An attribute of it.
+        The name and the value of an attribute of the collector.
 
     Returns
     -------
     list of pytest.Function or None
-        None leaves the object to others.
+        None leaves the object to other plugins.
 
     """
     if not collector.istestfunction(obj, name):
@@ -69,7 +69,7 @@ def pytest_pycollect_makeitem(
 
 
 def _mark(collector: Any, function: object) -> Optional[pytest.Mark]:
-    """Return the marker of a test function, or that of its class or module."""
+    """Return the marker of a test function, its class or its module."""
     for mark in getattr(function, 'pytestmark', ()):
         if mark.name == _MARKER:
             found: pytest.Mark = mark
@@ -81,12 +81,12 @@ def _mark(collector: Any, function: object) -> Optional[pytest.Mark]:
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """
-    Move the tests that end a launch behind all others on the same launch.
+    Move tests that run after shutdown behind all other tests on the same launch.
 
     Parameters
     ----------
     items
-        All tests of the run, which are reordered in place.
+        All tests of the run, reordered in place.
 
     """
     if _is_used():
@@ -108,7 +108,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Optional[bool]:
     Returns
     -------
     bool or None
-        True if it has been run; None leaves it to others.
+        True if it has been run; None leaves it to other plugins.
 
     """
     if not _is_used():
@@ -119,7 +119,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Optional[bool]:
 
 
 def _is_used() -> bool:
-    """Return whether any test with the marker was collected."""
+    """Whether any test with the marker was collected."""
     return 'launch_pytest._collection' in sys.modules
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Describe ROS nodes as parts of a launch description."""
+"""ROS extensions for launch: nodes, parameters, namespaces and lifecycle transitions."""
 
 from __future__ import annotations
 

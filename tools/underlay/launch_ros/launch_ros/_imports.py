@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find out from its source what a Python script imports, without running any of it."""
+"""Find the imports of a Python script by parsing its source, without running it."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ import re
 import sys
 from typing import Optional
 
-# As setuptools writes it into the scripts that it installs.
+# Entry point reference in the console scripts that setuptools installs.
 _ENTRY_POINT = re.compile(
     r"""['"]([^'"=]+)(?:==[^'"]*)?['"], *['"]console_scripts['"], *['"]([^'"]+)"""
 )
 _MOST_MODULES = 300
 
 Import = tuple[str, tuple[str, ...]]
-"""A module, and the names that are imported from it."""
+"""A module and the names imported from it."""
 
 
 def imports_of(scripts: Sequence[str]) -> Iterator[Import]:
     """
-    Yield what Python scripts import from outside the workspace, without running them.
+    Yield the imports of Python scripts from outside the workspace, without running them.
 
-    Modules that are not installed with this Python are followed into their sources, up to a fixed
-    number. Scripts that setuptools has installed are followed to the module of their entry point.
+    The sources of modules that are not installed with this Python are searched in turn, up to a
+    fixed number. Console scripts that setuptools installed are resolved to their entry points.
 
     Parameters
     ----------
     scripts
-        Paths of Python files; one that cannot be read or parsed has no imports.
+        Paths of Python files; files that cannot be read or parsed yield nothing.
 
     Yields
     ------
     Import
-        A module that is not followed, and the names imported from it.
+        A module outside the workspace and the names imported from it.
 
     """
     waiting = [item for script in scripts for item in _imports_of_script(script)]
@@ -68,7 +68,7 @@ def _imports_of_script(script: str) -> Iterator[Import]:
 
 
 def _imports_in(path: str) -> Iterator[Import]:
-    """Yield what the top level of a file imports."""
+    """Yield the top-level imports of a file."""
     try:
         tree = ast.parse(_text(path))
     except (SyntaxError, ValueError):
@@ -89,7 +89,7 @@ def _text(path: str) -> str:
 
 
 def _workspace_file(module: str) -> Optional[str]:
-    """Return the file of a module that is not installed with this Python, None for others."""
+    """Return the source file of a module outside this Python installation, or None."""
     top, *rest = module.split('.')
     if top in sys.stdlib_module_names:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tags and substitutions of this package, which launch.frontend loads when they are used."""
+"""Frontend tags and substitutions of this package, which launch.frontend imports on demand."""
 
 from __future__ import annotations
 

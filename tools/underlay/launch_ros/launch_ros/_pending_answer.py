@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait in an event loop for what arrives in the thread of a node."""
+"""Wait in an event loop for a service response that arrives in the executor thread."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, Optional
 
 class PendingAnswer:
     """
-    A service request that was sent from an event loop; leaving the context drops its response.
+    Pending service request of an event loop; leaving the context drops the response.
 
     Parameters
     ----------
@@ -66,5 +66,5 @@ class PendingAnswer:
         return True
 
     def result(self) -> Any:
-        """Return the answer that has arrived."""
+        """Return the response that has arrived."""
         return self._future.result()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What nodes written in Python import: it is imported once for all of them."""
+"""Preload the imports of Python nodes once, before their processes are forked."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from launch_ros._tracing import Tracing
 EARLY_VARIABLES = frozenset(
     ('RCL_ASSERT_RMW_ID_MATCHES', 'RMW_IMPLEMENTATION', 'ROS_PYTHON_CHECK_FIELDS')
 )
-"""What is read when rclpy and messages are imported, not only when a node is created."""
+"""Environment variables that are read when rclpy and messages are imported."""
 
-# What every node of rclpy makes use of.
+# Modules and interfaces that every rclpy node uses.
 _COMMON = (
     ('rclpy', ()),
     ('rclpy.executors', ()),
@@ -26,7 +26,7 @@ _COMMON = (
     ('rcl_interfaces.srv', ('DescribeParameters', 'GetParameters', 'GetParameterTypes')),
     ('rcl_interfaces.srv', ('ListParameters', 'SetParameters', 'SetParametersAtomically')),
 )
-# Loading these changes nothing but the memory of the process.
+# Importing these has no side effects apart from memory use.
 _HARMLESS = frozenset(('numpy', 'rclpy', 'yaml'))
 
 _tracing = Tracing()
@@ -36,12 +36,12 @@ def preload(scripts: Sequence[str]) -> None:
     """
     Import what Python nodes need: rclpy, numpy, yaml and the type supports of interfaces.
 
-    Nothing of it is initialised, so that processes can be forked afterwards.
+    None of it is initialised, so that processes can be forked afterwards.
 
     Parameters
     ----------
     scripts
-        Paths of the Python programs that are going to be forked from this process.
+        Paths of the Python programs that will be forked from this process.
 
     """
     from launch_ros._imports import imports_of
@@ -56,19 +56,19 @@ def preload(scripts: Sequence[str]) -> None:
 
 
 def before_fork() -> None:
-    """Make libraries ready for copies of the process."""
+    """Prepare libraries for a fork of the process."""
     _tracing.before_fork()
 
 
 def after_fork() -> None:
-    """Make libraries work in a copy of the process."""
+    """Restore libraries in the child process after a fork."""
     _tracing.after_fork()
     if 'numpy.random' in sys.modules:
         sys.modules['numpy.random'].seed()
 
 
 def _import(module: str) -> Any:
-    """Import a module; whoever needs one that cannot be imported will say so."""
+    """Import a module; None if that fails, as the node itself will report the error."""
     try:
         return import_module(module)
     except ImportError:
@@ -76,7 +76,7 @@ def _import(module: str) -> Any:
 
 
 def _holds_interfaces(package: str) -> bool:
-    """Return whether a package was made from descriptions of messages, services and actions."""
+    """Whether a package holds generated interfaces (messages, services or actions)."""
     spec = find_spec(package)
     folders = (spec.submodule_search_locations or ()) if spec is not None else ()
     library = f'{package}_s__rosidl_typesupport_c.'
@@ -84,7 +84,7 @@ def _holds_interfaces(package: str) -> bool:
 
 
 def _load_type_supports(module: Any, names: Sequence[str]) -> None:
-    """Load the libraries that describe interfaces to the middleware."""
+    """Load the type support libraries of interfaces."""
     from rclpy.type_support import check_for_type_support
 
     for name in names:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a ROS node beside the event loop of a launch."""
+"""Run a ROS node alongside the event loop of a launch."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _ENDING_S = 10.0
 
 class ROSAdapter:
     """
-    The ROS node of a launch, in a ROS context of its own, spun by a thread of its own.
+    The ROS node of a launch, with its own ROS context, spun by its own thread.
 
     Parameters
     ----------
@@ -74,12 +74,12 @@ class ROSAdapter:
 
     @property
     def ros_executor(self) -> SingleThreadedExecutor:
-        """Return the executor of the callbacks."""
+        """Return the executor that spins the node."""
         return self._ros_executor
 
     @property
     def is_running(self) -> bool:
-        """Return whether the node is there and not about to end."""
+        """Whether the node is running and not shutting down."""
         return not self._stopping.is_set()
 
     def set_use_sim_time(self, value: bool) -> None:
@@ -89,14 +89,14 @@ class ROSAdapter:
         Parameters
         ----------
         value
-            Whether its clock follows `/clock`.
+            Whether the clock of the node follows `/clock`.
 
         """
         self._ros_node.set_parameters([_use_sim_time(value)])
 
     def start_task(self, coroutine: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
         """
-        Start a coroutine that uses the node; it is canceled before the node ends.
+        Start a coroutine that uses the node; it is canceled before the node is destroyed.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class ROSAdapter:
         Raises
         ------
         RuntimeError
-            There is no event loop, as the launch is not running.
+            The launch is not running, so there is no event loop.
 
         """
         if self._loop is None:
@@ -122,7 +122,7 @@ class ROSAdapter:
         task.add_done_callback(self._tasks.discard)
         return task
 
-    # The thread.
+    # The executor thread.
 
     def _spin(self) -> None:
         while not self._stopping.is_set() and self._ros_context.ok():
@@ -144,16 +144,16 @@ class ROSAdapter:
         if self._loop is not None and self._ended is not None:
             self._loop.call_soon_threadsafe(self._ended.set_result, None)
 
-    # The end.
+    # Shutdown.
 
     def _stop(self) -> None:
-        """Let the thread leave its loop: a task makes it look up from its waiting."""
+        """Request the thread to leave its loop; a task wakes up the executor."""
         if not self._stopping.is_set():
             self._stopping.set()
             self._ros_executor.create_task(lambda: None)
 
     def shutdown(self) -> None:
-        """End the node, and wait until that is done, or until a callback has taken too long."""
+        """Shut the node down and wait for its thread, with a timeout for slow callbacks."""
         self._stop()
         self._thread.join(_ENDING_S)
         atexit.unregister(self.shutdown)
@@ -162,7 +162,7 @@ class ROSAdapter:
         """
         Shut the node down without blocking the event loop of the launch.
 
-        Tasks are canceled first. The launch waits for the end of the node before it ends itself.
+        Tasks are canceled first. The launch waits for the shutdown of the node before it ends.
 
         Parameters
         ----------
@@ -176,7 +176,7 @@ class ROSAdapter:
             context.add_completion_future(self._loop.create_task(self._end()))
 
     async def _end(self) -> None:
-        while self._tasks:  # again, as a task that gets its result just then is not canceled
+        while self._tasks:  # again: a task whose result arrives at that moment is not canceled
             for task in self._tasks:
                 task.cancel()
             await asyncio.wait(set(self._tasks), timeout=_CANCEL_AGAIN_S)

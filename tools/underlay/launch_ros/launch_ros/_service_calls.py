@@ -13,7 +13,7 @@ from launch_ros._pending_answer import PendingAnswer
 from rcl_interfaces.srv import GetParameterTypes
 
 STARTED_ANEW = 'started anew'
-"""The message of a cancellation after which the same is asked for again."""
+"""Cancellation message for calls that are repeated after a respawn."""
 
 _POLL_S = 0.05
 _CHECK_S = 0.5
@@ -23,17 +23,17 @@ _NO_PROBE_AFTER_S = 1.0
 
 
 class ServiceGoneError(RuntimeError):
-    """Nobody will answer a call; the text says why."""
+    """A service call will get no response; the message states why."""
 
 
 class ServiceCaller:
     """
-    Calls a service of a node as soon as it is available.
+    Service client that calls a service of a node as soon as it is available.
 
-    A node that has just been discovered may not know yet where to send its responses, and drops
-    them. So a harmless request (GetParameterTypes) comes first, repeated until it is answered. As
-    its client is created after that for the service, and after all earlier subscriptions, its
-    response shows that the node knows those as well.
+    A node that was just discovered may not have discovered this client yet, and then drops its
+    responses. A harmless probe (GetParameterTypes) is therefore sent first, and repeated until it
+    is answered. As the probe client is created after the service client and after all earlier
+    subscriptions, its response shows that the node has discovered those as well.
 
     Parameters
     ----------
@@ -42,18 +42,18 @@ class ServiceCaller:
     service_type
         The class of the service, such as `composition_interfaces.srv.LoadNode`.
     node_name
-        The full name of the node that offers the service.
+        The fully qualified name of the node that offers the service.
     service
-        The name of the service below that of the node.
+        The service name, relative to that of the node.
     logger
-        Receives warnings about a service that is late or that is given up.
+        Logger for warnings about a late or abandoned service.
     server
-        Done when the process of that node has ended for good; None if it is not of this launch.
+        Done when the process of the node has ended for good; None if not started by this launch.
 
     Attributes
     ----------
     has_asked
-        Whether a request has been sent, so that a server that dies may have lost it.
+        Whether a request has been sent, which a dying server may have lost.
 
     """
 
@@ -73,10 +73,10 @@ class ServiceCaller:
         self._logger = logger
         self._server = server
         self.has_asked = False
-        """Whether a request has been sent, which whoever dies may have lost."""
+        """Whether a request has been sent, which a dying server may have lost."""
 
     def close(self) -> None:
-        """Give the clients back."""
+        """Destroy the service clients."""
         self._ros_node.destroy_client(self._probe)
         self._ros_node.destroy_client(self._client)
 
@@ -84,7 +84,7 @@ class ServiceCaller:
         """
         Wait for the service, send a request, and wait for the response.
 
-        A cancellation meanwhile is logged as due to the shutdown, except with `STARTED_ANEW`.
+        A cancellation in the meantime is logged as due to shutdown, except with `STARTED_ANEW`.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class ServiceCaller:
         Raises
         ------
         ServiceGoneError
-            The process of the node has ended, or the service has disappeared before it answered.
+            The process of the node has ended, or the service disappeared before it responded.
 
         """
         with self._abandoned('service'):
@@ -110,12 +110,12 @@ class ServiceCaller:
 
     def report_abandoned(self, what: str = 'service') -> None:
         """
-        Log that the shutdown of the launch ends the wait for the service.
+        Log that the wait for the service is abandoned due to shutdown.
 
         Parameters
         ----------
         what
-            What was waited for: `service` or `service response`.
+            The awaited object: `service` or `service response`.
 
         """
         self._logger.warning("Abandoning wait for the '%s' %s, due to shutdown.", self._name, what)
@@ -137,7 +137,7 @@ class ServiceCaller:
             patience.check("the service '%s', which no running node offers", self._name)
 
     async def _until_heard(self) -> None:
-        """Ask the harmless question until it is answered; nodes without it are not asked."""
+        """Send the probe until it is answered; skip nodes without parameter services."""
         patience = _Patience(self._logger)
         no_probe = _now() + _NO_PROBE_AFTER_S
         while True:
@@ -153,7 +153,7 @@ class ServiceCaller:
                 await asyncio.sleep(_POLL_S)
 
     async def _answer(self, request: Any) -> Any:
-        """Send the request; whoever was there and is not any more will not answer it."""
+        """Send the request; raise an error if the server disappears before its response."""
         self.has_asked = True
         lost = _now() + _LOST_AFTER_S
         with PendingAnswer(self._client, request) as pending:
@@ -173,7 +173,7 @@ class ServiceCaller:
 
 
 class _Patience:
-    """Tells once what is still waited for, if that takes long."""
+    """Logs a single warning if a wait takes long."""
 
     def __init__(self, logger: logging.Logger) -> None:
         self._logger = logger

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let copies of a process be traced as if they had loaded the tracing library themselves."""
+"""Keep LTTng tracing working in forked processes."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ import os
 from typing import Any
 
 _NAME = 'liblttng-ust'
-_PREFIXES = ('lttng_ust_', 'ust_')  # of the functions, from version 2.13 on and before
+_PREFIXES = ('lttng_ust_', 'ust_')  # of the function names, since version 2.13 and before
 _SIZE_OF_A_SIGNAL_SET = 128
 
 
 class Tracing:
     """
-    The tracing library that rclpy loads, which has threads of its own.
+    Fork handler of the LTTng-UST library that rclpy loads, which has its own threads.
 
-    It wants to be told of each fork, and starts its threads again in the copy; without that, a
-    copy crashes at its end.
+    The library must be notified of each fork, and restarts its threads in the child process;
+    without that, the child crashes on exit.
     """
 
     def __init__(self) -> None:
-        """Look for nothing yet."""
+        """Create a handler; libraries are looked up on `before_fork`."""
         self._after: list[Callable[[Any], None]] = []
         self._signals: Any = None
 
     def before_fork(self) -> None:
-        """Hold the library still."""
+        """Notify the library of an imminent fork."""
         import ctypes
 
         self._signals = ctypes.create_string_buffer(_SIZE_OF_A_SIGNAL_SET)
@@ -39,13 +39,13 @@ class Tracing:
                     break
 
     def after_fork(self) -> None:
-        """Let the library start anew in the copy."""
+        """Restart the library in the child process."""
         for function in self._after:
             function(self._signals)
 
 
 def _loaded_paths() -> list[str]:
-    """Return the paths of the library and its parts that this process has loaded."""
+    """Return the paths of the LTTng-UST libraries that this process has loaded."""
     with open('/proc/self/maps') as file:
         paths = {line.rstrip('\n').partition('/')[2] for line in file}
     return sorted(f'/{path}' for path in paths if os.path.basename(path).startswith(_NAME))

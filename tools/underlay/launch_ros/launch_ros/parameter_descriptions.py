@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters, their values, and files of them."""
+"""Descriptions of parameters, parameter values and parameter files."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ class ParameterValue:
     Parameters
     ----------
     value
-        A scalar, a list, or substitutions.
+        A scalar, a list or substitutions.
     value_type
-        Such as `str` or `list[int]`; None leaves the type of a text to YAML rules.
+        The type, such as `str` or `list[int]`; None applies YAML rules to strings.
 
     Raises
     ------
     TypeError
-        The value is not of this type, nor like a text.
+        The value is neither of this type nor a string or substitution.
 
     """
 
@@ -44,27 +44,27 @@ class ParameterValue:
 
     @property
     def value(self) -> Any:
-        """Return the value, or the substitutions that stand for it."""
+        """Return the value, or the substitutions that evaluate to it."""
         return self.__value
 
     @property
     def value_type(self) -> Optional[Any]:
-        """Return the type, None if YAML rules decide."""
+        """Return the type; None if YAML rules apply."""
         return self.__value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
         """
-        Evaluate the value on the first call; later calls return the same.
+        Evaluate the value on the first call; later calls return the same result.
 
         Parameters
         ----------
         context
-            What substitutions are performed with.
+            The launch context used to perform substitutions.
 
         Raises
         ------
         ValueError
-            What substitutions stand for cannot be read as the type.
+            The substituted text cannot be converted to the type.
 
         """
         if self.__evaluated is _NOT_YET:
@@ -72,7 +72,7 @@ class ParameterValue:
         return self.__evaluated
 
     def __repr__(self) -> str:
-        """Return the value as text for people."""
+        """Return a human-readable representation."""
         return f'{type(self).__name__}(value={self.__value!r}, value_type={self.__value_type!r})'
 
 
@@ -90,7 +90,7 @@ class Parameter:
     Raises
     ------
     TypeError
-        The name is not like a text, or the value not of the type.
+        The name is not a string or substitution, or the value is not of the type.
 
     """
 
@@ -108,12 +108,12 @@ class Parameter:
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
         """
-        Evaluate the name and the value; afterwards `get_parameter_rule` can be called.
+        Evaluate the name and the value; required before `get_parameter_rule`.
 
         Parameters
         ----------
         context
-            What substitutions are performed with.
+            The launch context used to perform substitutions.
 
         Returns
         -------
@@ -123,7 +123,7 @@ class Parameter:
         Raises
         ------
         TypeError
-            A parameter cannot have the value.
+            The value is not a valid parameter value.
 
         """
         from launch_ros.utilities.parameter_values import checked
@@ -155,7 +155,7 @@ class ParameterFile:
     Raises
     ------
     TypeError
-        An argument has another type.
+        An argument has the wrong type.
 
     """
 
@@ -169,22 +169,22 @@ class ParameterFile:
 
     @property
     def param_file(self) -> list[Substitution]:
-        """Return the parts of the path."""
+        """Return the path, as substitutions."""
         return self.__param_file
 
     @property
     def allow_substs(self) -> bool:
-        """Return whether there may be substitutions in the file."""
+        """Whether substitutions in the file are performed."""
         return self.__allow_substs
 
     def evaluate(self, context: LaunchContext) -> str:
         """
-        Evaluate the path of the file, or of a temporary copy with its substitutions performed.
+        Evaluate the path of the file, or of a temporary copy with substitutions performed.
 
         Parameters
         ----------
         context
-            What substitutions in the path and in the file are performed with.
+            The launch context used to perform substitutions in the path and in the file.
 
         Raises
         ------

@@ -16,17 +16,17 @@ _KEY = 'ros_adapter'
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     """
-    Return the adapter that runs the launch's own node; it is created on the first call.
+    Return the adapter of the launch's own node; it is created on the first call.
 
     Parameters
     ----------
     context
-        The context of the launch, which keeps it.
+        The launch context, which stores the adapter.
 
     Raises
     ------
     RuntimeError
-        The launch is shutting down, and the node has ended.
+        The launch is shutting down and the node has been destroyed.
 
     """
     adapter = find_ros_adapter(context)
@@ -39,12 +39,12 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
 
 def get_ros_node(context: LaunchContext) -> Any:
     """
-    Return the launch's own rclpy node, which a thread of its own spins.
+    Return the launch's own rclpy node, which is spun by its own thread.
 
     Parameters
     ----------
     context
-        As for `get_ros_adapter`, which may raise an error.
+        As for `get_ros_adapter`, whose exceptions propagate.
 
     """
     return get_ros_adapter(context).ros_node
@@ -52,9 +52,9 @@ def get_ros_node(context: LaunchContext) -> Any:
 
 def find_ros_adapter(context: LaunchContext) -> Optional[ROSAdapter]:
     """
-    Return the adapter that runs the launch's own node, None if it has not been created.
+    Return the adapter of the launch's own node; None if it has not been created.
 
-    An adapter that is about to end counts as none.
+    An adapter that is shutting down is not returned.
 
     Parameters
     ----------

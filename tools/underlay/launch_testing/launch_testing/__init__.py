@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Test what a launch description starts, while it runs and after its end."""
+"""Integration tests of launch descriptions: tests on running processes and after shutdown."""
 
 from __future__ import annotations
 

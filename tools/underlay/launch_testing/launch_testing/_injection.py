@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hand objects to tests: as attributes, and as the arguments that they ask for by name."""
+"""Inject objects into tests, as attributes and as arguments requested by name."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def bind(cases: list[unittest.TestCase], injected: Mapping[str, Any]) -> unittes
     Parameters
     ----------
     cases
-        The tests, which stay as they are.
+        The tests, which are not modified.
     injected
-        The objects, by the names that tests request.
+        The objects, by the names under which tests request them.
 
     Returns
     -------
@@ -52,9 +52,9 @@ def _subclass(
     injected: Mapping[str, Any],
 ) -> type[unittest.TestCase]:
     """
-    Return a class with the objects as attributes, and set-up methods that need no others.
+    Create a subclass with the objects as attributes and with bound set-up methods.
 
-    An object with the name of a part of TestCase, perhaps from `locals()`, is an argument only.
+    Objects whose names clash with attributes of TestCase are available as arguments only.
     """
     attributes = {
         name: staticmethod(value) if inspect.isfunction(value) else value
@@ -85,7 +85,7 @@ def _bound_case(
 
 
 def _bound(method: Callable[..., Any], injected: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return a method with the arguments of it that are known."""
+    """Bind the injected arguments of a method."""
     parameters = inspect.signature(method).parameters
     arguments = {name: injected[name] for name in parameters if name in injected}
     if not hasattr(method, '__wrapped__'):
@@ -100,7 +100,7 @@ def _require_known(
     parameters: Mapping[str, inspect.Parameter],
     injected: Mapping[str, Any],
 ) -> None:
-    """Raise a TypeError if a method asks for an object that does not exist."""
+    """Raise a TypeError if a method requests an object that does not exist."""
     for name, parameter in parameters.items():
         if (
             name in injected

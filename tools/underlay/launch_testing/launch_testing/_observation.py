@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Watch a launch on behalf of its tests."""
+"""Record the events of a launch for its tests."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
 
 class Observation:
-    """Notes the starts, ends and outputs of processes, and why the launch ended."""
+    """Recorder of process starts, exits and output, and of the reason for shutdown."""
 
     def __init__(self) -> None:
-        """Create an observation of nothing."""
+        """Create an empty observation."""
         self.proc_info = ActiveProcInfoHandler()
         self.proc_output = ActiveIoHandler()
         self.is_closed = False
         self._shutdown: Optional[Shutdown] = None
 
     def actions(self) -> list[RegisterEventHandler]:
-        """Return the actions that begin the observation."""
+        """Return the actions that register the event handlers of the observation."""
         return [
             RegisterEventHandler(OnProcessStart(on_start=self._on_start)),
             RegisterEventHandler(OnProcessExit(on_exit=self._on_exit)),
@@ -39,14 +39,14 @@ class Observation:
         ]
 
     def close(self) -> None:
-        """Let no test wait any longer: the launch is over."""
+        """Abort all waits of tests, as the launch has ended."""
         self.is_closed = True
         self.proc_info.close()
         self.proc_output.close()
 
     @property
     def was_interrupted(self) -> bool:
-        """Return whether a signal ended the launch."""
+        """Whether the launch was ended by a signal."""
         shutdown = self._shutdown
         return shutdown is not None and (
             shutdown.due_to_sigint or shutdown.reason in signal.Signals.__members__
@@ -54,14 +54,14 @@ class Observation:
 
     def explain_end(self, status: int, *, were_tests_running: bool) -> str:
         """
-        Explain why a launch ended too early, as text for a failure.
+        Return a failure message that explains why a launch ended early.
 
         Parameters
         ----------
         status
-            What the launch service returned; 0 if it did not fail.
+            The return code of the launch service; 0 for success.
         were_tests_running
-            Whether the tests had begun, or the launch was not yet ready for them.
+            Whether the tests had started; otherwise the launch was not ready yet.
 
         """
         when = 'before the tests were done' if were_tests_running else 'before it was ready'
@@ -76,7 +76,7 @@ class Observation:
         )
 
     def report(self) -> str:
-        """Return how the processes are, and what they have written last."""
+        """Format the states of the processes and their last output, for error messages."""
         states = ''.join(
             f'\n  {info.process_name}: '
             + (

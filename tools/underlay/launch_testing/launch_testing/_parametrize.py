@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the tests of a file once for each of several launch descriptions."""
+"""Parametrize launch tests with several launch descriptions."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ def parametrize(
     argvalues: Iterable[Any],
 ) -> Callable[[FunctionT], FunctionT]:
     """
-    Return a decorator that has a function called with each of some sets of arguments.
+    Return a decorator that parametrizes a function with several sets of arguments.
 
-    It is meant for `generate_test_description`, and takes its arguments as that of pytest does.
-    Several decorators are combined: the function is called with each combination.
+    For use on `generate_test_description`; accepts arguments like the one of pytest. With several
+    decorators, the function is called with each combination.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def parametrize(
     Raises
     ------
     ValueError
-        There are not as many values as names.
+        The number of values does not match the number of names.
 
     """
     names = _split(argnames)
@@ -47,12 +47,12 @@ def parametrize(
 
 def parameter_sets(function: Callable[..., Any]) -> list[dict[str, Any]]:
     """
-    Return the keyword arguments of each call of a function that may be parametrized.
+    Return the keyword arguments for each call of a possibly parametrized function.
 
     Parameters
     ----------
     function
-        The function; one that is not parametrized is called once, without arguments.
+        The function; without parametrization there is one call, without arguments.
 
     """
     sets: list[dict[str, Any]] = getattr(function, _ATTRIBUTE, [{}])
@@ -66,7 +66,7 @@ def _split(argnames: Union[str, Sequence[str]]) -> list[str]:
 
 
 def _checked(names: list[str], values: Any) -> Sequence[Any]:
-    """Return one value for each name."""
+    """Validate that there is one value for each name."""
     if len(names) == 1:
         return [values]
     if len(values) != len(names):

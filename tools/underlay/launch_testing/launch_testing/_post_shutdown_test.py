@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mark tests that run after the end of the launch."""
+"""Mark tests that run after the shutdown of the launch."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _ATTRIBUTE = '__launch_test_post_shutdown__'
 
 
 def post_shutdown_test() -> Callable[[CaseT], CaseT]:
-    """Return a decorator of a TestCase whose tests run when all processes have ended."""
+    """Return a TestCase decorator; its tests run after all processes have ended."""
 
     def decorate(case: CaseT) -> CaseT:
         if not (isinstance(case, type) and issubclass(case, unittest.TestCase)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell when the tests of a launch may begin."""
+"""Detect when a launch is ready for its tests."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class TestsMayBegin(Event):
     Parameters
     ----------
     action
-        That action.
+        The action that was visited.
 
     """
 
@@ -33,14 +33,14 @@ class TestsMayBegin(Event):
 
 class ReadyHandler(EventHandler):
     """
-    Calls a function as soon as every ReadyToTest of a description was visited.
+    Event handler that calls a function as soon as all ReadyToTest actions have been visited.
 
     Parameters
     ----------
     description
-        What is launched; files that it includes are not searched.
+        The launch description; included files are not searched.
     on_ready
-        Called without arguments, and again for each event after that.
+        Called without arguments, and again on each later event.
 
     """
 
@@ -73,12 +73,12 @@ class ReadyHandler(EventHandler):
 
 def ready_actions(entities: Iterable[LaunchDescriptionEntity]) -> Iterator[object]:
     """
-    Yield every ReadyToTest that can be found without executing anything.
+    Yield all ReadyToTest actions that can be found without executing anything.
 
     Parameters
     ----------
     entities
-        Where to search, including what their actions hold; files that they include are left out.
+        The entities to search, including their sub-entities but not included files.
 
     """
     from launch_testing.actions.ready_to_test import ReadyToTest

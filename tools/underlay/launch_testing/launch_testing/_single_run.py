@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch a description once, and run the tests on it."""
+"""Launch a description once and run its tests."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _PATIENCE_S = 5.0
 
 class SingleRun:
     """
-    Runs the launch in this thread and the tests of it in another one.
+    Runner that executes a launch in the calling thread and its tests in another thread.
 
-    When the tests are done the launch is shut down; then the post-shutdown tests run in this
-    thread.
+    When the tests are done, the launch is shut down; the post-shutdown tests then run in the
+    calling thread.
 
     Parameters
     ----------
@@ -38,11 +38,11 @@ class SingleRun:
     debug
         Whether the launch logs debug messages.
     verbosity
-        How much is printed about the tests, as for unittest.
+        The verbosity of the test output, as for unittest.
     ready_timeout_s
-        How long to wait for ReadyToTest, in s.
+        The timeout for ReadyToTest, in s.
     stream
-        Where that is printed; None is the standard error output.
+        The stream for the test output; None for the standard error.
 
     """
 
@@ -70,7 +70,7 @@ class SingleRun:
         self._failure = ''
 
     def execute(self) -> TestResult:
-        """Run all; return the result."""
+        """Run the launch and all tests; return the result."""
         description, context = self._run.normalized_test_description(self._ready.set)
         observation = self._observation
         self._injected = {
@@ -91,7 +91,7 @@ class SingleRun:
         self._judge(status)
         return self._result
 
-    # The launch, in this thread.
+    # The launch, in the calling thread.
 
     def _launch(self, description: LaunchDescription) -> int:
         pairs = [argument.partition(':=')[::2] for argument in self._arguments]
@@ -110,7 +110,7 @@ class SingleRun:
         )
 
     def _judge(self, status: int) -> None:
-        """Run the remaining tests, or say why the launch itself failed."""
+        """Run the post-shutdown tests, or report why the launch itself failed."""
         if self._tests_done and status == 0:
             self._run_tests(self._run.post_shutdown_tests)
             return
@@ -136,7 +136,7 @@ class SingleRun:
             self._service.shutdown()
 
     def _run_tests(self, cases: list[unittest.TestCase]) -> bool:
-        """Run tests and add their results; return whether the end of the launch kept none off."""
+        """Run tests and add their results; False if the end of the launch skipped any of them."""
         configurations = self._service.context.launch_configurations
         self._injected['test_args'] = {
             name: value for name, value in configurations.items() if isinstance(value, str)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait in one thread for what another one notes."""
+"""Wait in one thread for state changes made in another one."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ from launch_testing.util.resolve_processes import NoMatchingProcessException
 
 
 class Waiting:
-    """Something that changes in one thread while others wait for a state of it."""
+    """Base class of objects that change in one thread while other threads wait for a state."""
 
     def __init__(self) -> None:
-        """Create it."""
+        """Create an open object that can be waited for."""
         self._condition = threading.Condition()
         self._closed = False
 
     @contextmanager
     def changing(self) -> Iterator[None]:
-        """Wake those who wait at the end of a block that changes something."""
+        """Wake the waiting threads at the end of a block that changes the state."""
         with self._condition:
             yield
             self._condition.notify_all()
 
     def close(self) -> None:
-        """Let nobody wait any longer: the launch is over and nothing changes any more."""
+        """Abort all waits, as the launch has ended and the state will not change."""
         with self.changing():
             self._closed = True
 
     def why_in_vain(self, timeout: float) -> str:
         """
-        Return the beginning of the message about a wait that has failed.
+        Return the start of the error message for a failed wait.
 
         Parameters
         ----------
         timeout
-            How long was waited, in s.
+            The timeout that has expired, in s.
 
         """
         if self._closed:
@@ -47,12 +47,12 @@ class Waiting:
 
     def wait_until(self, predicate: Callable[[], bool], timeout: float) -> bool:
         """
-        Wait until a predicate holds, or until the end of the launch.
+        Wait until a predicate holds or the launch ends.
 
         Parameters
         ----------
         predicate
-            Called without arguments whenever something has changed.
+            Called without arguments after each change.
         timeout
             The timeout in s.
 
@@ -64,7 +64,7 @@ class Waiting:
         Raises
         ------
         NoMatchingProcessException
-            The predicate still raises this at the end, as no process is the one meant.
+            The predicate still raises this at the end, as no process matches.
 
         """
         end = time.monotonic() + timeout
@@ -79,7 +79,7 @@ class Waiting:
 
     @staticmethod
     def _holds(predicate: Callable[[], bool]) -> bool:
-        """Return whether a predicate holds, as far as its process is there yet."""
+        """Whether a predicate holds; False while its process does not exist."""
         try:
             return predicate()
         except NoMatchingProcessException:
@@ -87,5 +87,5 @@ class Waiting:
 
     @staticmethod
     def _require_processes(predicate: Callable[[], bool]) -> None:
-        """Raise the error about a process that has never been there."""
+        """Raise the error of the predicate if its process has never existed."""
         predicate()

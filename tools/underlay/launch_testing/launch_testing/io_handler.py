@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the processes of a launch have written."""
+"""Record the output of the processes of a launch."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _LAST_LINES = 20
 
 
 class IoHandler:
-    """Keeps what processes have written, in order."""
+    """Recorder of process output, in order."""
 
     def __init__(self) -> None:
-        """Create a handler that knows no process."""
+        """Create a handler without processes."""
         self._outputs: dict[ExecuteLocal, list[ProcessIO]] = {}
         self._all: list[ProcessIO] = []
 
@@ -46,18 +46,18 @@ class IoHandler:
         Parameters
         ----------
         process_io
-            The event, with the bytes that a process has written.
+            The event with the output of the process.
 
         """
         self._outputs.setdefault(process_io.action, []).append(process_io)
         self._all.append(process_io)
 
     def __iter__(self) -> Iterator[ProcessIO]:
-        """Return the events of all processes."""
+        """Iterate over the output events of all processes."""
         return iter(list(self._all))
 
     def __getitem__(self, process: SomeProcess) -> list[ProcessIO]:
-        """Return the events of a process, given as an action or by its name."""
+        """Return the output events of a process, given by its action or name."""
         (action,) = resolveProcesses(self, process=process, strict_proc_matching=True)
         return list(self._outputs[action])
 
@@ -71,12 +71,12 @@ class IoHandler:
 
     def text(self, process: ExecuteLocal, stream: Optional[str] = None) -> str:
         """
-        Return all that a process has written, decoded as UTF-8.
+        Return the output of a process, decoded as UTF-8.
 
         Parameters
         ----------
         process
-            The action of the process; one that is not known has written nothing.
+            The action of the process; the output of unknown processes is empty.
         stream
             `stdout` or `stderr`; None for both, in the order of the events.
 
@@ -105,16 +105,16 @@ class IoHandler:
 
 
 class ActiveIoHandler(Waiting, IoHandler):
-    """Keeps what processes have written while they run, and waits for more."""
+    """Recorder of the output of running processes that supports waiting for output."""
 
     def __init__(self) -> None:
-        """Create a handler that knows no process."""
+        """Create a handler without processes."""
         Waiting.__init__(self)
         IoHandler.__init__(self)
 
     def track(self, process: ExecuteLocal) -> None:
         """
-        Register a process before it writes anything, and wake those who wait.
+        Register a process before it writes anything, and wake waiting threads.
 
         Parameters
         ----------
@@ -127,12 +127,12 @@ class ActiveIoHandler(Waiting, IoHandler):
 
     def append(self, process_io: ProcessIO) -> None:
         """
-        Add an output event, and wake those who wait.
+        Add an output event and wake waiting threads.
 
         Parameters
         ----------
         process_io
-            The event, with the bytes that a process has written.
+            The event with the output of the process.
 
         """
         with self.changing():
@@ -150,7 +150,7 @@ class ActiveIoHandler(Waiting, IoHandler):
         stream: Optional[str] = None,
     ) -> bool:
         """
-        Wait until a process has written some output.
+        Wait until a process has written the expected output.
 
         Parameters
         ----------
@@ -164,12 +164,12 @@ class ActiveIoHandler(Waiting, IoHandler):
         Returns
         -------
         bool
-            Whether the output is there; False after the timeout or the end of the launch.
+            Whether the output was found; False after the timeout or the end of the launch.
 
         Raises
         ------
         NoMatchingProcessException
-            No process, or more than one, is the one meant at the end of the wait.
+            At the end of the wait, no process matches, or more than one.
 
         """
 
@@ -206,7 +206,7 @@ class ActiveIoHandler(Waiting, IoHandler):
         stream: Optional[str] = None,
     ) -> None:
         """
-        Wait until a process has written some output, and fail if it has not.
+        Wait until a process has written the expected output, and fail if it has not.
 
         Parameters
         ----------
@@ -220,9 +220,9 @@ class ActiveIoHandler(Waiting, IoHandler):
         Raises
         ------
         AssertionError
-            The output is not there at the end of the wait; the text shows the last lines.
+            The output was not found in time; the message shows the last lines.
         NoMatchingProcessException
-            No process, or more than one, is the one meant at the end of the wait.
+            At the end of the wait, no process matches, or more than one.
 
         """
         if not self.waitFor(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write test results as JUnit XML, which build tools read."""
+"""Export test results as JUnit XML."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def unittestResultsToXml(  # noqa: N802
     Parameters
     ----------
     name
-        The name of the whole, with which the class names begin, too.
+        The name of the document, also used as the prefix of class names.
     test_results
-        The results by the names of the runs; each becomes a test suite.
+        The results by run name; each becomes a test suite.
 
     """
     root = ElementTree.Element('testsuites', {'name': name})
@@ -48,7 +48,7 @@ def _suite(name: str, class_prefix: str, outcomes: list[Outcome]) -> ElementTree
 
 
 def _counts(outcomes: Iterable[Outcome]) -> dict[str, str]:
-    """Return the attributes of a suite."""
+    """Count the outcomes for the attributes of a test suite."""
     all_of_them = list(outcomes)
     kinds = [each.outcome for each in all_of_them]
     return {

@@ -24,17 +24,17 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     Parameters
     ----------
     argv
-        The arguments without the program; None takes those of the process.
+        The arguments without the program name; None for those of the process.
 
     Returns
     -------
     int
-        The exit code: 0 if all went well, 1 if not, 130 after an interrupt.
+        The exit code: 0 on success, 1 on failure, 130 after an interrupt.
 
     Raises
     ------
     SystemExit
-        The arguments are wrong, or there is no such file.
+        The arguments are invalid, or the file does not exist.
 
     """
     parser = _parser()
@@ -101,7 +101,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _load(path: str, name: str) -> ModuleType:
-    """Return a file as a module."""
+    """Import a file as a module."""
     spec = spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
         raise RuntimeError(f"the launch test '{path}' is not a Python file")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a launch some of whose actions are tests."""
+"""Run launches in which some actions are tests."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OutputTest = Union[Expected, Callable[[str], Any]]
 
 
 class _State(Enum):
-    """How far a test is."""
+    """The state of a test."""
 
     ARMED = 'has not ended'
     SUCCEEDED = 'succeeded'
@@ -28,14 +28,14 @@ class _State(Enum):
 
 
 class LaunchTestService:
-    """Adds fixtures and tests to a launch description, and tells how the tests went."""
+    """Service that adds fixtures and tests to a launch description and reports the results."""
 
     def __init__(self) -> None:
         """Create a service without tests."""
         self._tests: dict[str, _State] = {}
         self._reasons: dict[str, str] = {}
 
-    # What is launched.
+    # Fixtures and tests.
 
     def add_fixture_action(
         self,
@@ -44,16 +44,16 @@ class LaunchTestService:
         required: bool = False,
     ) -> Action:
         """
-        Add an action that the tests need to a launch description.
+        Add a fixture that the tests require to a launch description.
 
         Parameters
         ----------
         launch_description
-            What is launched.
+            The launch description to add to.
         action
-            The action.
+            The fixture action.
         required
-            Whether its end before that of the tests is a failure, which shuts the launch down.
+            Whether a premature end of the action is a failure, which shuts the launch down.
 
         Returns
         -------
@@ -70,15 +70,15 @@ class LaunchTestService:
         """
         Add a test: a process, or an action with a coroutine.
 
-        It succeeds if the exit code is 0, or no exception is raised. The launch is shut down when
-        all tests have ended, or one has failed.
+        The test succeeds if its exit code is 0, or if its coroutine raises no exception. The
+        launch is shut down when all tests have ended or one has failed.
 
         Parameters
         ----------
         launch_description
-            What is launched.
+            The launch description to add to.
         action
-            The test.
+            The test action.
 
         Returns
         -------
@@ -113,24 +113,24 @@ class LaunchTestService:
         side_effect: Optional[str] = None,
     ) -> Action:
         """
-        Add a test of what a process writes to its standard output.
+        Add a test of the standard output of a process.
 
         Parameters
         ----------
         launch_description
-            What is launched, with the process in it.
+            The launch description, which contains the process.
         action
-            The process.
+            The action of the process.
         output_test
-            A text, a regular expression, a function of the output, or a list of those for its
+            A string, a regular expression or a predicate of the output, or a list of those for
             lines.
         test_suffix
             The name of the test.
         output_filter
-            A function that the output goes through first.
+            Filter that is applied to the output first.
         side_effect
-            `shutdown` shuts the launch down as soon as the output is there, whatever other tests
-            do.
+            `shutdown` shuts the launch down as soon as the output is found, regardless of other
+            tests.
 
         Returns
         -------
@@ -140,7 +140,7 @@ class LaunchTestService:
         Raises
         ------
         ValueError
-            There is no such side effect.
+            The side effect is unknown.
 
         """
         if side_effect not in (None, 'shutdown'):
@@ -168,11 +168,11 @@ class LaunchTestService:
         ]
         return action
 
-    # What comes of it.
+    # Results.
 
     def run(self, launch_service: LaunchService, *args: Any, **kwargs: Any) -> int:
         """
-        Run a launch and report the tests that failed on the standard error output.
+        Run a launch and report failed tests on the standard error.
 
         Parameters
         ----------
@@ -191,7 +191,7 @@ class LaunchTestService:
 
     async def run_async(self, launch_service: LaunchService, *args: Any, **kwargs: Any) -> int:
         """
-        Run a launch in the running event loop, and report the tests that failed.
+        Run a launch in the running event loop and report failed tests.
 
         Parameters
         ----------
@@ -220,7 +220,7 @@ class LaunchTestService:
         return name
 
     def _end(self, name: str, is_success: bool, reason: str = '') -> Optional[Action]:
-        """Note the end of a test; return the action that shuts the launch down if it is time."""
+        """Record a test result; return a shutdown action after a failure or the last test."""
         self._tests[name] = _State.SUCCEEDED if is_success else _State.FAILED
         if not is_success:
             self._reasons[name] = reason
@@ -239,7 +239,7 @@ class LaunchTestService:
         return self._end(name, error is None, repr(error))
 
     def _require(self, launch_description: LaunchDescription, action: Action) -> None:
-        """Let a test fail if a fixture ends before the tests."""
+        """Add a failure if a required fixture ends before the tests."""
 
         def fail(*args: Any) -> Any:
             if _State.ARMED not in self._tests.values():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the launch description and the tests in a module."""
+"""Load the launch description and the tests of a module."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FUNCTION = 'generate_test_description'
 
 class TestRun:
     """
-    A launch description, and the tests to run on it.
+    Test run: a launch description and its tests.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class TestRun:
     test_description_function
         The function `generate_test_description` of the module.
     param_args
-        The keyword arguments to call it with; tests may request them, too.
+        The keyword arguments of that function; tests may request them, too.
     cases
         All tests of the module.
 
@@ -51,18 +51,18 @@ class TestRun:
         self._cases = cases
 
     def __str__(self) -> str:
-        """Return the name, with the arguments that tell this run from others."""
+        """Return the name, with the arguments that distinguish this run from others."""
         arguments = ', '.join(f'{name}={value}' for name, value in self.param_args.items())
         return f'{self.name}[{arguments}]' if arguments else self.name
 
     @property
     def pre_shutdown_tests(self) -> list[unittest.TestCase]:
-        """Return the tests that run while the processes do."""
+        """Return the tests that run while the processes are running."""
         return [case for case in self._cases if not is_post_shutdown_test(case)]
 
     @property
     def post_shutdown_tests(self) -> list[unittest.TestCase]:
-        """Return the tests that run when all processes have ended."""
+        """Return the tests that run after all processes have ended."""
         return [case for case in self._cases if is_post_shutdown_test(case)]
 
     def normalized_test_description(
@@ -70,22 +70,22 @@ class TestRun:
         ready_fn: Optional[Callable[[], None]] = None,
     ) -> tuple[LaunchDescription, dict[str, Any]]:
         """
-        Call the function of the run for the launch description.
+        Generate the launch description of the run.
 
         Parameters
         ----------
         ready_fn
-            Passed to the function if it takes an argument of this name, to call when it is ready.
+            Passed to the function if it has an argument of this name, to be called when ready.
 
         Returns
         -------
         tuple
-            The LaunchDescription, and the dictionary of what it offers to the tests.
+            The LaunchDescription and a dictionary of objects for the tests.
 
         Raises
         ------
         TypeError
-            The function has returned something else.
+            The function returned an object of another type.
 
         """
         arguments = dict(self.param_args)
@@ -108,12 +108,12 @@ class TestRun:
         self, cases: list[unittest.TestCase], injected: Mapping[str, Any]
     ) -> unittest.TestSuite:
         """
-        Bind objects, and the arguments of the run, to copies of tests.
+        Bind objects and the arguments of the run to copies of tests.
 
         Parameters
         ----------
         cases, injected
-            As for `launch_testing._injection.bind`, which may raise an error.
+            As for `launch_testing._injection.bind`, whose exceptions propagate.
 
         """
         return bind(cases, {**self.param_args, **injected})
@@ -130,7 +130,7 @@ def LoadTestsFromPythonModule(  # noqa: N802
     Parameters
     ----------
     module
-        The module, with `generate_test_description` and test cases in it.
+        The module, which contains `generate_test_description` and test cases.
     name
         The name of the runs.
 
@@ -170,7 +170,7 @@ def _check(module: ModuleType, function: Callable[..., Any], arguments: dict[str
 
 
 def _cases(suite: unittest.TestSuite) -> Iterator[unittest.TestCase]:
-    """Yield the tests of a suite, and of the suites in it."""
+    """Yield the tests of a suite and of its nested suites."""
     for each in suite:
         if isinstance(each, unittest.TestSuite):
             yield from _cases(each)

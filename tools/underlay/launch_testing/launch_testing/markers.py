@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Marks on launch descriptions and tests."""
+"""Markers for launch descriptions and tests."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _KEEP_ALIVE = '__launch_test_keep_alive__'
 
 def keep_alive(function: FunctionT) -> FunctionT:
     """
-    Mark a `generate_test_description` whose launch stays when its processes have ended.
+    Mark a `generate_test_description` whose launch continues after its processes have ended.
 
     Parameters
     ----------
     function
-        The function, which is returned.
+        The function, which is returned unchanged.
 
     """
     setattr(function, _KEEP_ALIVE, True)
@@ -31,12 +31,12 @@ def keep_alive(function: FunctionT) -> FunctionT:
 
 def is_kept_alive(function: Callable[..., Any]) -> bool:
     """
-    Whether the launch of a function stays when its processes have ended.
+    Whether the launch of a function continues after its processes have ended.
 
     Parameters
     ----------
     function
-        A `generate_test_description`.
+        The function `generate_test_description`.
 
     """
     return bool(getattr(function, _KEEP_ALIVE, False))
@@ -48,19 +48,19 @@ def retry_on_failure(
     delay: Optional[float] = None,
 ) -> Callable[[FunctionT], FunctionT]:
     """
-    Return a decorator that repeats a test after an AssertionError.
+    Return a decorator that retries a test after an AssertionError.
 
     Parameters
     ----------
     times
-        How many attempts there are at most.
+        The maximum number of attempts.
     delay
-        The time between two attempts, in s; None is none.
+        The delay between two attempts, in s; None for no delay.
 
     Raises
     ------
     ValueError
-        There is not even one attempt.
+        The number of attempts is less than 1.
 
     """
     if times < 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which processes of a launch run, and how others ended."""
+"""Record the starts and exits of the processes of a launch."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 
 
 class ProcInfoHandler:
-    """Keeps the last start or end of each process."""
+    """Recorder of the last start or exit of each process."""
 
     def __init__(self) -> None:
-        """Create a handler that knows no process."""
+        """Create a handler without processes."""
         self._infos: dict[ExecuteLocal, ProcessInfo] = {}
 
     def append(self, process_info: ProcessInfo) -> None:
         """
-        Add a start or an end, which replaces the last event of the process.
+        Add a start or exit event, which replaces the previous event of the process.
 
         Parameters
         ----------
@@ -37,11 +37,11 @@ class ProcInfoHandler:
         self._infos[process_info.action] = process_info
 
     def __iter__(self) -> Iterator[ProcessInfo]:
-        """Return the last event of each process."""
+        """Iterate over the last event of each process."""
         return iter(list(self._infos.values()))
 
     def __getitem__(self, process: SomeProcess) -> ProcessInfo:
-        """Return the last event of a process, given as an action or by its name."""
+        """Return the last event of a process, given by its action or name."""
         (action,) = resolveProcesses(self, process=process, strict_proc_matching=True)
         return self._infos[action]
 
@@ -55,16 +55,16 @@ class ProcInfoHandler:
 
 
 class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
-    """Keeps the last start or end of each process, and waits for another."""
+    """Recorder of process starts and exits that supports waiting for them."""
 
     def __init__(self) -> None:
-        """Create a handler that knows no process."""
+        """Create a handler without processes."""
         Waiting.__init__(self)
         ProcInfoHandler.__init__(self)
 
     def append(self, process_info: ProcessInfo) -> None:
         """
-        Add a start or an end, and wake those who wait.
+        Add a start or exit event and wake waiting threads.
 
         Parameters
         ----------
@@ -79,24 +79,24 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
     ) -> bool:
         """
-        Wait until a process was started.
+        Wait until a process has started.
 
         Parameters
         ----------
         process, cmd_args
-            As for `resolveProcesses`; exactly one process must be meant.
+            As for `resolveProcesses`; exactly one process must match.
         timeout
             The timeout in s.
 
         Returns
         -------
         bool
-            Whether it was started in time.
+            Whether the process has started in time.
 
         Raises
         ------
         NoMatchingProcessException
-            No process, or more than one, is the one meant at the end of the wait.
+            At the end of the wait, no process matches, or more than one.
 
         """
         return self.wait_until(lambda: bool(self._matching(process, cmd_args)), timeout)
@@ -105,24 +105,24 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         self, process: Optional[SomeProcess], cmd_args: Any = None, *, timeout: float = 10
     ) -> bool:
         """
-        Wait until a process, or each one, has ended.
+        Wait until a process, or every process, has ended.
 
         Parameters
         ----------
         process, cmd_args
-            As for `resolveProcesses`; without a process, all that have been started are meant.
+            As for `resolveProcesses`; without a process, all started processes are awaited.
         timeout
             The timeout in s.
 
         Returns
         -------
         bool
-            Whether it has ended in time.
+            Whether the process has ended in time.
 
         Raises
         ------
         NoMatchingProcessException
-            No process, or more than one, is the one meant at the end of the wait.
+            At the end of the wait, no process matches, or more than one.
 
         """
         return self.wait_until(
@@ -137,7 +137,7 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
     ) -> None:
         """
-        Wait until a process was started, and fail if it was not.
+        Wait until a process has started, and fail if it has not.
 
         Parameters
         ----------
@@ -147,9 +147,9 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         Raises
         ------
         AssertionError
-            It was not started in time.
+            The process has not started in time.
         NoMatchingProcessException
-            No process, or more than one, is the one meant at the end of the wait.
+            At the end of the wait, no process matches, or more than one.
 
         """
         if not self.waitForStartup(process, cmd_args, timeout=timeout):
@@ -159,7 +159,7 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         self, process: Optional[SomeProcess], cmd_args: Any = None, *, timeout: float = 10
     ) -> None:
         """
-        Wait until a process, or each one, has ended, and fail if it has not.
+        Wait until a process, or every process, has ended, and fail if it has not.
 
         Parameters
         ----------
@@ -171,7 +171,7 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         AssertionError
             A process has not ended in time.
         NoMatchingProcessException
-            No process, or more than one, is the one meant at the end of the wait.
+            At the end of the wait, no process matches, or more than one.
 
         """
         if not self.waitForShutdown(process, cmd_args, timeout=timeout):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The results of the tests of a launch."""
+"""Test results of a launch."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SKIPPED = 'skipped'
 
 
 class Outcome(NamedTuple):
-    """How one test went."""
+    """The outcome of a test."""
 
     class_name: str
     name: str
@@ -25,7 +25,7 @@ class Outcome(NamedTuple):
 
 class TestResult(unittest.TextTestResult):
     """
-    Records how each test went, and how long it took.
+    Test result that records the outcome and duration of each test.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class TestResult(unittest.TextTestResult):
 
     def startTest(self, test: unittest.TestCase) -> None:  # noqa: N802
         """
-        Note when a test begins.
+        Record the start of a test.
 
         Parameters
         ----------
@@ -56,7 +56,7 @@ class TestResult(unittest.TextTestResult):
 
     def addSuccess(self, test: unittest.TestCase) -> None:  # noqa: N802
         """
-        Note a test that passed.
+        Record a test that passed.
 
         Parameters
         ----------
@@ -69,7 +69,7 @@ class TestResult(unittest.TextTestResult):
 
     def addFailure(self, test: unittest.TestCase, err: Any) -> None:  # noqa: N802
         """
-        Note a test in which an assertion failed.
+        Record a test in which an assertion failed.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class TestResult(unittest.TextTestResult):
 
     def addError(self, test: unittest.TestCase, err: Any) -> None:  # noqa: N802
         """
-        Note a test that raised an exception.
+        Record a test that raised an exception.
 
         Parameters
         ----------
@@ -95,7 +95,7 @@ class TestResult(unittest.TextTestResult):
 
     def addSkip(self, test: unittest.TestCase, reason: str) -> None:  # noqa: N802
         """
-        Note a test that was left out.
+        Record a skipped test.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class TestResult(unittest.TextTestResult):
 
     def addExpectedFailure(self, test: unittest.TestCase, err: Any) -> None:  # noqa: N802
         """
-        Note a test that failed as it should.
+        Record an expected failure of a test.
 
         Parameters
         ----------
@@ -121,7 +121,7 @@ class TestResult(unittest.TextTestResult):
 
     def addUnexpectedSuccess(self, test: unittest.TestCase) -> None:  # noqa: N802
         """
-        Note a test that should have failed.
+        Record an unexpected success of a test.
 
         Parameters
         ----------
@@ -139,7 +139,7 @@ class TestResult(unittest.TextTestResult):
         err: Optional[Any],
     ) -> None:
         """
-        Note a part of a test if it failed.
+        Record a failed subtest.
 
         Parameters
         ----------
@@ -155,22 +155,22 @@ class TestResult(unittest.TextTestResult):
 
     def add_launch_failure(self, run_name: str, message: str) -> None:
         """
-        Note that not a test failed, but the launch.
+        Record a failure of the launch itself.
 
         Parameters
         ----------
         run_name, message
-            The name of the run, and what went wrong.
+            The name of the run and the error message.
 
         """
         self.outcomes.append(Outcome('launch', run_name, ERROR, message, 0.0))
 
     def wasSuccessful(self) -> bool:  # noqa: N802
-        """Return whether all went well."""
+        """Check whether no test and no launch has failed."""
         return not self.problems()
 
     def problems(self) -> list[Outcome]:
-        """Return what did not go well."""
+        """Return the outcomes of failed tests and launches."""
         return [each for each in self.outcomes if each.outcome in (FAILED, ERROR)]
 
     def _note(self, test: unittest.TestCase, outcome: str, message: str = '') -> None:

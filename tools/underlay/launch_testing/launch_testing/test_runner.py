@@ -15,20 +15,20 @@ __all__ = ['LaunchTestRunner']
 
 class LaunchTestRunner:
     """
-    Launches one description after the other, and runs the tests on each.
+    Runner that launches descriptions one after the other and runs their tests.
 
     Parameters
     ----------
     test_runs
-        What to run.
+        The launch descriptions with their tests.
     launch_file_arguments
         The arguments of the launch descriptions (`name:=value`).
     debug
-        Whether the launch logs more.
+        Whether the launch logs debug messages.
     verbosity
-        How much is told about the tests, as for unittest.
+        The verbosity of the test output, as for unittest.
     stream
-        Where that is told; None is the standard error output.
+        The stream for the test output; None for the standard error.
 
     """
 
@@ -49,12 +49,12 @@ class LaunchTestRunner:
         }
 
     def validate(self) -> None:
-        """Raise an exception if a launch description cannot be had."""
+        """Raise an exception if a launch description cannot be generated."""
         for run in self._test_runs:
             run.get_launch_description()
 
     def run(self) -> dict[TestRun, TestResult]:
-        """Run all; return the result of each run."""
+        """Execute all runs; return the result of each run."""
         return {
             run: SingleRun(run, self._arguments, **self._options).execute()
             for run in self._test_runs

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tests of launched ROS nodes need besides launch_testing."""
+"""Extensions of launch_testing for ROS nodes."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep the nodes of a test apart from all others."""
+"""Isolate the nodes of a test in their own ROS domain."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _NAMES = ('ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE')
 
 @contextmanager
 def isolated_domain() -> Iterator[None]:
-    """Use a domain that no other test on this machine uses, and that other machines do not see."""
+    """Use a ROS domain that is unique on this machine and invisible to other machines."""
     if _DISABLED in os.environ:
         yield
         return

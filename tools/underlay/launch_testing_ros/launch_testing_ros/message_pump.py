@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let a node work in the background."""
+"""Spin a node in a background thread."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _TIMEOUT_S = 10.0
 
 class MessagePump:
     """
-    Spins a node in a thread of its own; also a context manager.
+    Spins a node in its own thread; also a context manager.
 
     Parameters
     ----------
     node
         The node, which must not be spun elsewhere.
     context
-        The ROS context of the executor; None takes that of the node.
+        The ROS context of the executor; None for that of the node.
 
     """
 
@@ -38,11 +38,11 @@ class MessagePump:
         self._thread = threading.Thread(target=self._spin, name='message pump', daemon=True)
 
     def start(self) -> None:
-        """Begin."""
+        """Start spinning the node."""
         self._thread.start()
 
     def stop(self) -> None:
-        """End; the node stays."""
+        """Stop spinning; the node is not destroyed."""
         self._stopping = True
         self._executor.wake()
         self._thread.join(_TIMEOUT_S)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait until messages come on topics."""
+"""Wait until messages arrive on topics."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ OnMessage = Callable[[str, Any], Any]
 
 class WaitForTopics:
     """
-    Subscribes to topics and waits until there was a message on each of them.
+    Subscribes to topics and waits until a message has arrived on each of them.
 
-    The node that subscribes is started at once. As a context manager this waits at the beginning
-    of the block, and raises a RuntimeError if messages are missing then.
+    The subscribing node starts immediately. As a context manager, it waits on entry and raises a
+    RuntimeError if messages are missing then.
 
     Parameters
     ----------
     topic_tuples
-        The name and the type of each topic, and perhaps a QoS profile; without it the subscription
-        is best effort and volatile: it matches every publisher, but gets no message from before.
+        The name and type of each topic, and optionally a QoS profile. By default, subscriptions
+        are best effort and volatile: they match all publishers, but receive no earlier messages.
     timeout
-        How long to wait for the messages, in s.
+        The timeout for the messages, in s.
     messages_received_buffer_length
-        How many messages of each topic are kept.
+        The number of messages kept for each topic.
     trigger
-        Called with the node before each wait, and with the trigger arguments.
+        Called with the node and the trigger arguments before each wait.
     node_namespace
         The namespace of the node.
     callback
-        Called with the name of the topic and each message, from the thread that spins the node.
+        Called with the topic name and each message, from the thread that spins the node.
     **trigger_arguments
         The keyword arguments of the trigger.
 
@@ -63,7 +63,7 @@ class WaitForTopics:
         self._start(topics, node_namespace, messages_received_buffer_length)
 
     def _start(self, topics: list[tuple[Any, ...]], namespace: Optional[str], depth: int) -> None:
-        """Start a node in a context of its own."""
+        """Start a node with its own ROS context."""
         import rclpy
         from rclpy.context import Context
         from rclpy.node import Node
@@ -97,34 +97,34 @@ class WaitForTopics:
             self._callback(name, message)
 
     def wait(self) -> bool:
-        """Wait for the messages; return whether there was one on each topic in time."""
+        """Wait for the messages; return whether one has arrived on each topic in time."""
         if self._trigger is not None:
             self._trigger(self._node)
         with self._condition:
             return self._condition.wait_for(lambda: not self._missing(), self._timeout)
 
     def topics_received(self) -> set[str]:
-        """Return the topics with messages."""
+        """Return the topics on which messages have arrived."""
         return set(self._messages) - self.topics_not_received()
 
     def topics_not_received(self) -> set[str]:
-        """Return the topics without messages."""
+        """Return the topics on which no messages have arrived."""
         with self._condition:
             return self._missing()
 
     def received_messages(self, topic_name: str) -> list[Any]:
         """
-        Return the last messages on a topic, the oldest first.
+        Return the last messages on a topic, oldest first.
 
         Parameters
         ----------
         topic_name
-            The name as it was given.
+            The topic name as passed to the constructor.
 
         Raises
         ------
         KeyError
-            The topic is not among those that were given.
+            The topic is not among those passed to the constructor.
 
         """
         if topic_name not in self._messages:
@@ -133,7 +133,7 @@ class WaitForTopics:
             return list(self._messages[topic_name])
 
     def shutdown(self) -> None:
-        """Destroy the node; the messages stay."""
+        """Destroy the node; the received messages remain available."""
         if self._pump is None:
             return
         self._pump.stop()

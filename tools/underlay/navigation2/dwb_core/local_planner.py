@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""DWB: try many velocities at once, and take the one that its critics find best."""
+"""DWB: sample many velocities at once, and choose the one that its critics score best."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _UNSUPPORTED = {
 
 @dataclass(frozen=True)
 class DwbParameters:
-    """The parameters of DWB, beside those of its generator and critics."""
+    """The parameters of DWB, besides those of its generator and critics."""
 
     default_critic_namespaces: list[str] = parameter(
         ['dwb_critics'], 'What may be left out before the names of critics.'
@@ -71,7 +71,7 @@ class DwbParameters:
 
 class DWBLocalPlanner(Controller):
     """
-    Chooses among sampled velocities, also sideways, by a weighted sum of the scores of critics.
+    Controller that chooses among sampled velocities, also lateral ones, by weighted critic scores.
 
     Source: D. Fox, W. Burgard, S. Thrun, The Dynamic Window Approach to Collision Avoidance, IEEE
     Robotics and Automation Magazine 4 (1997).
@@ -111,7 +111,7 @@ class DWBLocalPlanner(Controller):
         Parameters
         ----------
         is_new_goal
-            Whether it leads elsewhere; otherwise the critics keep what they remember.
+            Whether the path leads to another goal; otherwise the critics keep their state.
 
         """
         if is_new_goal:
@@ -130,13 +130,13 @@ class DWBLocalPlanner(Controller):
         Returns
         -------
         Command
-            The velocity in the base frame, with its trajectory and a part of the others for
-            display.
+            The velocity in the base frame, with its trajectory and some of the others for display.
 
         Raises
         ------
         NoValidControl
-            The critics reject every velocity; the message says which share each of them rejects.
+            The critics reject every velocity; the message states the share that each of them
+            rejects.
 
         """
         state = _shortened(state, self._parameters.current)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What critics of DWB have in common: the scene that they look at, and their scale."""
+"""What the critics of DWB share: the scene that they score, and their scale."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FloatArray = npt.NDArray[np.float64]
 
 def invalid_costs(costs: npt.NDArray[np.uint8]) -> npt.NDArray[np.bool_]:
     """
-    Find the costs at which the robot's centre must not be.
+    Find the costs at which the robot's centre collides or may collide.
 
     Parameters
     ----------
@@ -44,12 +44,12 @@ def invalid_costs(costs: npt.NDArray[np.uint8]) -> npt.NDArray[np.bool_]:
 
 class Scene:
     """
-    One period of control: the state, all trajectories, and what several critics need of them.
+    State and trajectories of one control period, with the quantities that several critics use.
 
     Parameters
     ----------
     state
-        What is known.
+        The state of the robot, its path and the costmap.
     rollouts
         The trajectories.
 
@@ -87,7 +87,7 @@ class Scene:
         self, values: npt.NDArray[Any], x: Floats, y: Floats, outside: float
     ) -> npt.NDArray[Any]:
         """
-        Look up at points what an array holds for the cells of the costmap.
+        Look up values of costmap cells at points.
 
         Parameters
         ----------
@@ -116,7 +116,7 @@ class Scene:
 
     @cached_property
     def path_distances(self) -> Floats:
-        """Distance in cells from each cell of the costmap to the path."""
+        """Compute the distance in cells from each cell of the costmap to the path."""
         return self.distances_to(self.state.plan)
 
     def distances_to(self, plan: FloatArray) -> Floats:
@@ -146,14 +146,14 @@ class Scene:
 
     @property
     def local_goal(self) -> FloatArray:
-        """Return the last pose of the path within the costmap."""
+        """Return the last pose of the path that is within the costmap."""
         goal: FloatArray = self.state.plan[-1]
         return goal
 
 
 class Critic:
     """
-    The base of critics: scores all trajectories at once.
+    Base class of critics, which score all trajectories at once.
 
     Parameters
     ----------
@@ -170,11 +170,11 @@ class Critic:
         self._scale = float(scale)
 
     def reset(self) -> None:
-        """Forget everything: there is a new goal."""
+        """Reset the state for a new goal."""
 
     def begin(self, scene: Scene) -> None:
         """
-        Prepare for the scores of one control period; called before `scale` and `scores`.
+        Prepare for one control period; called before `scale` and `scores`.
 
         Parameters
         ----------
@@ -213,12 +213,12 @@ class Critic:
         raise NotImplementedError
 
     def objection(self) -> str:
-        """Return why trajectories are illegal, as the rest of a sentence."""
+        """Describe why trajectories are illegal, as the end of a sentence."""
         return 'are refused'
 
     def debrief(self, velocity: Velocity) -> None:
         """
-        Take note of the chosen velocity; called once per control period that has a valid one.
+        Record the chosen velocity; called once per control period that has a valid one.
 
         Parameters
         ----------
@@ -237,7 +237,7 @@ def illegal(scores: Floats, mask: Any) -> Floats:
     scores
         One score for each trajectory (S,).
     mask
-        Which trajectories are illegal (S,).
+        Mask of the illegal trajectories (S,).
 
     Returns
     -------

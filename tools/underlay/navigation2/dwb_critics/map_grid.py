@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Critics of DWB that lead along the path and to the goal, by distances in cells."""
+"""Critics of DWB that align the robot with the path and the goal, by distances in cells."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _AGGREGATIONS = ('last', 'sum', 'product')
 
 
 class _MapGridCritic(Critic):
-    """Scores a distance at the last point of trajectories, or at all."""
+    """Scores a distance at the last point, or at all points, of trajectories."""
 
     forward_m = 0.0
-    """How far ahead of the robot's centre the point is."""
+    """How far the scored point is ahead of the robot's centre."""
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
@@ -42,7 +42,7 @@ class _MapGridCritic(Critic):
         return 0.5 * scene.state.surroundings.grid.resolution * self._scale
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """Compute (S,) scores; infinite for illegal trajectories."""
         rollouts = scene.rollouts
         part = slice(-1, None) if self._aggregation == 'last' else slice(None)
         x, y = rollouts.x[:, part], rollouts.y[:, part]
@@ -60,7 +60,7 @@ class _MapGridCritic(Critic):
 
 
 class PathDistCritic(_MapGridCritic):
-    """Scores how far trajectories end from the path."""
+    """Critic that scores the distance between the ends of trajectories and the path."""
 
     default_scale = 1.0
 
@@ -69,13 +69,13 @@ class PathDistCritic(_MapGridCritic):
         found = scene.look_up(scene.path_distances, x, y, float(grid.size_x + grid.size_y))
         if self.forward_m:
             return np.asarray(found, np.float32)
-        # What ends in an obstacle is nowhere near the path.
+        # A trajectory that ends in an obstacle counts as far from the path.
         blocked = scene.look_up(grid.cells, x, y, LETHAL_OBSTACLE) == LETHAL_OBSTACLE
         return np.where(blocked, np.float32(grid.size_x * grid.size_y), found)
 
 
 class GoalDistCritic(_MapGridCritic):
-    """Scores how far trajectories end from the last pose of the path in the costmap."""
+    """Critic that scores the distance between the ends of trajectories and the local goal."""
 
     def _goal(self, scene: Scene) -> npt.NDArray[np.float64]:
         return scene.local_goal
@@ -88,7 +88,7 @@ class GoalDistCritic(_MapGridCritic):
 
 class PathAlignCritic(PathDistCritic):
     """
-    Scores how far a point ahead of the robot is from the path, so that it faces along it.
+    Critic that aligns the robot with the path: scores the path distance of a point ahead of it.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class PathAlignCritic(PathDistCritic):
 
     def begin(self, scene: Scene) -> None:
         """
-        Check whether the end of the local path is too near for the robot to align with the path.
+        Check whether the end of the local path is too close for the robot to align with the path.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class PathAlignCritic(PathDistCritic):
 
 class GoalAlignCritic(GoalDistCritic):
     """
-    Scores how far a point ahead of the robot is from one beyond the goal.
+    Critic that scores the distance between a point ahead of the robot and one beyond the goal.
 
     Parameters
     ----------

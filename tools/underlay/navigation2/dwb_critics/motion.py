@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Critics of DWB that regard how the robot moves, and not where."""
+"""Critics of DWB that score how the robot moves, regardless of its position."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class OscillationParameters:
 
 @dataclass(frozen=True)
 class PreferForwardParameters:
-    """The parameters of the critic that prefers forward."""
+    """The parameters of PreferForwardCritic."""
 
     penalty: float = parameter(1.0, 'The score of what is not forward.')
     strafe_x: float = parameter(0.1, 'The velocity along x in m/s below which it is not.')
@@ -65,7 +65,7 @@ class PreferForwardParameters:
 
 class RotateToGoalCritic(Critic):
     """
-    Near the goal, lets the robot stop first, and then only turn to the goal's orientation.
+    Critic that makes the robot stop near the goal, and then only rotate to the goal's heading.
 
     Parameters
     ----------
@@ -80,12 +80,12 @@ class RotateToGoalCritic(Critic):
         self._is_near = self._is_turning = False
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the state for a new goal."""
         self._is_near = self._is_turning = False
 
     def begin(self, scene: Scene) -> None:
         """
-        Update whether the robot is near the goal, and whether it has stopped there and only turns.
+        Update whether the robot is near the goal, and whether it has stopped and only rotates.
 
         Parameters
         ----------
@@ -111,7 +111,8 @@ class RotateToGoalCritic(Critic):
         -------
         numpy.ndarray
             Heading errors in rad plus weighted speeds (S,), 0 far from the goal; infinite for
-            velocities that do not slow down, or that drive on while the robot is to turn in place.
+            velocities that do not slow down, or that translate while the robot is to rotate in
+            place.
 
         """
         rollouts, state = scene.rollouts, scene.state
@@ -131,22 +132,22 @@ class RotateToGoalCritic(Critic):
         return illegal(scores + np.float32(p.slowing_factor) * speed, faster)
 
     def objection(self) -> str:
-        """Return why trajectories are illegal."""
+        """Describe why trajectories are illegal."""
         return 'do not stop and turn at the goal'
 
 
 class _Trend:
-    """The signs that a component of the chosen velocities had."""
+    """Signs of one component of the chosen velocities."""
 
     def __init__(self) -> None:
         self.reset()
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the state for a new goal."""
         self.last, self.only = 0, 0
 
     def regard(self, value: float) -> bool:
-        """Note a velocity; return whether its sign is another one than before."""
+        """Record a velocity; return whether its sign has changed."""
         sign = (value > _ZERO) - (value < -_ZERO)
         flipped = sign != 0 and sign == -self.last
         if flipped:
@@ -160,7 +161,7 @@ class _Trend:
 
 class OscillationCritic(Critic):
     """
-    Rejects velocities that reverse again right after a component has changed its sign.
+    Critic that rejects oscillations: velocities that reverse again right after a reversal.
 
     Parameters
     ----------
@@ -177,14 +178,14 @@ class OscillationCritic(Critic):
         self._here = Pose2D(0.0, 0.0, 0.0), 0.0
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the state for a new goal."""
         for trend in (self._x, self._y, self._theta):
             trend.reset()
         self._start = None
 
     def begin(self, scene: Scene) -> None:
         """
-        Allow all directions again once the robot has moved or turned enough, or time has passed.
+        Allow all directions again after enough translation, rotation or time.
 
         Parameters
         ----------
@@ -198,7 +199,7 @@ class OscillationCritic(Critic):
 
     def scores(self, scene: Scene) -> Floats:
         """
-        Reject velocities opposed to the direction that the last reversal led to.
+        Reject velocities opposed to the direction of the last reversal.
 
         Parameters
         ----------
@@ -221,12 +222,12 @@ class OscillationCritic(Critic):
 
     def debrief(self, velocity: Velocity) -> None:
         """
-        Note the signs of the chosen velocity; a reversal starts the count of distance and time.
+        Record the signs of the chosen velocity; a reversal restarts the distance and the timer.
 
         Parameters
         ----------
         velocity
-            The velocity in the base frame; y and yaw only count while x is slow.
+            The velocity in the base frame; y and yaw are only considered while x is slow.
 
         """
         flipped = self._x.regard(velocity.x)
@@ -237,7 +238,7 @@ class OscillationCritic(Critic):
             self._start = self._here
 
     def objection(self) -> str:
-        """Return why trajectories are illegal."""
+        """Describe why trajectories are illegal."""
         return 'turn back at once'
 
     def _has_left(self, pose: Pose2D, time_s: float) -> bool:
@@ -254,7 +255,7 @@ class OscillationCritic(Critic):
 
 class PreferForwardCritic(Critic):
     """
-    Penalises what is not forward, and turning.
+    Critic that penalises backward and lateral motion, and rotation.
 
     Parameters
     ----------
@@ -269,7 +270,7 @@ class PreferForwardCritic(Critic):
 
     def scores(self, scene: Scene) -> Floats:
         """
-        Score backward and sideways motion by the penalty, and other motion by how fast it turns.
+        Score backward and lateral motion by the penalty, and other motion by its rotation.
 
         Parameters
         ----------
@@ -291,13 +292,13 @@ class PreferForwardCritic(Critic):
 
 
 class TwirlingCritic(Critic):
-    """Scores turning, for robots that can go sideways."""
+    """Critic that penalises rotation, for robots that can move sideways."""
 
     default_scale = 0.0
 
     def scores(self, scene: Scene) -> Floats:
         """
-        Score how fast trajectories turn.
+        Score the angular speed of trajectories.
 
         Parameters
         ----------

@@ -14,7 +14,7 @@ __all__ = ['BaseObstacleCritic', 'ObstacleFootprintCritic']
 
 class BaseObstacleCritic(Critic):
     """
-    Scores the cost at the robot's centre; illegal where a circular robot would collide.
+    Critic that scores the cost at the robot's centre; illegal where a circular robot collides.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class BaseObstacleCritic(Critic):
         -------
         numpy.ndarray
             The last cost, or the sum of all with `sum_scores` (S,); infinite for trajectories with
-            a point where a circular robot collides, nothing is known, or the costmap ends.
+            a point that is in collision for a circular robot, unknown, or off the costmap.
 
         """
         costs = scene.costs
@@ -52,13 +52,13 @@ class BaseObstacleCritic(Critic):
         return illegal(found.astype(np.float32), invalid_costs(costs).any(axis=1))
 
     def objection(self) -> str:
-        """Return why trajectories are illegal."""
+        """Describe why trajectories are illegal."""
         return 'hit an obstacle or leave the local costmap'
 
 
 class ObstacleFootprintCritic(BaseObstacleCritic):
     """
-    Scores the cost at the robot's centre; illegal where its footprint hits an obstacle.
+    Critic that scores the cost at the robot's centre; illegal where the footprint collides.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ class ObstacleFootprintCritic(BaseObstacleCritic):
 
     def scores(self, scene: Scene) -> Floats:
         """
-        Score the costs at the centre, and reject trajectories on which the footprint collides.
+        Score the costs at the centre, and reject trajectories with a footprint collision.
 
         A circular robot is scored as by `BaseObstacleCritic`.
 

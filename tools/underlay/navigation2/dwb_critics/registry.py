@@ -38,7 +38,7 @@ _KINDS: dict[str, type[Critic]] = {
 
 def find_critic(name: str) -> type[Critic]:
     """
-    Return the class of a critic.
+    Look up the class of a critic.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which velocities DWB tries, and where they lead: all samples at once."""
+"""Trajectory generators of DWB: sample velocities and simulate their trajectories, vectorized."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class GeneratorParameters:
 
 @dataclass(frozen=True)
 class Rollouts:
-    """What S velocities lead to, at T times."""
+    """The trajectories of S velocities, at T times."""
 
     velocities: Floats
     """(S, 3) along x and y in m/s, and in rad/s."""
@@ -87,7 +87,7 @@ class Rollouts:
 
 class StandardTrajectoryGenerator:
     """
-    Samples all velocities that can be reached within the time of a trajectory.
+    Generator that samples all velocities reachable within the simulated time.
 
     Source: D. Fox, W. Burgard, S. Thrun, The Dynamic Window Approach to Collision Avoidance, IEEE
     Robotics and Automation Magazine 4 (1997).
@@ -100,12 +100,12 @@ class StandardTrajectoryGenerator:
     Raises
     ------
     ConfigurationError
-        The highest velocities are all 0, so that the robot cannot move.
+        All velocity limits are 0, so that the robot cannot move.
 
     """
 
     accelerates = True
-    """Whether the robot accelerates towards the velocity on the way, or has it at once."""
+    """Whether the robot accelerates towards the velocity, or has it immediately."""
 
     def __init__(self, context: PluginContext) -> None:
         self._parameters = context.declare(GeneratorParameters)
@@ -121,26 +121,26 @@ class StandardTrajectoryGenerator:
 
     @property
     def fastest(self) -> float:
-        """Return the highest speed in m/s that is configured."""
+        """Return the highest configured speed in m/s."""
         current = self._parameters.current
         if current.max_speed_xy > 0.0:
             return current.max_speed_xy
         return math.hypot(current.max_vel_x, current.max_vel_y)
 
     def window_s(self) -> float:
-        """Return the time in s within which a velocity has to be reached."""
+        """Return the time in s within which a velocity has to be reachable."""
         return self._parameters.current.sim_time
 
     def velocities(self, now: Velocity, ratio: float = 1.0) -> Floats:
         """
-        Return the velocities to try.
+        Sample velocities.
 
         Parameters
         ----------
         now
-            The velocity of the robot.
+            The current velocity of the robot.
         ratio
-            The part of the highest speeds that is allowed, from 0 to 1.
+            The allowed fraction of the speed limits, from 0 to 1.
 
         Returns
         -------
@@ -176,7 +176,7 @@ class StandardTrajectoryGenerator:
 
     def rollouts(self, pose: Pose2D, now: Velocity, velocities: Floats) -> Rollouts:
         """
-        Compute where velocities lead.
+        Simulate the trajectories of velocities.
 
         Parameters
         ----------
@@ -228,7 +228,7 @@ class StandardTrajectoryGenerator:
 
 class LimitedAccelGenerator(StandardTrajectoryGenerator):
     """
-    Samples only velocities that can be reached within a control period.
+    Generator that samples only velocities reachable within a control period.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ class LimitedAccelGenerator(StandardTrajectoryGenerator):
     Raises
     ------
     ConfigurationError
-        The highest velocities are all 0, so that the robot cannot move.
+        All velocity limits are 0, so that the robot cannot move.
 
     """
 
@@ -261,7 +261,7 @@ class LimitedAccelGenerator(StandardTrajectoryGenerator):
 
 def make_generator(name: str, context: PluginContext) -> StandardTrajectoryGenerator:
     """
-    Make the trajectory generator of a name.
+    Make a trajectory generator by its name.
 
     Parameters
     ----------
@@ -290,7 +290,7 @@ def make_generator(name: str, context: PluginContext) -> StandardTrajectoryGener
 
 
 def _samples(now: float, low: float, high: float, up: float, down: float, count: int) -> Floats:
-    """Return velocities that can be reached, always with 0 if that is one of them."""
+    """Sample reachable velocities, always including 0 if it is reachable."""
     if low > high:
         low, high = high, low
     first = min(max(now - down, low), high)
@@ -305,5 +305,5 @@ def _samples(now: float, low: float, high: float, up: float, down: float, count:
 
 
 def _approach(now: float, target: Floats, up: Floats, down: Floats) -> Floats:
-    """Return the (S, T) velocities on the way from one to (S,) others."""
+    """Compute the (S, T) velocities while accelerating from one velocity to (S,) others."""
     return np.clip(target[:, None], np.float32(now) - down, np.float32(now) + up)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Localise a robot in a known map with a laser scanner: adaptive Monte Carlo localisation."""
+"""Adaptive Monte Carlo localisation (AMCL) of a robot in a known map with a laser scanner."""

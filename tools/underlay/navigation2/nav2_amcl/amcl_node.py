@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node `amcl`: localises a robot in the map by its laser scans and odometry."""
+"""The node `amcl`: localises the robot in the map from laser scans and odometry."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ _LOOK_S = 2.0
 
 class AmclNode(LifecycleNode):
     """
-    Localises a robot; see `AmclParameters`, and `Localizer` for how.
+    AMCL node; see `AmclParameters`, and `Localizer` for the algorithm.
 
-    It publishes `amcl_pose`, `particle_cloud` and the transform from the map to odometry, takes
-    `scan`, `map` and `initialpose`, and offers `set_initial_pose`, `request_nomotion_update` and
-    `reinitialize_global_localization`.
+    It publishes `amcl_pose`, `particle_cloud` and the transform from the map to odometry,
+    subscribes to `scan`, `map` and `initialpose`, and offers `set_initial_pose`,
+    `request_nomotion_update` and `reinitialize_global_localization`.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class AmclNode(LifecycleNode):
         self._has_map = False
 
     def configure(self) -> None:
-        """Make the localizer, topics and services."""
+        """Create the localizer, topics and services."""
         self.parameters.declare_unsupported(UNSUPPORTED)
         self._config = self.parameters.declare(AmclParameters)
         values = self._config.current
@@ -86,7 +86,7 @@ class AmclNode(LifecycleNode):
         self._offer(values)
 
     def activate(self) -> None:
-        """Start at the initial pose, or where the robot was when the node was last active."""
+        """Start at the initial pose, or at the last pose of the previous activation."""
         values = self._config.current
         self._scan_s = time.monotonic()
         if self._known is not None and not values.always_reset_initial_pose:
@@ -97,18 +97,18 @@ class AmclNode(LifecycleNode):
             self.get_logger().info(f'The initial pose is x {x:.2f}, y {y:.2f}, yaw {yaw:.2f}.')
 
     def deactivate(self) -> None:
-        """Keep where the robot is; forget scans that wait."""
+        """Save the pose of the robot; drop queued scans."""
         if self._localizer.estimate is not None and self._config.current.save_pose_rate > 0.0:
             self._known = self._localizer.estimate
         if self._scans is not None:
             self._scans.clear()
 
     def cleanup(self) -> None:
-        """Let go of the scans; the pose is kept."""
+        """Release the scans; the pose is kept."""
         self._scans = None
 
     def _offer(self, values: AmclParameters) -> None:
-        """Create topics, services, and the timer that says what is missing."""
+        """Create topics, services, and the timer that reports missing inputs."""
         sensor = qos_profile_sensor_data
         self._poses = self.create_lifecycle_publisher(
             PoseWithCovarianceStamped, 'amcl_pose', LATCHED
@@ -152,7 +152,7 @@ class AmclNode(LifecycleNode):
             return
         stamp_ns = Time.from_msg(message.header.stamp).nanoseconds
         if stamp_ns < self._last_scan_ns:
-            # Time has gone back: what odometry said before does not count any more.
+            # Time has jumped back: earlier odometry is no longer valid.
             self._scans.clear()
             self._localizer.forget_odometry()
         self._last_scan_ns = stamp_ns
@@ -175,13 +175,13 @@ class AmclNode(LifecycleNode):
             self._clouds.publish(cloud_bytes(particles.particles, particles.weights, frame, stamp))
 
     def _keep(self, estimate: Cluster) -> None:
-        """Keep a pose for the next activation, so many times a second."""
+        """Save the pose for the next activation, at a limited rate."""
         rate_hz, now_s = self._config.current.save_pose_rate, time.monotonic()
         if rate_hz > 0.0 and now_s - self._kept_s >= 1.0 / rate_hz:
             self._known, self._kept_s = estimate, now_s
 
     def _broadcast(self, map_to_odom: Pose2D, stamp: Any) -> None:
-        """Publish where odometry is in the map, valid for some time beyond the scan."""
+        """Broadcast the transform from the map to odometry, post-dated beyond the scan's stamp."""
         values = self._config.current
         until = Time.from_msg(stamp) + Duration(seconds=values.transform_tolerance)
         self._broadcaster.sendTransform(
@@ -208,7 +208,7 @@ class AmclNode(LifecycleNode):
         )
 
     def _motion_since(self, stamp: Any) -> Pose2D:
-        """Return how the robot has moved since a time, as far as odometry knows."""
+        """Look up the motion of the robot since a time, according to odometry."""
         values = self._config.current
         frames = values.base_frame_id, values.odom_frame_id
         if not (stamp.sec or stamp.nanosec):
@@ -235,7 +235,7 @@ class AmclNode(LifecycleNode):
         return response
 
     def _remind(self) -> None:
-        """Say what is missing, while the node is active."""
+        """Log missing inputs while the node is active."""
         if not self.is_active or self._scans is None:
             return
         values, now_s = self._config.current, time.monotonic()

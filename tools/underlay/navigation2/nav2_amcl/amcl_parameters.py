@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of AMCL, and what they mean to the localizer."""
+"""The parameters of AMCL, and their conversion to the settings of the localizer."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ def settings_of(values: AmclParameters) -> LocalizerSettings:
     Raises
     ------
     ValueError
-        `min_particles` is larger than `max_particles`; the text is the rest of a sentence.
+        `min_particles` is larger than `max_particles`; the text is the end of a sentence.
 
     """
     if values.min_particles > values.max_particles:

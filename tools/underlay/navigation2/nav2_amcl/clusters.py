@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the robot probably is: the heaviest cluster of particles, its mean and covariance."""
+"""Pose estimate: the heaviest cluster of particles, its mean and covariance."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ['Cluster', 'best_cluster', 'find_clusters']
 @dataclass(frozen=True)
 class Cluster:
     """
-    Particles near each other.
+    Cluster of adjacent particles.
 
     `pose` is their mean x, y (m) and yaw (rad), `covariance` the (3, 3) matrix of these, `weight`
     their share of the weight of all particles.
@@ -31,7 +31,7 @@ class Cluster:
 
 def find_clusters(particles: FloatArray) -> npt.NDArray[np.intp]:
     """
-    Label particles whose bins of the histogram touch, also at edges and corners.
+    Label clusters of particles: those in histogram bins that touch, also at edges and corners.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def find_clusters(particles: FloatArray) -> npt.NDArray[np.intp]:
 
 
 def _connected(bins: npt.NDArray[np.int64]) -> npt.NDArray[np.intp]:
-    """Return a label for each of the (K, 3) bins, equal where they are connected."""
+    """Label the (K, 3) bins by connected component."""
     base = bins - bins.min(axis=0) + 1
     height = int(base[:, 1].max()) + 2
     heading = bins[:, 2]
@@ -65,7 +65,7 @@ def _connected(bins: npt.NDArray[np.int64]) -> npt.NDArray[np.intp]:
     ]
     labels = np.arange(len(bins))
     one, other = (np.concatenate(ends) for ends in zip(*pairs))
-    while True:  # each label becomes the least of its neighbours, and of what that one has
+    while True:  # each label becomes the minimum of its neighbours, and of that one's label
         lowest = labels.copy()
         np.minimum.at(lowest, one, labels[other])
         np.minimum.at(lowest, other, labels[one])
@@ -83,7 +83,7 @@ def _neighbours(
     order: npt.NDArray[np.intp],
     step: tuple[int, ...],
 ) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """Return the indices of bins, and those of their neighbours in a direction."""
+    """Find adjacent bins in a direction: their indices, and those of their neighbours."""
     turned = (heading + step[2] - 1) % BIN_COUNT
     wanted = ((base[:, 0] + step[0] - 1) * height + base[:, 1] + step[1] - 1) * BIN_COUNT + turned
     place = np.minimum(np.searchsorted(ranked, wanted), len(ranked) - 1)
@@ -93,7 +93,7 @@ def _neighbours(
 
 def best_cluster(particles: FloatArray, weights: FloatArray) -> Cluster:
     """
-    Compute the heaviest cluster of weighted particles.
+    Find the heaviest cluster of weighted particles, with its mean and covariance.
 
     Parameters
     ----------

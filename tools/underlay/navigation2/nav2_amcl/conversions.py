@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages of AMCL, from and to what its core knows."""
+"""Convert ROS messages to the types of AMCL's core and back."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = [
 ]
 
 _PLANE = np.array([0, 1, 5])
-"""Where x, y and yaw are in the 6 x 6 covariance of a pose."""
+"""The indices of x, y and yaw in the 6 x 6 covariance of a pose."""
 
 
 def map_of(message: Any) -> OccupancyMap:
@@ -34,13 +34,12 @@ def map_of(message: Any) -> OccupancyMap:
     Parameters
     ----------
     message
-        The grid; its origin may be turned.
+        The grid; its origin may be rotated.
 
     Raises
     ------
     ValueError
-        It has no cells, or another number of them than it says; the text is the rest of a
-        sentence.
+        It has no cells, or not as many as its size states; the text is the end of a sentence.
 
     """
     info = message.info
@@ -121,7 +120,7 @@ def rotation_and_translation(transform: TransformStamped) -> tuple[FloatArray, F
     Parameters
     ----------
     transform
-        As tf2 looks it up; its quaternion is taken for normalised.
+        As tf2 returns it; its quaternion is assumed to be normalised.
 
     Returns
     -------
@@ -168,8 +167,8 @@ def cloud_bytes(particles: FloatArray, weights: FloatArray, frame: str, stamp: A
     """
     Serialise a `nav2_msgs/ParticleCloud`, without an object for each particle.
 
-    It is CDR, little-endian: the header, the number of particles, and eight doubles of each from
-    an offset that is a multiple of eight.
+    The format is little-endian CDR: the header, the number of particles, and eight doubles for
+    each, aligned to eight bytes.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How likely a scan is where the particles are: likelihood field and beam model."""
+"""Laser models, which compute the likelihood of a scan: likelihood field and beam model."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ __all__ = [
 
 SingleArray = npt.NDArray[np.float32]
 _INDEPENDENT_BEAMS = 20.0
-"""Errors of neighbouring beams are alike: a scan tells no more than so many beams."""
+"""Errors of adjacent beams are correlated: a scan counts as at most this many beams."""
 
 
 @dataclass(frozen=True)
 class LaserNoise:
     """
-    The mixture of what a reading may be, and its parameters.
+    Parameters of the measurement mixture model.
 
-    Weights of a hit with noise, of something unmapped in front, of no return, and of anything;
-    the standard deviation of a hit in m, the decay of unmapped obstacles in 1/m, and the largest
-    distance from an obstacle in m that counts in the likelihood field.
+    Weights of a noisy hit, of an unmapped obstacle in front, of no return, and of a random
+    reading; the standard deviation of a hit in m, the decay of unmapped obstacles in 1/m, and the
+    maximum obstacle distance in m of the likelihood field.
     """
 
     z_hit: float = 0.5
@@ -51,11 +51,11 @@ class LaserNoise:
 @dataclass(frozen=True)
 class BeamSkipping:
     """
-    Leave out beams with which most particles disagree, such as those that hit people.
+    Beam skipping: ignores beams with which most particles disagree, such as those that hit people.
 
     A particle agrees if the beam ends within `distance_m` of an obstacle. Beams with which less
-    than the share `threshold` agrees are skipped, unless that were more than the share
-    `error_threshold` of all beams: then the particles are wrong and not the beams.
+    than the fraction `threshold` agrees are skipped, unless these are more than the fraction
+    `error_threshold` of all beams: then the particles are wrong, not the beams.
     """
 
     distance_m: float = 0.5
@@ -64,46 +64,46 @@ class BeamSkipping:
 
 
 class LaserModel(Protocol):
-    """Computes how likely a scan is."""
+    """Interface of laser models, which compute the likelihood of a scan."""
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
         """
-        Compute the logarithm of how likely a scan is for each particle.
+        Compute the log-likelihood of a scan for each particle.
 
         Parameters
         ----------
         particles
             (N, 3) array of x, y (m) and yaw (rad) of the base in the frame of the map.
         beams
-            What was seen from the base.
+            The scan, projected into the plane of the base.
 
         Returns
         -------
-        (N,) array; zeros if the scan says nothing.
+        (N,) array; zeros if the scan is uninformative.
 
         """
 
 
 def _tempered(log_likelihoods: npt.NDArray[np.floating], beams: int) -> FloatArray:
-    """Sum the beams (N, B), as if at most `_INDEPENDENT_BEAMS` were independent."""
+    """Sum the log-likelihoods (N, B), as if at most `_INDEPENDENT_BEAMS` were independent."""
     total: FloatArray = log_likelihoods.sum(axis=1, dtype=np.float64)
     return total * min(1.0, _INDEPENDENT_BEAMS / max(beams, 1))
 
 
 class LikelihoodField:
     """
-    Rates the end of each beam by its distance to the nearest obstacle of the map.
+    Likelihood field model: scores the endpoint of each beam by its distance to obstacles.
 
-    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 6.3. Beams without return say
-    nothing. Beams are counted as partly dependent, which keeps more particles.
+    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 6.3. Beams without return are
+    ignored. Beams are treated as partly dependent, which preserves particle diversity.
 
     Parameters
     ----------
     grid
         The map.
     noise
-        Which errors of readings to expect; `z_hit`, `z_rand`, `sigma_hit_m`, `max_distance_m`
-        count.
+        The noise model; `z_hit`, `z_rand`, `sigma_hit_m`, `max_distance_m`
+        are used.
 
     """
 
@@ -114,7 +114,7 @@ class LikelihoodField:
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
         """
-        Compute the logarithm of how likely a scan is for each particle.
+        Compute the log-likelihood of a scan for each particle.
 
         Parameters
         ----------
@@ -131,13 +131,13 @@ class LikelihoodField:
         return _tempered(self._rated(particles, points, beams.max_range_m), len(points))
 
     def _rated(self, particles: FloatArray, points: FloatArray, max_range_m: float) -> SingleArray:
-        """Return the (N, B) logarithms of how likely each beam is."""
+        """Compute the (N, B) log-likelihood of each beam."""
         if max_range_m != self._max_range_m:
             self._max_range_m, self._table = max_range_m, self._make_table(max_range_m)
         return self._table[self._cells(particles, points)]
 
     def _cells(self, particles: FloatArray, points: FloatArray) -> npt.NDArray[np.int32]:
-        """Return the (N, B) indices in tables with a border of one cell."""
+        """Compute the (N, B) indices of beam endpoints in tables with a border of one cell."""
         grid = self._grid
         start = grid.to_grid(particles[:, :2]) + 1.0
         yaw = particles[:, 2] - grid.origin[2]
@@ -154,7 +154,7 @@ class LikelihoodField:
         return index
 
     def _make_table(self, max_range_m: float) -> SingleArray:
-        """Return the logarithm of how likely a beam is that ends in a cell, with a border."""
+        """Precompute the log-likelihood of a beam that ends in each cell, with a border."""
         noise = self._noise
         far = np.float32(noise.max_distance_m)
         distance = np.pad(np.minimum(self._grid.distances, far), 1, constant_values=far)
@@ -165,14 +165,14 @@ class LikelihoodField:
 
 class LikelihoodFieldProb(LikelihoodField):
     """
-    The likelihood field with all beams as independent, and with beam skipping.
+    Likelihood field model with independent beams and beam skipping.
 
     Parameters
     ----------
     grid, noise
         The map, and the parameters of the laser.
     skipping
-        When to leave out beams; never if None.
+        The parameters of beam skipping; no beams are skipped if None.
 
     """
 
@@ -185,7 +185,7 @@ class LikelihoodFieldProb(LikelihoodField):
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
         """
-        Compute the logarithm of how likely a scan is for each particle, without skipped beams.
+        Compute the log-likelihood of a scan for each particle, without skipped beams.
 
         Parameters
         ----------
@@ -211,17 +211,17 @@ class LikelihoodFieldProb(LikelihoodField):
 
 class BeamModel:
     """
-    Compares the length of each beam with what would be seen in the map.
+    Beam model: compares the range of each beam with the expected one, by ray casting.
 
-    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 6.1. Beams are counted as
-    partly dependent, which keeps more particles.
+    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 6.1. Beams are treated as
+    partly dependent, which preserves particle diversity.
 
     Parameters
     ----------
     grid
         The map.
     noise
-        Which errors of readings to expect.
+        The noise model.
 
     """
 
@@ -230,7 +230,7 @@ class BeamModel:
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
         """
-        Compute the logarithm of how likely a scan is for each particle, by ray casting.
+        Compute the log-likelihood of a scan for each particle, by ray casting.
 
         Parameters
         ----------
@@ -263,14 +263,14 @@ class BeamModel:
 
 
 LASER_MODELS = ('likelihood_field', 'likelihood_field_prob', 'beam')
-"""What `laser_model_type` may be."""
+"""The valid values of `laser_model_type`."""
 
 
 def make_laser_model(
     name: str, grid: OccupancyMap, noise: LaserNoise, skipping: BeamSkipping | None = None
 ) -> LaserModel:
     """
-    Make the laser model of a name.
+    Make a laser model by its name.
 
     Parameters
     ----------
@@ -279,9 +279,10 @@ def make_laser_model(
     grid
         The map.
     noise
-        Which errors of readings to expect.
+        The noise model.
     skipping
-        When likelihood_field_prob leaves out beams, never if None; the other models ignore it.
+        The parameters of beam skipping in likelihood_field_prob, none if None; the other models
+        ignore it.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When odometry and scans update the particles, and what follows: where `odom` is in `map`."""
+"""The localizer: when odometry and scans update the particles, and `map` to `odom`."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ import numpy as np
 __all__ = ['DEFAULT_COVARIANCE', 'Localizer', 'LocalizerSettings']
 
 DEFAULT_COVARIANCE = np.diag([0.25, 0.25, 0.0685])
-"""How well a start is known if nothing is said of it: 0.5 m and 15°, squared."""
+"""The default covariance of an initial pose: 0.5 m and 15°, squared."""
 
 
 @dataclass(frozen=True)
 class LocalizerSettings:
-    """What the parameters of the node say; lengths in m, angles in rad."""
+    """Settings of the localizer; lengths in m, angles in rad."""
 
     filter_options: FilterOptions = field(default_factory=FilterOptions)
     motion_noise: MotionNoise = field(default_factory=MotionNoise)
@@ -40,14 +40,14 @@ class LocalizerSettings:
 
 class Localizer:
     """
-    Localises a robot in a map; knows nothing of ROS.
+    Localizer of a robot in a map, independent of ROS.
 
     Parameters
     ----------
     settings
-        How to; may be replaced by `use`.
+        The settings; may be replaced by `use`.
     random
-        The source of randomness.
+        The random number generator.
 
     """
 
@@ -55,9 +55,9 @@ class Localizer:
         self.filter = ParticleFilter(settings.filter_options, random)
         self.grid: OccupancyMap | None = None
         self.estimate: Cluster | None = None
-        """Where the robot was in the map at the last update, unless none was since a start."""
+        """The robot in the map at the last update; None if there was none since the start."""
         self.map_to_odom: Pose2D | None = None
-        """Where the frame of odometry is in the map, as soon as that is known."""
+        """The frame of odometry in the map, once it is known."""
         self._settings = settings
         self._model: LaserModel | None = None
         self._started = False
@@ -68,17 +68,17 @@ class Localizer:
 
     @property
     def is_started(self) -> bool:
-        """Whether something is known of where the robot is."""
+        """Whether an initial pose, or a global initialisation, was given."""
         return self._started or self._goes_anywhere
 
     def use(self, settings: LocalizerSettings) -> None:
         """
-        Replace the settings; the particles stay.
+        Replace the settings; the particles are kept.
 
         Parameters
         ----------
         settings
-            They hold from the next scan on.
+            The settings, used from the next scan on.
 
         """
         if settings != self._settings:
@@ -87,7 +87,7 @@ class Localizer:
 
     def set_map(self, grid: OccupancyMap) -> None:
         """
-        Replace the map; the particles stay where they are, and the next scan updates them.
+        Replace the map; the particles are kept, and the next scan updates them.
 
         Parameters
         ----------
@@ -100,15 +100,15 @@ class Localizer:
 
     def start_at(self, pose: Pose2D, covariance: FloatArray | None = None) -> None:
         """
-        Start at a pose in the map.
+        Initialise the particles at a pose in the map.
 
         Parameters
         ----------
         pose
-            Where the robot is.
+            The pose of the robot.
         covariance
-            The (3, 3) matrix of x, y (m) and yaw (rad). None, or one of zeros as of a client that
-            leaves it out, stands for `DEFAULT_COVARIANCE`.
+            The (3, 3) matrix of x, y (m) and yaw (rad). None, or all zeros as from a client that
+            omits it, means `DEFAULT_COVARIANCE`.
 
         """
         if covariance is None or not covariance.any():
@@ -118,16 +118,16 @@ class Localizer:
         self.forget_odometry()
 
     def start_anywhere(self) -> None:
-        """Start anywhere in the free space, of the map that is there or comes."""
+        """Initialise the particles in the free space of the map, now or when it is received."""
         self._goes_anywhere = True
         self.forget_odometry()
 
     def force_update(self) -> None:
-        """Update with the next scan, also if the robot does not move."""
+        """Force an update with the next scan, even if the robot does not move."""
         self._is_forced = True
 
     def forget_odometry(self) -> None:
-        """Take the next pose in odometry as where the particles are now, and update then."""
+        """Restart odometry: match its next pose to the current particles, and force an update."""
         self._odom, self._is_forced = None, True
         self.map_to_odom = self.estimate = None
 
@@ -135,7 +135,7 @@ class Localizer:
         self, scan: Scan, rotation: FloatArray, translation: FloatArray, odom: Pose2D
     ) -> bool:
         """
-        Take a scan.
+        Process a scan.
 
         Parameters
         ----------
@@ -148,7 +148,7 @@ class Localizer:
 
         Returns
         -------
-        Whether the particles were updated: after some motion, when forced, or at the start.
+        Whether the particles were updated: after sufficient motion, when forced, or at the start.
 
         """
         grid = self.grid
@@ -205,7 +205,7 @@ class Localizer:
 def _relative_to(
     base: Pose2D, rotation: FloatArray, translation: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return a rotation and translation in a level frame at the base, with its heading."""
+    """Transform a rotation and translation to a level frame at the base, with its heading."""
     cos, sin = np.cos(base.yaw), np.sin(base.yaw)
     turn = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
     return turn @ rotation, turn @ (translation - np.array([base.x, base.y, 0.0]))

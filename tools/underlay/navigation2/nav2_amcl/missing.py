@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why there is no pose: what AMCL waits for, and how to mend it."""
+"""Missing inputs of AMCL: why there is no pose, and how to fix it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _SCAN_LATE_S = 3.0
 
 @dataclass(frozen=True)
 class Inputs:
-    """What has come so far, and where it is expected."""
+    """The inputs received so far, and where they are expected."""
 
     has_map: bool
     is_started: bool
@@ -24,17 +24,17 @@ class Inputs:
 
 def describe_missing(inputs: Inputs) -> list[str]:
     """
-    Describe each input that is missing, and how to mend it.
+    Describe each missing input, and how to fix it.
 
     Parameters
     ----------
     inputs
-        What has come so far.
+        The inputs received so far.
 
     Returns
     -------
     list of str
-        Sentences, one text for each missing input; empty if nothing is missing.
+        One message for each missing input; empty if nothing is missing.
 
     """
     found = []
@@ -65,12 +65,12 @@ def describe_missing(inputs: Inputs) -> list[str]:
 
 class Reminder:
     """
-    Says what is missing once at the second look, and again after a time.
+    Rate-limited warning about missing inputs: first at the second check, then repeated.
 
     Parameters
     ----------
     again_after_s
-        How long it takes in s before the same warning is repeated.
+        The time in s after which the same warning is repeated.
 
     """
 
@@ -81,13 +81,13 @@ class Reminder:
 
     def text_for(self, missing: list[str], now_s: float) -> str:
         """
-        Return what is to be logged now, or an empty text.
+        Return the text to log now, or an empty text.
 
         Parameters
         ----------
         missing
-            Sentences; only what was missing at the last look too is worth a warning. Those that
-            begin alike count as the same.
+            Messages; only inputs that were also missing at the last check are reported. Messages
+            with the same start count as the same.
         now_s
             The time in s.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How particles move when odometry says that the robot has: by it, and by what it may miss."""
+"""Motion models: sample the motion of particles from odometry and its noise."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ AngleT = TypeVar('AngleT', float, FloatArray)
 
 Pose = tuple[float, float, float]
 _NO_HEADING_M = 0.01
-"""The direction of a shorter motion says nothing."""
+"""The direction of a shorter motion is undefined."""
 
 
 @dataclass(frozen=True)
 class MotionNoise:
     """
-    The parameters alpha1 to alpha5: what variances grow by with what the robot does.
+    The odometry noise alpha1 to alpha5: how much the variances grow with motion.
 
     `rotation_by_rotation`, `rotation_by_translation` (rad²/m²), `translation_by_translation`,
     `translation_by_rotation` (m²/rad²), `strafe_by_translation` for omnidirectional robots.
@@ -42,7 +42,7 @@ class MotionNoise:
 
 
 class MotionModel(Protocol):
-    """Samples where particles are after a motion."""
+    """Interface of motion models, which sample the poses of particles after a motion."""
 
     def move(
         self,
@@ -53,7 +53,7 @@ class MotionModel(Protocol):
         random: np.random.Generator,
     ) -> FloatArray:
         """
-        Return the particles after a motion.
+        Sample the particles after a motion.
 
         Parameters
         ----------
@@ -62,9 +62,9 @@ class MotionModel(Protocol):
         before, after
             The robot in the frame of odometry: x, y (m), yaw (rad).
         noise
-            How uncertain odometry is.
+            The noise of odometry.
         random
-            The source of randomness.
+            The random number generator.
 
         Returns
         -------
@@ -88,10 +88,11 @@ def wrapped(angle_rad: AngleT) -> AngleT:
 
 class DifferentialMotionModel:
     """
-    Robots that turn and drive forward: a turn, a translation, a turn.
+    Motion model of differential drive robots: a rotation, a translation, a rotation.
 
-    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 5.6. A robot that goes
-    backward or sideways has not turned round for it: the first turn counts as noise up to 90°.
+    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 5.6. A robot that drives
+    backward or sideways has not turned around first: the noise of the first rotation is limited to
+    that of 90°.
     """
 
     def move(
@@ -103,7 +104,7 @@ class DifferentialMotionModel:
         random: np.random.Generator,
     ) -> FloatArray:
         """
-        Sample where the particles are after a motion.
+        Sample the particles after a motion.
 
         Parameters
         ----------
@@ -143,9 +144,9 @@ class DifferentialMotionModel:
 
 class OmniMotionModel:
     """
-    Robots that also go sideways: a translation in any direction, and a turn, each with noise.
+    Motion model of omnidirectional robots: a translation in any direction, and a rotation.
 
-    Across the direction of the motion, noise grows with `strafe_by_translation`.
+    Both are noisy; across the direction of motion, noise grows with `strafe_by_translation`.
     """
 
     def move(
@@ -157,7 +158,7 @@ class OmniMotionModel:
         random: np.random.Generator,
     ) -> FloatArray:
         """
-        Sample where the particles are after a motion.
+        Sample the particles after a motion.
 
         Parameters
         ----------
@@ -193,4 +194,4 @@ MOTION_MODELS: dict[str, MotionModel] = {
     'nav2_amcl::DifferentialMotionModel': DifferentialMotionModel(),
     'nav2_amcl::OmniMotionModel': OmniMotionModel(),
 }
-"""The motion models by the names that `robot_model_type` may have."""
+"""The motion models by `robot_model_type`."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The map in which a robot is localised: its cells, and how far obstacles are from anywhere."""
+"""Occupancy grid map for localisation: its cells, and their distances to obstacles."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _OCCUPIED_FROM, _FREE_TO = 65, 25
 
 class OccupancyMap:
     """
-    A grid of free, occupied and unknown cells.
+    Occupancy grid map of free, occupied and unknown cells.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class OccupancyMap:
         (rows, columns) array of the values of a `nav_msgs/OccupancyGrid`: probabilities from 0 to
         100 that a cell is occupied, -1 for unknown. Row 0 is at the origin, rows go along y.
     resolution
-        The length of a cell's side in m.
+        The side length of a cell in m.
     origin
         x, y (m) and yaw (rad) of the outer corner of cell [0, 0] in the frame of the map.
 
@@ -52,7 +52,7 @@ class OccupancyMap:
 
     def to_grid(self, points: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
         """
-        Convert points in the frame of the map to columns and rows, with fractions.
+        Convert points in the frame of the map to fractional columns and rows.
 
         Parameters
         ----------
@@ -61,7 +61,7 @@ class OccupancyMap:
 
         Returns
         -------
-        (..., 2) array of column and row; the middle of cell [0, 0] is at 0.5, 0.5.
+        (..., 2) array of column and row; the centre of cell [0, 0] is at 0.5, 0.5.
 
         """
         scale = 1.0 / self.resolution
@@ -78,7 +78,7 @@ class OccupancyMap:
         Parameters
         ----------
         grid
-            Columns and rows (..., 2), with fractions; the middle of cell [0, 0] is at 0.5, 0.5.
+            Columns and rows (..., 2), with fractions; the centre of cell [0, 0] is at 0.5, 0.5.
 
         Returns
         -------
@@ -92,7 +92,7 @@ class OccupancyMap:
 
     @cached_property
     def distances(self) -> SingleArray:
-        """Return the distance in m of each cell to the nearest occupied one; inf without any."""
+        """Compute the distance in m of each cell to the nearest occupied cell; inf without any."""
         if not (self.cells == OCCUPIED).any():
             return np.full(self.cells.shape, np.inf, np.float32)
         free = (self.cells != OCCUPIED).astype(np.uint8)
@@ -114,11 +114,11 @@ class OccupancyMap:
         Parameters
         ----------
         count
-            How many.
+            The number of poses.
         random
-            The source of randomness.
+            The random number generator.
         every
-            Draw from each so many-th free cell only.
+            Draw only from every n-th free cell.
 
         Returns
         -------

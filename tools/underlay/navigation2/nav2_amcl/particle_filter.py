@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Adaptive Monte Carlo localisation: a set of weighted poses that follows the robot."""
+"""Adaptive Monte Carlo localisation: a particle filter that tracks the pose of the robot."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ['FilterOptions', 'ParticleFilter']
 
 
 _LEAST_EFFECTIVE = 0.02
-"""The least share of particles that matter after a scan."""
+"""The minimum effective fraction of the particles after a scan."""
 
 _HALVINGS = 10
 
 
 @dataclass(frozen=True)
 class FilterOptions:
-    """How many particles there are, and when some are drawn anew from the whole map."""
+    """Limits of the number of particles, and the rates of recovery by random particles."""
 
     min_particles: int = 500
     max_particles: int = 2000
@@ -34,12 +34,14 @@ class FilterOptions:
     alpha_fast: float = 0.0
     free_cell_step: int = 1
     global_factor: int = 10
-    """How many times `max_particles` are drawn anywhere, for the first scan to choose from."""
+    """
+    How many times `max_particles` are drawn for a global initialisation, before the first scan.
+    """
 
 
 class ParticleFilter:
     """
-    Particles, and what odometry and scans make of them.
+    Particle filter, updated by odometry and scans.
 
     Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 8.3 (augmented MCL), with
     KLD sampling (D. Fox 2003). Its `options` may be replaced at any time.
@@ -49,7 +51,7 @@ class ParticleFilter:
     options
         Sizes and recovery.
     random
-        The source of randomness.
+        The random number generator.
 
     """
 
@@ -71,7 +73,7 @@ class ParticleFilter:
         pose
             x, y (m) and yaw (rad).
         covariance
-            The (3, 3) matrix of these; negative eigenvalues are taken for zero.
+            The (3, 3) matrix of these; negative eigenvalues count as zero.
 
         """
         values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
@@ -83,8 +85,8 @@ class ParticleFilter:
         """
         Draw particles from the whole free space of a map.
 
-        They are more than `max_particles` until the next `resample`, so that some are near
-        enough to the robot for the first scan to tell.
+        There are more than `max_particles` until the next `resample`, so that some are close
+        enough to the robot for the first scan to match.
 
         Parameters
         ----------
@@ -98,28 +100,28 @@ class ParticleFilter:
 
     def move(self, model: MotionModel, before: Pose, after: Pose, noise: MotionNoise) -> None:
         """
-        Move the particles by a motion that odometry has measured.
+        Move the particles by a motion measured by odometry.
 
         Parameters
         ----------
         model
-            It samples the motion of each particle.
+            The motion model, which samples the motion of each particle.
         before, after
             The base in the frame of odometry: x, y (m) and yaw (rad).
         noise
-            How uncertain odometry is.
+            The noise of odometry.
 
         """
         self.particles = model.move(self.particles, before, after, noise, self._random)
 
     def weigh(self, model: LaserModel, beams: Beams) -> None:
         """
-        Weigh the particles by how likely a scan is; one that says nothing changes nothing.
+        Weight the particles by the likelihood of a scan; an uninformative scan changes nothing.
 
         Parameters
         ----------
         model
-            It compares the scan with the map.
+            The laser model, which compares the scan with the map.
         beams
             The scan, as seen from the base.
 
@@ -135,12 +137,12 @@ class ParticleFilter:
 
     def resample(self, grid: OccupancyMap) -> None:
         """
-        Draw the particles anew by their weights, as many as their spread needs.
+        Resample the particles by their weights; KLD sampling sets their number.
 
         Parameters
         ----------
         grid
-            The map; the share `recovery_share` of the particles is drawn from its free space.
+            The map; the fraction `recovery_share` of the particles is drawn from its free space.
 
         """
         options, random = self.options, self._random
@@ -157,17 +159,17 @@ class ParticleFilter:
 
     @property
     def recovery_share(self) -> float:
-        """Return what share of the particles `resample` draws from the whole map."""
+        """Return the fraction of particles that `resample` draws from the whole map."""
         if self._slow <= 0.0 or self.options.alpha_slow <= 0.0:
             return 0.0
         return max(0.0, 1.0 - self._fast / self._slow)
 
     def estimate(self) -> Cluster:
-        """Return the heaviest cluster: where the robot probably is."""
+        """Estimate the pose of the robot: the heaviest cluster."""
         return best_cluster(self.particles, self.weights)
 
     def _follow(self, likelihood: float) -> None:
-        """Filter the average likelihood slowly and fast; the fast one falls when it is lost."""
+        """Update the slow and fast averages of the likelihood; the fast one drops on a failure."""
         options = self.options
         if self._slow <= 0.0:
             self._slow = self._fast = likelihood
@@ -182,11 +184,11 @@ class ParticleFilter:
 
 def _weighed(weights: FloatArray, logs: FloatArray) -> FloatArray:
     """
-    Return weights times likelihoods, with the sum 1, so that enough particles matter.
+    Multiply weights by likelihoods, normalise, and keep the effective sample size sufficient.
 
-    Where few particles get all the weight, they are too far apart for the scan, as after a start
-    anywhere: the likelihoods are then raised to the power below 1 that leaves an effective number
-    of `_LEAST_EFFECTIVE` of them.
+    Where few particles get all the weight, they are too sparse for the scan, as after a global
+    initialisation: the likelihoods are then tempered by the power below 1 that yields an effective
+    fraction of `_LEAST_EFFECTIVE`.
     """
     power = 1.0
     found = _normalised(weights, logs)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far a laser would see in a map: many rays at once, by sphere tracing."""
+"""Ray casting in a map: many rays at once, by sphere tracing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy.typing as npt
 __all__ = ['RayCaster']
 
 _CLEARANCE = 0.75
-"""What a cell's distance to an obstacle may be too large by, in cells, seen from a point in it."""
+"""The maximum error in cells of a cell's obstacle distance, for points within the cell."""
 
 _MIN_STEP = 0.5
 _MAX_STEPS = 2000
@@ -18,11 +18,11 @@ _MAX_STEPS = 2000
 
 class RayCaster:
     """
-    Casts rays in a map until the first occupied cell.
+    Ray caster in a map, up to the first occupied cell.
 
-    A ray goes forward by the distance to the nearest obstacle, as the distance transform tells it
-    (sphere tracing: J. C. Hart, The Visual Computer 12, 1996), and by half a cell near obstacles.
-    It passes through unknown cells, and ends without a hit where the map ends.
+    A ray advances by the distance to the nearest obstacle from the distance transform (sphere
+    tracing: J. C. Hart, The Visual Computer 12, 1996), and by half a cell near obstacles. It
+    passes through unknown cells, and ends without a hit where the map ends.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class RayCaster:
     def __init__(self, grid: OccupancyMap) -> None:
         self._grid = grid
         self._rows, self._columns = grid.cells.shape
-        # One more cell around: what leaves the map is found there.
+        # A border of one cell, in which rays that leave the map are found.
         steps = np.full((self._rows + 2, self._columns + 2), -2.0, np.float32)
         inner = grid.distances / np.float32(grid.resolution)
         largest = np.float32(np.hypot(self._rows, self._columns))
@@ -45,7 +45,7 @@ class RayCaster:
 
     def cast(self, origins: FloatArray, angles: FloatArray, max_range: float) -> FloatArray:
         """
-        Compute the distances at which rays hit something.
+        Compute the distances at which rays hit an obstacle.
 
         Parameters
         ----------
@@ -54,7 +54,7 @@ class RayCaster:
         angles
             (...) array of directions in the frame of the map, in rad; the two are broadcast.
         max_range
-            How far to look, in m.
+            The maximum range, in m.
 
         Returns
         -------
@@ -79,7 +79,7 @@ class RayCaster:
         dy: npt.NDArray[np.float32],
         limit: float,
     ) -> FloatArray:
-        """Return the distances in cells; x and y count from the corner of the added border."""
+        """March the rays; return distances in cells. x and y count from the border's corner."""
         found = np.full(len(x), np.inf)
         length = np.zeros(len(x), np.float32)
         active = np.arange(len(x))

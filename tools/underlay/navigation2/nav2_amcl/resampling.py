@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How many particles are needed, and which survive."""
+"""Resampling: the number of particles needed, and their selection."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ import numpy.typing as npt
 __all__ = ['bins_of', 'draw_systematically', 'kld_size', 'needed_size']
 
 BIN_M = 0.5
-"""The side of a bin of positions, in m."""
+"""The side length of a position bin, in m."""
 
 BIN_COUNT = 36
-"""How many bins headings fall into."""
+"""The number of heading bins."""
 
 
 def bins_of(particles: FloatArray) -> npt.NDArray[np.int64]:
     """
-    Return the bins of a histogram into which particles fall.
+    Compute the histogram bins of particles.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def bins_of(particles: FloatArray) -> npt.NDArray[np.int64]:
 
     Returns
     -------
-    (N, 3) array of whole numbers: of x, y and yaw, the last from 0 to `BIN_COUNT` - 1.
+    (N, 3) array of integers for x, y and yaw, the last from 0 to `BIN_COUNT` - 1.
 
     """
     bins = np.empty(particles.shape, np.int64)
@@ -66,7 +66,7 @@ def kld_size(
     occupied_bins: npt.NDArray[np.int64], error: float, quantile: float
 ) -> npt.NDArray[np.float64]:
     """
-    Compute how many particles are needed to represent a distribution.
+    Compute the number of particles needed to represent a distribution (KLD sampling).
 
     Source: D. Fox: Adapting the Sample Size in Particle Filters Through KLD-Sampling, IJRR 22,
     2003, equation 17.
@@ -76,9 +76,9 @@ def kld_size(
     occupied_bins
         (K,) numbers of bins of the histogram with particles in them.
     error
-        The largest Kullback-Leibler distance to the true distribution.
+        The maximum Kullback-Leibler distance to the true distribution.
     quantile
-        How probable it has to be that the distance is not larger, below 1.
+        The probability, below 1, that the distance is not exceeded.
 
     Returns
     -------
@@ -96,7 +96,7 @@ def draw_systematically(
     weights: FloatArray, count: int, random: np.random.Generator
 ) -> npt.NDArray[np.intp]:
     """
-    Draw indices with probabilities, with the least variance.
+    Draw indices with given probabilities by systematic (low-variance) resampling.
 
     Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 4.4.
 
@@ -105,9 +105,9 @@ def draw_systematically(
     weights
         (N,) weights with the sum 1.
     count
-        How many to draw.
+        The number of indices.
     random
-        The source of randomness.
+        The random number generator.
 
     Returns
     -------
@@ -130,20 +130,20 @@ def needed_size(
     random: np.random.Generator,
 ) -> int:
     """
-    Compute with how many particles a weighted set is to go on, by KLD sampling.
+    Compute the new number of particles of a weighted set, by KLD sampling.
 
-    Particles are drawn until there are as many as the bins that they fall into ask for.
+    Particles are drawn until there are as many as their occupied bins require.
 
     Parameters
     ----------
     particles, weights
         (N, 3) and (N,) arrays; the sum of the weights is 1.
     limits
-        The least and the largest number.
+        The minimum and the maximum number.
     error, quantile
         See `kld_size`.
     random
-        The source of randomness.
+        The random number generator.
 
     """
     low, high = limits

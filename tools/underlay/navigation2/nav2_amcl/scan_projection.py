@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a scan says in the plane of the map: points around the robot, however its laser tilts."""
+"""Project a scan into the plane of the map, whatever the tilt of the laser."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Beams:
     max_range_m: float
 
     def points(self) -> FloatArray:
-        """Return the (H, 2) points in m that were hit."""
+        """Compute the (H, 2) hit points in m."""
         angles, ranges = self.angles[self.hits], self.ranges[self.hits]
         directions = np.stack((np.cos(angles), np.sin(angles)), axis=-1)
         points: FloatArray = np.array(self.origin) + ranges[:, None] * directions
@@ -58,8 +58,8 @@ def project_scan(
     """
     Choose beams evenly from a scan, and project them into the plane of the base.
 
-    Readings that are no number or below the minimum are left out; those at or beyond the maximum,
-    and infinite ones, are beams that hit nothing.
+    Readings that are NaN or below the minimum are dropped; those at or beyond the maximum, and
+    infinite ones, are beams without a hit.
 
     Parameters
     ----------
@@ -69,9 +69,9 @@ def project_scan(
         (3, 3) matrix and (3,) vector in m of the laser in a frame at the base with its heading
         whose z axis points upwards.
     max_beams
-        How many beams at most.
+        The maximum number of beams.
     min_range_m, max_range_m
-        Which readings count; negative values stand for the limits of the scanner itself.
+        The range limits; negative values stand for the limits of the scanner itself.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def project_scan(
     low = scan.range_min_m if min_range_m < 0.0 else max(min_range_m, scan.range_min_m)
     high = scan.range_max_m if max_range_m < 0.0 else min(max_range_m, scan.range_max_m)
     ranges = np.asarray(scan.ranges_m, float)
-    usable = np.flatnonzero(ranges >= low)  # False for what is no number
+    usable = np.flatnonzero(ranges >= low)  # False for NaN
     if len(usable) > max_beams:
         usable = usable[np.linspace(0, len(usable) - 1, max_beams).round().astype(int)]
     ranges = ranges[usable]

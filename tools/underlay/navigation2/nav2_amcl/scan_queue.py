@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scans that wait until it is known where their laser and the robot were at their time."""
+"""Queue of scans that wait for the transforms of their laser and of the robot at their time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _PATIENCE_S = 1.0
 
 
 class LocatedScan(NamedTuple):
-    """A scan, the laser in the frame of odometry (rotation, translation), and the base there."""
+    """A scan, the pose of the laser in odometry (rotation, translation), and that of the base."""
 
     message: Any
     rotation: FloatArray
@@ -33,9 +33,10 @@ class LocatedScan(NamedTuple):
 
 class ScanQueue:
     """
-    Hands scans on in their order, each as soon as transforms for its time are there.
+    Queue that passes scans on in order, each as soon as transforms at its time are available.
 
-    It drops the oldest when more than ten wait, and those that newer ones are a second ahead of.
+    It drops the oldest when more than ten wait, and those that are a second older than a newer
+    one.
 
     Parameters
     ----------
@@ -65,12 +66,12 @@ class ScanQueue:
 
     @property
     def problem(self) -> str:
-        """Say what transform has been missing for a second; empty while scans are handed on."""
+        """Describe the transform that has been missing for 1 s; empty while scans pass."""
         return self._problem if time.monotonic() - self._moved_on_s > _PATIENCE_S else ''
 
     def add(self, message: Any) -> None:
         """
-        Add a scan to the queue, and hand on those whose transforms are there.
+        Add a scan to the queue, and pass on those whose transforms are available.
 
         Parameters
         ----------
@@ -84,7 +85,7 @@ class ScanQueue:
         self._work()
 
     def clear(self) -> None:
-        """Forget all scans."""
+        """Drop all scans."""
         self._waiting.clear()
         self._give_up()
         self._move_on()
@@ -93,13 +94,13 @@ class ScanQueue:
         self._problem, self._moved_on_s = '', time.monotonic()
 
     def _give_up(self) -> None:
-        """Wait no longer for the transforms of the oldest scan."""
+        """Cancel waiting for the transforms of the oldest scan."""
         if self._future is not None:
             self._future.cancel()
             self._future = None
 
     def _work(self) -> None:
-        """Hand on what is ready; unless that is being done, as from a callback of a future."""
+        """Pass on the scans that are ready, unless already doing so, as in a future's callback."""
         if self._is_working:
             return
         self._is_working = True
@@ -110,7 +111,7 @@ class ScanQueue:
             self._is_working = False
 
     def _hand_on(self, message: Any) -> bool:
-        """Hand on or drop the oldest scan; False if it has to wait."""
+        """Pass on or drop the oldest scan; return False if it has to wait."""
         stamp = Time.from_msg(message.header.stamp)
         frame = message.header.frame_id
         look_up = self._transforms.buffer.lookup_transform_core

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bases of nodes that send a goal to an action server, or a request to a service."""
+"""Base classes of nodes that send goals to an action server, or requests to a service."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _LOOK_AGAIN_S, _ASK_AGAIN_S = 1.0, 5.0
 
 def count_recovery(node: TreeNode) -> None:
     """
-    Count one more recovery, for the feedback of the navigator.
+    Increment the recovery count, for the feedback of the navigator.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def count_recovery(node: TreeNode) -> None:
 
 
 class _Call:
-    """A goal on its way: sent, accepted or rejected, ended."""
+    """A goal in flight: sent, accepted or rejected, finished."""
 
     def __init__(self, client: Any, goal: Any, now_s: float) -> None:
         self.handle: Any = None
@@ -71,13 +71,13 @@ class _Call:
         self.answer = future.result()
 
     def ask_again(self, now_s: float) -> None:
-        """Ask for the result from time to time, for an answer can get lost on its way."""
+        """Request the result again from time to time, as a response can get lost."""
         if self.handle is not None and now_s - self._asked_s > _ASK_AGAIN_S:
             self._asked_s = now_s
             self.handle.get_result_async().add_done_callback(self._end)
 
     def cancel(self) -> None:
-        """End the goal, also if it is not accepted yet."""
+        """Cancel the goal, even if it is not accepted yet."""
         self._is_abandoned = True
         if self.handle is not None and self.answer is None:
             self.handle.cancel_goal_async()
@@ -85,9 +85,9 @@ class _Call:
 
 class ActionNode(TreeNode):
     """
-    Sends a goal, and ends as the action does; halting cancels it.
+    Base class of nodes that send a goal and return the outcome of the action; halting cancels it.
 
-    Subclasses give `action`, `server`, and `make_goal`.
+    Subclasses define `action`, `server`, and `make_goal`.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ class ActionNode(TreeNode):
     server: ClassVar[str]
     """The name of the action if the port `server_name` is empty."""
     purpose: ClassVar[str] = 'The action failed'
-    """What a message says if the server says nothing."""
+    """The error message if the server gives none."""
 
     def __init__(self, config: NodeConfig) -> None:
         super().__init__(config)
@@ -113,15 +113,15 @@ class ActionNode(TreeNode):
         self._is_absent = False
         timeout = self.input('server_timeout')
         asked_s = ros.server_timeout_s if timeout is None else 1e-3 * timeout
-        # Where all servers share one thread, a planner may keep it busy for this long.
+        # Where all servers share one thread, a planner may block it for this long.
         self._accept_s = max(asked_s, _LEAST_TIMEOUT_S)
 
     def make_goal(self) -> Any:
-        """Return the goal to send; None to succeed without one."""
+        """Make the goal to send; return None to succeed without one."""
         raise NotImplementedError
 
     def changed_goal(self) -> Any:
-        """Return another goal to send while one runs, if there is one."""
+        """Return a new goal that replaces the running one, if there is one."""
         return None
 
     def on_success(self, result: Any) -> NodeStatus:
@@ -136,16 +136,16 @@ class ActionNode(TreeNode):
         Returns
         -------
         NodeStatus
-            How the node ends.
+            The final status of the node.
 
         """
         return SUCCESS
 
     def on_failure(self) -> None:
-        """Write what holds after a failure."""
+        """Write the output ports after a failure."""
 
     def on_tick(self) -> NodeStatus:
-        """Send the goal, or look how far it is."""
+        """Send the goal, or check its progress."""
         if self.state is not RUNNING:
             self._call = None
             goal = self.make_goal()
@@ -184,13 +184,13 @@ class ActionNode(TreeNode):
             self._call = _Call(self._client, self._goal, now_s)
             self._looked_s, self._is_absent = now_s, False
         elif self._is_absent or now_s - self._start_s > self.ros.wait_for_service_timeout_s:
-            # Once is enough: a recovery that tries again does not wait again.
+            # Only once: a retry after a recovery does not wait again.
             self._is_absent = True
             return self._failed(self._absence())
         return RUNNING
 
     def _look(self, now_s: float) -> NodeStatus:
-        """Look whether the server is still there."""
+        """Check whether the server is still available."""
         if self._client.server_is_ready():
             self._looked_s = now_s
             if self._call is not None:
@@ -234,7 +234,7 @@ class ActionNode(TreeNode):
         return self._fail_with(code, f'{self.purpose}: {reason}')
 
     def on_canceled(self) -> NodeStatus:
-        """Return how the node ends if somebody else has canceled its goal."""
+        """Return the status of the node after another client has canceled its goal."""
         return SUCCESS
 
     def on_halt(self) -> None:
@@ -246,9 +246,9 @@ class ActionNode(TreeNode):
 
 class ServiceNode(TreeNode):
     """
-    Sends a request, and ends when the answer is there.
+    Base class of nodes that send a service request, and end when the response arrives.
 
-    Subclasses give `service`, `make_request`, and `on_answer` if they want to know the answer.
+    Subclasses define `service`, `make_request`, and `on_answer` if they evaluate the response.
 
     Parameters
     ----------
@@ -273,7 +273,7 @@ class ServiceNode(TreeNode):
         self._answer_s = max(asked_s, _LEAST_TIMEOUT_S)
 
     def make_request(self) -> Any:
-        """Return the request to send; None to succeed without one."""
+        """Make the request to send; return None to succeed without one."""
         return self.service.Request()
 
     def on_answer(self, response: Any) -> NodeStatus:
@@ -288,13 +288,14 @@ class ServiceNode(TreeNode):
         Returns
         -------
         NodeStatus
-            How the node ends; RUNNING to send `_request`, which may have changed, once more.
+            The final status of the node; RUNNING to send `_request`, which may have changed,
+            again.
 
         """
         return SUCCESS
 
     def on_tick(self) -> NodeStatus:
-        """Send the request, or look whether the answer is there."""
+        """Send the request, or check for the response."""
         now_s = self.ros.watchdog_s()
         if self.state is not RUNNING:
             self._future, self._start_s = None, now_s
@@ -323,7 +324,7 @@ class ServiceNode(TreeNode):
         return RUNNING
 
     def on_halt(self) -> None:
-        """Wait no longer for the answer."""
+        """Stop waiting for the response."""
         if self._future is not None:
             self._client.remove_pending_request(self._future)
             self._future = None

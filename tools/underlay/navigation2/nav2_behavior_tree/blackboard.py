@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the nodes of a tree tell each other: values by name, remapped from subtree to subtree."""
+"""Blackboards: values that the nodes of a tree share by name, remapped between subtrees."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ __all__ = ['Blackboard']
 
 class Blackboard:
     """
-    The values of a tree, or of a subtree that shares some with the tree around it.
+    Blackboard of a tree, or of a subtree that shares some entries with its parent tree.
 
     Parameters
     ----------
     parent
-        The blackboard of the tree around it.
+        The blackboard of the parent tree.
     remapping
-        Names here, and what they are called there.
+        Names on this blackboard, and their names on that of the parent.
     autoremap
-        Whether all further names are shared, too; not those that begin with `_`.
+        Whether all other names are shared, too, except for those that start with `_`.
 
     """
 
@@ -38,14 +38,14 @@ class Blackboard:
 
     def get(self, key: str, default: Any = None) -> Any:
         """
-        Return a value.
+        Get the value of an entry.
 
         Parameters
         ----------
         key
-            Its name here; with `@` in front, its name on the blackboard of the main tree.
+            Its name on this blackboard; with the prefix `@`, its name on that of the main tree.
         default
-            What is returned if nobody has set it.
+            The value to return if it is not set.
 
         """
         board, name = self._places.get(key) or self._place(key)
@@ -53,12 +53,12 @@ class Blackboard:
 
     def set(self, key: str, value: Any) -> None:  # noqa: A003, RUF100
         """
-        Set a value for all who share it.
+        Set the value of an entry for all blackboards that share it.
 
         Parameters
         ----------
         key
-            Its name here; with `@` in front, its name on the blackboard of the main tree.
+            Its name on this blackboard; with the prefix `@`, its name on that of the main tree.
         value
             The value, which is not copied.
 
@@ -69,12 +69,12 @@ class Blackboard:
 
     def keep(self, key: str, value: Any) -> None:
         """
-        Set a value that is not shared with the tree around this one.
+        Set an entry that is not shared with the parent tree.
 
         Parameters
         ----------
         key
-            Its name here, whatever it was remapped to before.
+            Its name on this blackboard; any remapping of it is removed.
         value
             The value, which is not copied.
 
@@ -84,12 +84,12 @@ class Blackboard:
 
     def unset(self, key: str) -> None:
         """
-        Remove a value for all who share it.
+        Remove an entry for all blackboards that share it.
 
         Parameters
         ----------
         key
-            Its name here; nothing happens if it is not set.
+            Its name on this blackboard; nothing happens if it is not set.
 
         """
         board, name = self._place(key)
@@ -97,19 +97,19 @@ class Blackboard:
 
     def version(self, key: str) -> int:
         """
-        Return the number of times that a value was set.
+        Count how often an entry was set.
 
         Parameters
         ----------
         key
-            Its name here.
+            Its name on this blackboard.
 
         """
         board, name = self._place(key)
         return board._versions.get(name, 0)
 
     def keys(self) -> Iterator[str]:
-        """Iterate over the names of the values that are kept here."""
+        """Iterate over the names of the entries stored on this blackboard."""
         return iter(self._values)
 
     def __contains__(self, key: str) -> bool:
@@ -117,7 +117,7 @@ class Blackboard:
         return name in board._values
 
     def _place(self, key: str) -> tuple[Blackboard, str]:
-        """Return on which blackboard a value is, and its name there."""
+        """Resolve the blackboard that stores an entry, and its name there."""
         if key not in self._places:
             self._places[key] = self._find(key)
         return self._places[key]

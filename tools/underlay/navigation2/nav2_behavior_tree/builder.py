@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make the nodes of a tree from what its XML file says, and refuse what cannot be right."""
+"""Build the nodes of a tree from its XML file, and validate it."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ def build(document: Document, context: TreeContext, blackboard: Blackboard) -> T
     Parameters
     ----------
     document
-        What `read_tree_file` returns.
+        The document, as returned by `read_tree_file`.
     context, blackboard
-        What the nodes share.
+        The context and the blackboard that the nodes share.
 
     Returns
     -------
     TreeNode
-        The node at the root.
+        The root node.
 
     Raises
     ------
     TreeError
-        A type of node, an attribute or a number of children is wrong; it says where.
+        A node type, an attribute or a number of children is invalid; the error states where.
 
     """
     return _Builder(document, context).tree(document.main, blackboard, ())
@@ -119,7 +119,7 @@ class _Builder:
         parent: Blackboard,
         within: tuple[str, ...],
     ) -> tuple[Blackboard, dict[str, Binding], type[TreeNode]]:
-        """Return the blackboard of a subtree, with what its ports say."""
+        """Make the blackboard of a subtree, with the remappings and values of its ports."""
         trees = self._document.trees
         if key not in trees:
             meant = did_you_mean(key, trees, 0.6)

@@ -55,7 +55,7 @@ def nearest_index(
     poses: FloatArray, robot: Pose2D, angular_weight: float = 0.0, start: int = 0
 ) -> int:
     """
-    Return which pose of a path is nearest to the robot.
+    Find the pose of a path that is nearest to the robot.
 
     Parameters
     ----------
@@ -64,9 +64,9 @@ def nearest_index(
     robot
         The pose of the robot in the frame of the path.
     angular_weight
-        How many m a radian of difference counts.
+        The weight of the heading difference in m/rad.
     start
-        The first pose that counts.
+        The index of the first pose to consider.
 
     """
     rest = poses[start:]
@@ -79,7 +79,7 @@ def nearest_index(
 
 def remaining_m(poses: FloatArray, robot: Pose2D) -> float:
     """
-    Compute the length of a path from the pose that is nearest to the robot.
+    Compute the remaining length of a path from the pose nearest to the robot.
 
     Parameters
     ----------
@@ -102,16 +102,16 @@ def remaining_m(poses: FloatArray, robot: Pose2D) -> float:
 
 def within(poses: FloatArray, at: int, forward_m: float, backward_m: float) -> tuple[int, int]:
     """
-    Return the first pose, and the one after the last, that are near a pose along the path.
+    Find the range of poses near a pose along the path: the first, and one past the last.
 
     Parameters
     ----------
     poses
         (N, 3) array, not empty.
     at
-        The pose from which distances count.
+        The index of the pose from which distances are measured.
     forward_m, backward_m
-        The distances in m; a negative one ahead has no limit.
+        The distances in m; a negative forward distance means no limit.
 
     """
     along = distances_along_m(poses)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Describe all types of nodes as editors of trees read it: a TreeNodesModel."""
+"""Describe all node types for behavior tree editors: a TreeNodesModel."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['main', 'tree_nodes_model']
 
 
 def tree_nodes_model() -> str:
-    """Return the XML text of the model, for Groot2 for example."""
+    """Generate the XML text of the model, for editors such as Groot2."""
     lines = ['<?xml version="1.0"?>', '<root BTCPP_format="4">', '  <TreeNodesModel>']
     for name, kind in sorted(registered_types().items()):
         tag = _tag(kind)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The base of all nodes of a tree: behaviours of py_trees that tick as those of BehaviorTree.CPP.
+Base classes of all tree nodes: py_trees behaviours with the semantics of BehaviorTree.CPP.
 
-They differ from py_trees' own in that a parent ticks its children itself and resets them, that a
-node keeps its state until then, and that it can be skipped. The tools of py_trees that look at
-trees (display, visitors, `BehaviourTree`) work with them.
+They differ from those of py_trees in that a parent ticks and resets its children itself, that a
+node keeps its state until then, and that it can be skipped. The py_trees tools that inspect trees
+(display, visitors, `BehaviourTree`) work with them.
 """
 
 from __future__ import annotations
@@ -36,32 +36,32 @@ _MISSING = object()
 @dataclass
 class TreeContext:
     """
-    What the nodes of a tree share beside the blackboard.
+    Context that the nodes of a tree share besides the blackboard.
 
     Parameters
     ----------
     now_s
         The clock of the tree, in s.
     ros
-        A `RosInterface` for nodes that talk to others; None where there are none.
+        A `RosInterface` for nodes that use ROS; None without such nodes.
 
     """
 
     now_s: Callable[[], float]
     ros: Any = None
     tick: int = 0
-    """How many ticks the tree has had."""
+    """The number of ticks of the tree so far."""
     is_woken: bool = False
-    """Whether a node asks to be ticked again at once."""
+    """Whether a node requests another tick immediately."""
     changes: list[StatusChange] = field(default_factory=list)
-    """What has changed since somebody took it from here."""
+    """Status changes since they were last taken from this list."""
     failure: Failure | None = None
-    """Why the last action, service or condition failed that knows why."""
+    """The most recent failure reported by an action, service or condition."""
 
 
 @dataclass(frozen=True)
 class NodeConfig:
-    """What the builder of a tree gives to a node."""
+    """Configuration of a node, which the builder of a tree passes to it."""
 
     type_name: str
     name: str
@@ -76,17 +76,17 @@ class NodeConfig:
 
 class TreeNode(Behaviour):
     """
-    A node. Subclasses override `on_tick`, and `on_halt` if something has to be stopped.
+    Base class of nodes. Subclasses override `on_tick`, and `on_halt` if they have work to stop.
 
     Parameters
     ----------
     config
-        Its name, ports and place.
+        The name, ports and location of the node.
 
     """
 
     ports: ClassVar[dict[str, Port]] = {}
-    """Its attributes in an XML file."""
+    """The ports of the node: its attributes in an XML file."""
     least_children: ClassVar[int] = 0
     most_children: ClassVar[int] = 0
 
@@ -95,24 +95,24 @@ class TreeNode(Behaviour):
         self.config, self.context, self.blackboard = config, config.context, config.blackboard
         self.state = IDLE
         self.is_fresh = True
-        """Whether this tick is the first one after at least one tick without it."""
+        """Whether this tick is the first one after at least one tick of the tree without it."""
         self._last_tick = -2
         scripts = config.scripts
         self._before = {name: scripts[name] for name in PRECONDITIONS if name in scripts}
         self._after = {name: scripts[name] for name in POSTCONDITIONS if name in scripts}
 
     def on_tick(self) -> NodeStatus:
-        """Work for one tick, without waiting for anything."""
+        """Run one tick, without blocking."""
         raise NotImplementedError
 
     def on_halt(self) -> None:
-        """Stop what goes on; called only while the node is running."""
+        """Stop the work in progress; called only while the node is running."""
 
     def on_new_goal(self) -> None:
-        """Forget what was counted or timed for another goal; the node may be running."""
+        """Reset counters and timers that belong to another goal; the node may be running."""
 
     def execute_tick(self) -> NodeStatus:
-        """Tick the node, and return its new state; SKIPPED is not kept."""
+        """Tick the node, and return its new status; SKIPPED is not stored."""
         tick = self.context.tick
         self.is_fresh = self.state is IDLE and tick - self._last_tick > 1
         self._last_tick = tick
@@ -132,18 +132,18 @@ class TreeNode(Behaviour):
         return status
 
     def halt_node(self) -> None:
-        """Stop the node while it runs."""
+        """Halt the node if it is running."""
         self.on_halt()
         self._run_after('_onHalted')
 
     def set_state(self, state: NodeStatus) -> None:
         """
-        Set the state, and record a change of it.
+        Set the status, and record a change of it.
 
         Parameters
         ----------
         state
-            The new state.
+            The new status.
 
         """
         if state is not self.state:
@@ -156,14 +156,14 @@ class TreeNode(Behaviour):
 
     def fail(self, message: str, code: int = 0) -> None:
         """
-        Record why the node fails, as the reason that the tree gives if it fails.
+        Record the error message of a failure, as the reason that the tree reports if it fails.
 
-        It sets no state; `on_tick` has to return FAILURE.
+        It does not set the status; `on_tick` has to return FAILURE.
 
         Parameters
         ----------
         message
-            The reason, as a sentence.
+            The error message, a full sentence.
         code
             The error code of the action; 0 if there is none.
 
@@ -173,7 +173,7 @@ class TreeNode(Behaviour):
 
     def input(self, name: str) -> Any:  # noqa: A003, RUF100
         """
-        Return the value of a port; None if it is neither set nor has a default.
+        Get the value of an input port; None if it is neither set nor has a default.
 
         Parameters
         ----------
@@ -183,7 +183,7 @@ class TreeNode(Behaviour):
         Raises
         ------
         TreeError
-            Its key has a value that cannot be one of this port.
+            The value of its key cannot be converted to the type of the port.
 
         """
         key, value, kind = self.config.bindings[name]
@@ -201,7 +201,7 @@ class TreeNode(Behaviour):
 
     def required(self, name: str) -> Any:
         """
-        Return the value of a port that the node cannot do without.
+        Get the value of a mandatory input port.
 
         Parameters
         ----------
@@ -211,7 +211,7 @@ class TreeNode(Behaviour):
         Raises
         ------
         NavigationError
-            Its key has no value; the node fails then.
+            Its key has no value; the node then fails.
 
         """
         value = self.input(name)
@@ -224,14 +224,14 @@ class TreeNode(Behaviour):
 
     def output(self, name: str, value: Any) -> None:
         """
-        Write the value of a port, if it is bound to a key.
+        Set the value of an output port, if it is bound to a key.
 
         Parameters
         ----------
         name
             The name of the port.
         value
-            What is set on the blackboard.
+            The value to write to the blackboard.
 
         """
         key = self.config.bindings[name].key
@@ -240,12 +240,12 @@ class TreeNode(Behaviour):
 
     def error(self, message: str) -> TreeError:
         """
-        Make an error that names the place of this node in its file.
+        Make an error that states the location of this node in its file.
 
         Parameters
         ----------
         message
-            What is wrong, as a sentence.
+            The error message, a full sentence.
 
         """
         return TreeError(message, self.config.file, self.config.line)
@@ -257,7 +257,7 @@ class TreeNode(Behaviour):
         return convert(port.default, port.kind)
 
     def _check_preconditions(self) -> NodeStatus | None:
-        """Return what the preconditions say in place of a tick."""
+        """Evaluate the preconditions; return the status that replaces a tick, if any."""
         for name, script in self._before.items():
             if self.state is IDLE:
                 holds = bool(script(self.blackboard))
@@ -277,22 +277,22 @@ class TreeNode(Behaviour):
                 self._after[name](self.blackboard)
 
     def update(self) -> Status:
-        """Tick as py_trees does."""
+        """Tick as in py_trees."""
         return PY_TREES_STATUS[self.execute_tick()]
 
     def tick(self) -> Iterator[Behaviour]:
-        """Tick as py_trees does."""
+        """Tick as in py_trees."""
         self.execute_tick()
         yield self
 
     def stop(self, new_status: Status) -> None:
         """
-        Halt as py_trees does.
+        Halt as in py_trees.
 
         Parameters
         ----------
         new_status
-            The status that py_trees gives; it does not count, for the node is IDLE afterwards.
+            The status given by py_trees; it is ignored, as the node is IDLE afterwards.
 
         """
         if self.state is RUNNING:
@@ -310,7 +310,7 @@ POSTCONDITIONS = ('_onHalted', '_onFailure', '_onSuccess', '_post')
 
 
 class Control(TreeNode):
-    """A node with children."""
+    """Base class of nodes with children."""
 
     least_children = 1
     most_children = 10_000
@@ -318,7 +318,7 @@ class Control(TreeNode):
 
     def halt_child(self, child: TreeNode) -> None:
         """
-        Halt a child if it runs, and make it idle.
+        Halt a child if it is running, and reset it to IDLE.
 
         Parameters
         ----------
@@ -331,22 +331,22 @@ class Control(TreeNode):
         child.set_state(IDLE)
 
     def halt_children(self) -> None:
-        """Stop all children, and make them idle."""
+        """Halt all children, and reset them to IDLE."""
         for child in self.children:
             self.halt_child(child)
 
     def on_halt(self) -> None:
-        """Stop all children."""
+        """Halt all children."""
         self.halt_children()
 
     def finish(self, status: NodeStatus) -> NodeStatus:
         """
-        Halt all children, make them idle, and return a state.
+        Halt all children, reset them to IDLE, and return a status.
 
         Parameters
         ----------
         status
-            How the node ends, which is returned as it is.
+            The final status of the node, which is returned unchanged.
 
         """
         self.halt_children()
@@ -354,7 +354,7 @@ class Control(TreeNode):
 
 
 class Decorator(Control):
-    """A node with one child."""
+    """Base class of nodes with one child."""
 
     most_children = 1
 

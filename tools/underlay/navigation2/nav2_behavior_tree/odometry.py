@@ -10,7 +10,7 @@ __all__ = ['OdometrySmoother']
 
 class OdometrySmoother:
     """
-    Averages the velocities of the last `duration_s`.
+    Moving average of the velocities of the last `duration_s`.
 
     Parameters
     ----------
@@ -25,12 +25,12 @@ class OdometrySmoother:
 
     def add(self, time_s: float, x_m_s: float, yaw_rad_s: float) -> None:
         """
-        Add a sample; samples older than the duration are dropped, and all if time goes back.
+        Add a sample; drop samples older than the duration, or all if time jumps back.
 
         Parameters
         ----------
         time_s
-            When it was measured, in s.
+            The time of the measurement in s.
         x_m_s
             The forward velocity in m/s.
         yaw_rad_s
@@ -45,7 +45,7 @@ class OdometrySmoother:
 
     @property
     def velocity(self) -> tuple[float, float]:
-        """Forward velocity in m/s and rate of turning in rad/s; 0 where nothing is known."""
+        """Forward velocity in m/s and yaw rate in rad/s; 0 if no sample is available."""
         count = len(self._samples)
         if not count:
             return 0.0, 0.0
@@ -56,7 +56,7 @@ class OdometrySmoother:
 
     @property
     def acceleration_m_s2(self) -> float:
-        """Return the mean forward acceleration over the same time."""
+        """Return the mean forward acceleration over the same window."""
         if len(self._samples) < 2 or self._samples[-1][0] <= self._samples[0][0]:
             return 0.0
         first, last = self._samples[0], self._samples[-1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ports of nodes: their types, defaults, and how texts of an XML file become their values."""
+"""Ports of nodes: their types, defaults, and the conversion of XML attributes to values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _POSE_PARTS = 9
 
 
 class _Required:
-    """The default of a port that an XML file has to set."""
+    """The default of a mandatory port."""
 
 
 REQUIRED = _Required()
@@ -28,17 +28,16 @@ REQUIRED = _Required()
 @dataclass(frozen=True)
 class Port:
     """
-    An attribute of a node in an XML file.
+    Port of a node: an attribute in an XML file.
 
     Parameters
     ----------
     kind
         The type of its value, one of those in `CONVERTERS`.
     default
-        Its value if nobody sets it: a text as it would stand in the file (`{goal}`, `1.0`), None,
-        or REQUIRED.
+        Its value if it is not set: a text as in the file (`{goal}`, `1.0`), None, or REQUIRED.
     description
-        What it is for.
+        Its purpose.
     is_output
         Whether the node writes it.
 
@@ -52,7 +51,7 @@ class Port:
 
 def in_port(kind: str, default: Any, description: str) -> Port:
     """
-    Make a port that the node reads.
+    Make an input port.
 
     Parameters
     ----------
@@ -65,7 +64,7 @@ def in_port(kind: str, default: Any, description: str) -> Port:
 
 def out_port(kind: str, description: str, default: Any = None) -> Port:
     """
-    Make a port that the node writes.
+    Make an output port.
 
     Parameters
     ----------
@@ -77,7 +76,7 @@ def out_port(kind: str, description: str, default: Any = None) -> Port:
 
 
 class Binding(NamedTuple):
-    """What stands for a port: the key of a blackboard, or a value."""
+    """Binding of a port: to a blackboard key, or to a value."""
 
     key: str | None
     value: Any
@@ -91,7 +90,7 @@ def bind(name: str, port: Port, text: str | None) -> Binding:
     Parameters
     ----------
     name
-        The name of the port, which is the key that `{=}` stands for.
+        The name of the port, which `{=}` stands for.
     port
         The port.
     text
@@ -106,7 +105,7 @@ def bind(name: str, port: Port, text: str | None) -> Binding:
     Raises
     ------
     ValueError
-        It cannot be the value of that port; the text ends a sentence that begins with the port.
+        It is not a valid value of that port; the text ends a sentence that starts with the port.
 
     """
     source = port.default if text is None else text
@@ -128,19 +127,19 @@ def bind(name: str, port: Port, text: str | None) -> Binding:
 
 def convert(text: str, kind: str) -> Any:
     """
-    Convert a text to the value of a port.
+    Convert a text to the type of a port.
 
     Parameters
     ----------
     text
-        As it stands in an XML file or on the blackboard.
+        As in an XML file or on the blackboard.
     kind
         The type of the value, one of those in `CONVERTERS`.
 
     Raises
     ------
     ValueError
-        It stands for none; the text is the rest of a sentence about it.
+        It cannot be converted; the text is the end of a sentence about it.
 
     """
     try:
@@ -179,7 +178,7 @@ def _codes(text: str) -> frozenset[int]:
 
 
 def _pose(parts: list[str]) -> PoseStamped:
-    """Read stamp;frame;x;y;z;qx;qy;qz;qw, as Nav2 writes poses."""
+    """Parse stamp;frame;x;y;z;qx;qy;qz;qw, the format of poses in Nav2."""
     if len(parts) != _POSE_PARTS:
         raise ValueError(parts)
     pose = PoseStamped()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which types of nodes there are, by the names that XML files use."""
+"""Registry of the node types by their names in XML files."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ _MISSING = {
 
 def register(*names: str) -> Callable[[type[TreeNode]], type[TreeNode]]:
     """
-    Return a decorator that makes a class known under names of an XML file.
+    Register a class under its names in XML files; return a decorator.
 
     Parameters
     ----------
     *names
-        The names; that of the class if there are none.
+        The names; by default that of the class.
 
     """
 
@@ -61,7 +61,7 @@ def register(*names: str) -> Callable[[type[TreeNode]], type[TreeNode]]:
 
 
 def registered_types() -> dict[str, type[TreeNode]]:
-    """Return all types of nodes by their names."""
+    """Return all registered node types by their names."""
     for module in _MODULES:
         importlib.import_module(f'nav2_behavior_tree.nodes.{module}')
     return _TYPES
@@ -69,7 +69,7 @@ def registered_types() -> dict[str, type[TreeNode]]:
 
 def node_type(name: str) -> type[TreeNode] | None:
     """
-    Look up the class of a type of nodes.
+    Look up the class of a node type.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def node_type(name: str) -> type[TreeNode] | None:
     Returns
     -------
     type of TreeNode or None
-        None if there is no such type.
+        None if it is not registered.
 
     """
     return registered_types().get(name)
@@ -87,14 +87,14 @@ def node_type(name: str) -> type[TreeNode] | None:
 
 def unknown_type(name: str, further: list[str]) -> str:
     """
-    Explain that there is no such type of nodes, and what was probably meant.
+    Explain that there is no such node type, and suggest a similar name.
 
     Parameters
     ----------
     name
         The name in the XML file.
     further
-        Names that could also be meant, such as those of trees.
+        Further candidates, such as the names of trees.
 
     Returns
     -------

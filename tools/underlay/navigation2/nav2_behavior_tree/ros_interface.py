@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What nodes of a tree have of ROS: clients, newest messages, the robot's pose; made once each."""
+"""ROS interface of the tree nodes: shared clients, newest messages, the robot's pose."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SYSTEM_DEFAULT = qos_profile_system_default
 
 @dataclass
 class Latest:
-    """The newest message of a topic, None before the first, and how many have come."""
+    """Newest message of a topic, None before the first, and the number of messages received."""
 
     message: Any = None
     count: int = 0
@@ -30,22 +30,22 @@ class Latest:
 
 class RosInterface:
     """
-    Gives the nodes of all trees of a navigator what they need of its node.
+    ROS interface for the nodes of all trees of a navigator.
 
     Parameters
     ----------
     node
-        The node whose clients they use.
+        The node that owns the clients.
     odometry
         The robot's velocity.
     global_frame, robot_base_frame
-        The frames of nodes that are not told others.
+        The default frames.
     server_timeout_s
-        How long a server may take to accept a goal or to answer.
+        The timeout for a server to accept a goal or to respond.
     wait_for_service_timeout_s
-        How long a server may be missing.
+        The timeout for a server to become available.
     transform_tolerance_s
-        How far transforms may lie back; not used for the newest ones.
+        The maximum age of transforms; not applied to the newest ones.
 
     """
 
@@ -75,16 +75,16 @@ class RosInterface:
 
     @staticmethod
     def watchdog_s() -> float:
-        """Return the time in s of a clock that always runs, for what waits for other nodes."""
+        """Return the time in s of a steady clock, for timeouts of other nodes."""
         return time.monotonic()
 
     def stamp(self) -> Any:
-        """Return the time of the node's clock as the message of a header."""
+        """Return the time of the node's clock as a message for a header."""
         return self.node.get_clock().now().to_msg()
 
     def action_client(self, kind: Any, name: str) -> ActionClient:
         """
-        Return the client of an action, made once for each.
+        Get the client of an action, created once.
 
         Parameters
         ----------
@@ -101,7 +101,7 @@ class RosInterface:
 
     def service_client(self, kind: Any, name: str) -> Any:
         """
-        Return the client of a service, made once for each.
+        Get the client of a service, created once.
 
         Parameters
         ----------
@@ -118,7 +118,7 @@ class RosInterface:
 
     def latest(self, kind: Any, topic: str, qos: QoSProfile = SYSTEM_DEFAULT) -> Latest:
         """
-        Subscribe to a topic, once for each.
+        Subscribe to a topic, once per topic.
 
         Parameters
         ----------
@@ -127,13 +127,12 @@ class RosInterface:
         topic
             Its name, which the node resolves and remaps.
         qos
-            The quality of service of the subscription; if there is one already, that of the first
-            call.
+            The quality of service of the subscription; that of the first call is used.
 
         Returns
         -------
         Latest
-            Where the newest message is kept; the same object for all who ask for the topic.
+            Holder of the newest message; the same object for all callers.
 
         """
         key = kind, self.node.resolve_topic_name(topic)
@@ -150,7 +149,7 @@ class RosInterface:
 
     def robot_pose(self, in_frame: str = '', base_frame: str = '') -> Pose2D:
         """
-        Return the newest pose of the robot.
+        Look up the newest pose of the robot.
 
         Parameters
         ----------
@@ -162,7 +161,7 @@ class RosInterface:
         Raises
         ------
         TransformError
-            It is not known.
+            The pose is not available.
 
         """
         return self.node.transforms.pose_of(
@@ -178,19 +177,19 @@ class RosInterface:
         pose
             A `PoseStamped`.
         in_frame
-            The other frame; `global_frame` if empty.
+            The target frame; `global_frame` if empty.
 
         Raises
         ------
         TransformError
-            The frame of the pose is empty, or the transform is not known.
+            The frame of the pose is empty, or the transform is not available.
 
         """
         return self.node.transforms.pose_in(pose, in_frame or self.global_frame)
 
     def can_transform(self, parent: str, child: str) -> bool:
         """
-        Whether the newest transform between two frames is known.
+        Whether the newest transform between two frames is available.
 
         Parameters
         ----------
@@ -210,22 +209,22 @@ class RosInterface:
 
     def parameter(self, name: str, default: Any, description: str) -> Any:
         """
-        Return a parameter of the navigator that is only declared if a tree needs it.
+        Get a parameter of the navigator, which is only declared if a tree needs it.
 
         Parameters
         ----------
         name
             Its full name.
         default
-            Its value if nobody sets it, which is also its type.
+            Its value if it is not set, which also gives its type.
         description
-            What it does, with the unit.
+            Its purpose, with the unit.
 
         """
         return self.node.parameters.declare_value(name, default, description)
 
     def close(self) -> None:
-        """Destroy the clients of actions; the node destroys the others."""
+        """Destroy the action clients; the node destroys the others."""
         for client in self._actions.values():
             client.destroy()
         self._actions.clear()

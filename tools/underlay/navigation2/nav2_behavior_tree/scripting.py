@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The scripting language of BehaviorTree.CPP v4: assignments and expressions about the blackboard.
+The scripting language of BehaviorTree.CPP v4: assignments and expressions on the blackboard.
 
 It is described at https://www.behaviortree.dev/docs/guides/scripting.
 """
@@ -46,7 +46,7 @@ _BINARY: dict[str, tuple[int, Callable[[Any, Any], Any]]] = {
 _AND, _OR = 3, 2
 _UNARY_POWER = 10
 NAMES = {'true': True, 'false': False, 'RUNNING': 1, 'SUCCESS': 2, 'FAILURE': 3, 'SKIPPED': 4}
-"""What names stand for that are none of the blackboard: truth, and the states of nodes."""
+"""Names that are constants and not blackboard entries: booleans and node statuses."""
 
 
 class _Token(NamedTuple):
@@ -56,19 +56,19 @@ class _Token(NamedTuple):
 
 class Script:
     """
-    A script that was read; call it with a blackboard to run it and get its last value.
+    Parsed script; call it with a blackboard to run it and get the value of its last statement.
 
     Parameters
     ----------
     source
         The text, with `;` between statements.
     file, line
-        Where it stands, for errors.
+        Its location, for errors.
 
     Raises
     ------
     TreeError
-        It is no script.
+        It cannot be parsed.
 
     """
 
@@ -87,7 +87,7 @@ class Script:
             raise self._error('it is empty')
 
     def __call__(self, blackboard: Blackboard) -> Any:
-        """Run it; the value of the last statement is returned."""
+        """Run the script; return the value of the last statement."""
         value = None
         try:
             for statement in self._statements:
@@ -228,7 +228,7 @@ def _joined(sign: str, left: Evaluate, right: Evaluate) -> Evaluate:
 
 
 def _number(text: str) -> Any:
-    """Return the number that a text stands for, else the text."""
+    """Convert a text to a number if possible, else return the text."""
     try:
         return float(text) if re.search(r'[.eE]', text) else int(text)
     except ValueError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The states of a node of a behavior tree, as BehaviorTree.CPP names them."""
+"""The status of a node, as BehaviorTree.CPP names it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['Failure', 'NodeStatus', 'StatusChange', 'TreeError']
 
 
 class NodeStatus(enum.Enum):
-    """What a tick has told, or that nothing goes on."""
+    """Status of a node: the result of a tick, or IDLE."""
 
     IDLE = 'IDLE'
     RUNNING = 'RUNNING'
@@ -29,11 +29,11 @@ PY_TREES_STATUS = {
     NodeStatus.FAILURE: Status.FAILURE,
     NodeStatus.SKIPPED: Status.INVALID,
 }
-"""What py_trees calls the same; it has no word for nodes that are skipped."""
+"""The corresponding py_trees statuses; py_trees has none for skipped nodes."""
 
 
 class StatusChange(NamedTuple):
-    """A node has got another state: when (s of the tree's clock), which one, from what to what."""
+    """Status change of a node: time (s of the tree's clock), node, previous and new status."""
 
     time_s: float
     name: str
@@ -43,7 +43,7 @@ class StatusChange(NamedTuple):
 
 
 class Failure(NamedTuple):
-    """Why a node failed: its name, the error code of its action or 0, and a sentence."""
+    """Failure of a node: its name, the error code of its action or 0, and a message."""
 
     name: str
     code: int
@@ -52,14 +52,14 @@ class Failure(NamedTuple):
 
 class TreeError(NavigationError):
     """
-    A behavior tree is not right.
+    Error in a behavior tree.
 
     Parameters
     ----------
     message
-        What is wrong, as a sentence.
+        The error message, a full sentence.
     file, line
-        Where; line 0 if that is not known.
+        Its location; line 0 if unknown.
 
     """
 

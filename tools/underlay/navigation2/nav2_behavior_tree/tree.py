@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A behavior tree that can be ticked and halted."""
+"""Behavior trees that can be ticked and halted."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ class BehaviorTree:
     Parameters
     ----------
     document
-        What `read_tree_file` or `read_tree_text` returns.
+        The document, as returned by `read_tree_file` or `read_tree_text`.
     now_s
         The clock of the tree, in s.
     ros
-        A `RosInterface` for nodes that talk to others.
+        A `RosInterface` for nodes that use ROS.
     blackboard
-        With the values that are there from the beginning.
+        The blackboard with its initial values.
 
     Raises
     ------
     TreeError
-        The document does not make a tree; it says where and why.
+        The document does not define a valid tree; the error states where and why.
 
     """
 
@@ -65,7 +65,7 @@ class BehaviorTree:
         Raises
         ------
         TreeError
-            The file cannot be read, or does not make a tree.
+            The file cannot be read, or does not define a valid tree.
 
         """
         return cls(read_tree_file(path), now_s, ros)
@@ -78,36 +78,36 @@ class BehaviorTree:
         Parameters
         ----------
         text
-            What would stand in a file.
+            The contents of an XML file.
         now_s, ros
             As for the class.
 
         Raises
         ------
         TreeError
-            The text does not make a tree.
+            The text does not define a valid tree.
 
         """
         return cls(read_tree_text(text), now_s, ros)
 
     @property
     def failure(self) -> Failure | None:
-        """Why the last node failed that knows why."""
+        """The most recent failure that a node has reported."""
         return self.context.failure
 
     def tick(self) -> NodeStatus:
         """
-        Tick the root; again at once while a node asks for it, as `tickOnce` of BehaviorTree.CPP.
+        Tick the root, and again while a node requests it, like `tickOnce` of BehaviorTree.CPP.
 
         Returns
         -------
         NodeStatus
-            The state of the tree: RUNNING, or how it has ended; then all nodes are idle again.
+            The status of the tree: RUNNING, or its final status; all nodes are IDLE then.
 
         Raises
         ------
         TreeError
-            A script or a value of the blackboard is not right.
+            A script or a value of the blackboard is invalid.
 
         """
         context, root = self.context, self.root
@@ -122,14 +122,14 @@ class BehaviorTree:
         return status
 
     def halt(self) -> None:
-        """Stop whatever runs, at once; all nodes are idle then."""
+        """Halt all running nodes immediately; all nodes are IDLE afterwards."""
         if self.root.state is NodeStatus.RUNNING:
             self.root.halt_node()
         for node in self.nodes():
             node.set_state(NodeStatus.IDLE)
 
     def renew(self) -> None:
-        """Let the nodes that count and time begin anew, for a newer goal on the blackboard."""
+        """Reset the nodes that count or measure time, for a newer goal on the blackboard."""
         for node in self.nodes():
             node.on_new_goal()
 
@@ -138,6 +138,6 @@ class BehaviorTree:
         return iter(self.root.iterate())
 
     def take_changes(self) -> list[StatusChange]:
-        """Return what has changed since the last call."""
+        """Return the status changes since the last call."""
         changes, self.context.changes = self.context.changes, []
         return changes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the XML files of behavior trees, with the line of each element and with their includes."""
+"""Read the XML files of behavior trees, with line numbers and includes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['Document', 'Element', 'read_tree_file', 'read_tree_text']
 
 @dataclass
 class Element:
-    """An element of an XML file, and where it stands."""
+    """An element of an XML file, and its location."""
 
     tag: str
     attributes: dict[str, str]
@@ -26,12 +26,12 @@ class Element:
 
     def error(self, message: str) -> TreeError:
         """
-        Make an error that names the place of this element in its file.
+        Make an error that states the location of this element in its file.
 
         Parameters
         ----------
         message
-            What is wrong, as a sentence.
+            The error message, a full sentence.
 
         """
         return TreeError(message, self.file, self.line)
@@ -39,7 +39,7 @@ class Element:
 
 @dataclass
 class Document:
-    """The trees of a file and of those that it includes, by their IDs, and the main one's ID."""
+    """The trees of a file and of its includes by their IDs, and the ID of the main tree."""
 
     trees: dict[str, Element]
     main: str
@@ -49,7 +49,7 @@ class Document:
 
 def read_tree_file(path: str) -> Document:
     """
-    Read a file of trees, and those that it includes.
+    Read the trees of a file, and of those that it includes.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def read_tree_file(path: str) -> Document:
     Raises
     ------
     TreeError
-        It cannot be read, or is not right.
+        It cannot be read, or is invalid.
 
     """
     return read_tree_text(_text_of(path), path)
@@ -72,14 +72,14 @@ def read_tree_text(text: str, file: str = 'behavior tree') -> Document:
     Parameters
     ----------
     text
-        What would stand in a file.
+        The contents of an XML file.
     file
-        Its name in errors; includes without `ros_pkg` are relative to the folder of it.
+        Its name in errors; includes without `ros_pkg` are relative to its folder.
 
     Raises
     ------
     TreeError
-        It is not right.
+        It is invalid.
 
     """
     root = _parse(text, file)
@@ -153,7 +153,7 @@ def _include(
     package = element.attributes.get('ros_pkg')
     folder = os.path.dirname(os.path.abspath(element.file))
     if package:
-        from ament_index_python.packages import (  # only where a file asks for it
+        from ament_index_python.packages import (  # only if a file requires it
             get_package_share_directory,
             PackageNotFoundError,
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Behaviours of a robot that plan no path: spin, back up, drive on, wait, and help to drive."""
+"""Behaviours that need no planned path: spin, back up, drive on heading, wait, assisted teleop."""
 
 from nav2_behaviors.behavior_server import BehaviorServer
 from nav2_behaviors.plugins import behavior_types

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviour that lets a person drive, and slows down before the robot hits something."""
+"""The behaviour for assisted teleoperation, which slows the robot down before a collision."""
 
 from __future__ import annotations
 
@@ -30,15 +30,16 @@ class AssistedTeleopParameters:
 
 class AssistedTeleop(TimedBehavior):
     """
-    Passes the velocities of a person on, slower the nearer a collision is.
+    Assisted teleoperation: forwards the operator's velocity, scaled down near a collision.
 
-    The last velocity holds until the next one. A message on `preempt_teleop` ends it well.
+    The last velocity is held until the next one. A message on `preempt_teleop` ends it
+    successfully.
     """
 
     action = AssistedTeleopAction
 
     def configure(self) -> None:
-        """Declare the parameters; subscribe to the person's velocities and to the end."""
+        """Declare the parameters; subscribe to the operator's velocity and to `preempt_teleop`."""
         node = self.node
         self._look = node.parameters.declare(AssistedTeleopParameters)
         self._command, self._is_over = Velocity(), False
@@ -48,7 +49,7 @@ class AssistedTeleop(TimedBehavior):
 
     def begin(self, goal: Any) -> None:
         """
-        Forget the last velocity, and check that the robot's pose is known.
+        Reset the velocity, and check that the robot's pose is available.
 
         Parameters
         ----------
@@ -58,7 +59,7 @@ class AssistedTeleop(TimedBehavior):
         Raises
         ------
         ActionAborted
-            The robot's pose is not known.
+            The robot's pose is not available.
 
         """
         self._command, self._is_over = Velocity(), False
@@ -66,12 +67,12 @@ class AssistedTeleop(TimedBehavior):
 
     def step(self, elapsed_s: float) -> bool:
         """
-        Publish the person's velocity, slowed down as far as a collision demands.
+        Publish the operator's velocity, scaled down as far as a collision requires.
 
         Parameters
         ----------
         elapsed_s
-            How long the goal has run, in s of the node's clock.
+            The time since the start of the goal, in s of the node's clock.
 
         Returns
         -------
@@ -81,7 +82,7 @@ class AssistedTeleop(TimedBehavior):
         Raises
         ------
         ActionAborted
-            The robot's pose is not known.
+            The robot's pose is not available.
 
         """
         self.server.publish_feedback(

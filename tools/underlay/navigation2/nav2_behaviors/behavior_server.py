@@ -49,7 +49,7 @@ class BehaviorServerParameters:
 
 class BehaviorServer(LifecycleNode):
     """
-    Offers behaviours as actions: by default spin, backup, drive_on_heading, assisted_teleop, wait.
+    Behaviour server; by default spin, backup, drive_on_heading, assisted_teleop and wait.
 
     Parameters
     ----------
@@ -61,14 +61,14 @@ class BehaviorServer(LifecycleNode):
     def __init__(self, node_name: str = 'behavior_server', **options: Any) -> None:
         super().__init__(node_name, **options)
         self.told: ParameterSet[BehaviorServerParameters]
-        """The parameters."""
+        """The parameters of the server."""
         self.velocities: TwistPublisher
-        """Publishes on `cmd_vel`."""
+        """Publisher for `cmd_vel`."""
         self.behaviors: dict[str, TimedBehavior] = {}
         self._global_checker: CollisionChecker | None = None
 
     def configure(self) -> None:
-        """Read the parameters; make the behaviours and what they share."""
+        """Read the parameters; create the behaviours and their shared resources."""
         self.told = self.parameters.declare(BehaviorServerParameters)
         told = self.told.current
         names = told.behavior_plugins
@@ -83,7 +83,7 @@ class BehaviorServer(LifecycleNode):
         self.local_checker = CollisionChecker(
             self, told.local_costmap_topic, told.local_footprint_topic, told.robot_base_frame
         )
-        _ = self.transforms  # listens from now on
+        _ = self.transforms  # subscribes from now on
         for name in names:
             kind = self.parameters.declare_value(
                 f'{name}.plugin', DEFAULT_TYPES.get(name, ''), 'The type of the behaviour.'
@@ -91,17 +91,17 @@ class BehaviorServer(LifecycleNode):
             self.behaviors[name] = behavior_type(name, kind)(self, name)
 
     def deactivate(self) -> None:
-        """Stop the robot, if a behaviour moves it."""
+        """Stop the robot if a behaviour is moving it."""
         if any(behavior.server.is_running for behavior in self.behaviors.values()):
             self.velocities.publish(Velocity())
 
     def cleanup(self) -> None:
-        """Forget the behaviours."""
+        """Release the behaviours."""
         self.behaviors, self._global_checker = {}, None
 
     @property
     def global_checker(self) -> CollisionChecker:
-        """Look up the global costmap, which is subscribed to when a behaviour wants it first."""
+        """Get the global costmap's checker, which subscribes when a behaviour first needs it."""
         if self._global_checker is None:
             told = self.told.current
             self._global_checker = CollisionChecker(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the robot would hit something, by a costmap and a footprint that others publish."""
+"""Collision checks against a costmap and a footprint from topics."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ FloatArray = npt.NDArray[np.float64]
 
 
 class CannotCheck(NavigationError):
-    """There is no costmap, no footprint, or nobody knows where the robot is on it."""
+    """A collision check is impossible: no costmap, no footprint, or no transform of the robot."""
 
 
 class CollisionChecker:
     """
-    Looks up poses of the robot in a costmap. What is unknown is no obstacle.
+    Collision checker for poses of the robot in a costmap. Unknown space is free.
 
     Parameters
     ----------
     node
         The node that subscribes.
     costmap_topic
-        Where `nav2_msgs/Costmap` comes from; its updates come on the same name with `_updates`.
+        The topic of `nav2_msgs/Costmap`; its updates have the same name with `_updates`.
     footprint_topic
-        Where the footprint comes from, in whatever frame.
+        The topic of the footprint, in any frame.
     base_frame
         The frame of the robot.
 
@@ -57,17 +57,17 @@ class CollisionChecker:
 
     def first_collision(self, poses: FloatArray) -> int | None:
         """
-        Return the first of some poses at which the robot hits something, or leaves the costmap.
+        Find the first pose at which the robot collides or leaves the costmap.
 
         Parameters
         ----------
         poses
-            (K, 3) x, y (m), yaw (rad) in the base frame of now.
+            (K, 3) x, y (m), yaw (rad) in the current base frame.
 
         Raises
         ------
         CannotCheck
-            It cannot be found out, and why.
+            The check is impossible; the message states why.
 
         """
         checker, footprint = self._grid_checker(), self._footprint_now()
@@ -91,7 +91,7 @@ class CollisionChecker:
         self._costmap, self._checker = message, None
 
     def _on_update(self, message: CostmapUpdate) -> None:
-        """Replace a rectangle of the newest costmap."""
+        """Update a rectangle of the newest costmap."""
         if self._costmap is None:
             return
         try:
@@ -118,12 +118,12 @@ class CollisionChecker:
         return self._checker
 
     def _footprint_now(self) -> FloatArray:
-        """Return the (N, 2) corners in m in the base frame."""
+        """Compute the (N, 2) footprint corners in m in the base frame."""
         message = self._footprint_message
         if message is not None:
             self._footprint_message = None
             found = self._in_base_frame(message)
-            # A robot that stands still has the same footprint, whose outline is known.
+            # A stationary robot has the same footprint, whose outline is cached.
             if self._footprint is None or not _are_alike(found, self._footprint):
                 self._footprint = found
         if self._footprint is None:

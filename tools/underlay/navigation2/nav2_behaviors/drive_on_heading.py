@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviours that drive the robot straight ahead, or straight back."""
+"""The behaviours that drive the robot straight forward or backward."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ['BackUp', 'DriveOnHeading', 'DriveParameters']
 
 @dataclass(frozen=True)
 class DriveParameters:
-    """The parameters of driving, `<name of the behaviour>.*`."""
+    """Parameters of driving straight, `<name of the behaviour>.*`."""
 
     acceleration_limit: float = parameter(
         2.5, 'How fast the speed grows (m/s^2); 0 for at once.', low=0.0
@@ -33,7 +33,7 @@ class DriveParameters:
 
 
 class DriveOnHeading(TimedBehavior):
-    """Drives the robot straight on by a distance, as long as there is room."""
+    """Behaviour that drives the robot straight by a distance, unless a collision is ahead."""
 
     action = DriveOnHeadingAction
 
@@ -44,7 +44,7 @@ class DriveOnHeading(TimedBehavior):
 
     def begin(self, goal: Any) -> None:
         """
-        Check the target, and note where the drive starts.
+        Check the target, and record the start pose.
 
         Parameters
         ----------
@@ -54,7 +54,7 @@ class DriveOnHeading(TimedBehavior):
         Raises
         ------
         ActionAborted
-            The target or the speed makes no sense, or the robot's pose is not known.
+            The target or the speed is invalid, or the robot's pose is not available.
 
         """
         target, speed = goal.target, goal.speed
@@ -77,17 +77,17 @@ class DriveOnHeading(TimedBehavior):
         Parameters
         ----------
         elapsed_s
-            How long the goal has run, in s of the node's clock.
+            The time since the start of the goal, in s of the node's clock.
 
         Returns
         -------
         bool
-            Whether the distance is driven.
+            Whether the robot has travelled the distance.
 
         Raises
         ------
         ActionAborted
-            A collision is ahead, or the robot's pose is not known.
+            A collision is ahead, or the robot's pose is not available.
 
         """
         limits = self._limits.current
@@ -115,7 +115,7 @@ class DriveOnHeading(TimedBehavior):
         return False
 
     def _command(self, x: float, speed: float) -> tuple[float, float]:
-        """Return the distance in m and the speed with its sign; ActionAborted if they disagree."""
+        """Compute the signed distance in m and speed; raise ActionAborted if signs disagree."""
         if (x > 0.0) != (speed > 0.0) or (x and not speed):
             raise self.abort(
                 'INVALID_INPUT',
@@ -126,7 +126,7 @@ class DriveOnHeading(TimedBehavior):
 
 
 class BackUp(DriveOnHeading):
-    """Drives the robot straight back by a distance; signs of the goal do not matter."""
+    """Behaviour that drives the robot straight backward; the signs in the goal are ignored."""
 
     action = BackUpAction
 

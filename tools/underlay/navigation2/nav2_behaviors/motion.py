@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How fast a behaviour moves on the way to its end, and how far it has come."""
+"""Speed profiles of behaviours, and the progress of a rotation."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _ARRIVED_RAD = 1e-6
 
 class Turn:
     """
-    How far a robot has turned, also by more than a whole turn.
+    Progress of a rotation, which may exceed a full turn.
 
     Parameters
     ----------
     target_rad
-        How far it is to turn, positive to the left.
+        The angle to turn by, positive counter-clockwise.
     yaw_rad
-        Its yaw at the start.
+        The yaw at the start.
 
     """
 
@@ -35,12 +35,12 @@ class Turn:
 
     def update(self, yaw_rad: float) -> None:
         """
-        Add the turn since the last update.
+        Add the rotation since the last update.
 
         Parameters
         ----------
         yaw_rad
-            The yaw of now, less than half a turn from the one before.
+            The current yaw, less than half a turn from the previous one.
 
         """
         self.turned_rad += angle_between(self._yaw_rad, yaw_rad)
@@ -48,7 +48,7 @@ class Turn:
 
     @property
     def remaining_rad(self) -> float:
-        """Return what is left, without the sign of the target; negative beyond it."""
+        """Return the remaining angle, positive before the target and negative beyond it."""
         return abs(self.target_rad) - math.copysign(1.0, self.target_rad) * self.turned_rad
 
     @property
@@ -61,16 +61,16 @@ def turn_rate(
     remaining_rad: float, max_rate: float, min_rate: float, acceleration: float
 ) -> float:
     """
-    Return how fast to turn so that the robot can still stop at the target.
+    Compute the angular speed at which the robot can still stop at the target.
 
     Parameters
     ----------
     remaining_rad
-        What is left to turn.
+        The remaining angle.
     max_rate, min_rate
         The limits in rad/s.
     acceleration
-        How fast the robot can stop, in rad/s^2.
+        The deceleration in rad/s^2.
 
     """
     rate = math.sqrt(2.0 * acceleration * max(remaining_rad, 0.0))
@@ -88,22 +88,22 @@ def drive_speed(
     period_s: float,
 ) -> float:
     """
-    Return how fast to drive, without a sign, so that the robot can still stop at the target.
+    Compute the speed (unsigned) at which the robot can still stop at the target.
 
     Parameters
     ----------
     speed
         The commanded speed in m/s.
     last_speed
-        What was returned one period ago.
+        The speed returned one period ago.
     remaining_m
-        What is left to drive.
+        The remaining distance.
     acceleration, deceleration
-        How fast the speed grows and shrinks, both positive, in m/s^2; 0 for at once.
+        The acceleration limits, both positive, in m/s^2; 0 for no limit.
     minimum_speed
-        The least speed at which the robot moves at all, unless it is told to drive slower.
+        The minimum speed at which the robot moves at all, unless a lower one is commanded.
     period_s
-        The time between two speeds.
+        The control period.
 
     """
     allowed = abs(speed)
@@ -118,22 +118,22 @@ def motion_ahead(
     velocity: Velocity, horizon_s: float, step_s: float, until_s: float = math.inf
 ) -> tuple[FloatArray, FloatArray]:
     """
-    Return where the robot will be if it goes on like that.
+    Predict the poses of the robot at constant velocity.
 
     Parameters
     ----------
     velocity
         Constant, in the base frame.
     horizon_s, step_s
-        How far to look ahead, and in which steps.
+        The prediction horizon and the time step.
     until_s
-        When the motion ends, if that is sooner.
+        The end of the motion, if earlier.
 
     Returns
     -------
     tuple of numpy.ndarray
         (K,) times in s, the first one step from now, and (K, 3) poses x, y (m), yaw (rad) in the
-        base frame of now.
+        current base frame.
 
     """
     end_s = min(horizon_s, max(until_s, 0.0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviours by their official types."""
+"""The behaviour plugins by their official types."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ behavior_types: dict[str, type[TimedBehavior]] = {
     'nav2_behaviors::AssistedTeleop': AssistedTeleop,
     'nav2_behaviors::Wait': Wait,
 }
-"""Add a class here to offer a behaviour of your own."""
+"""Registry of behaviour types; add a class here to offer a custom behaviour."""
 
 DEFAULT_TYPES = {
     'spin': 'nav2_behaviors::Spin',
@@ -29,12 +29,12 @@ DEFAULT_TYPES = {
     'assisted_teleop': 'nav2_behaviors::AssistedTeleop',
     'wait': 'nav2_behaviors::Wait',
 }
-"""The types of the behaviours that there are without any parameter."""
+"""The types of the default behaviours."""
 
 
 def behavior_type(behavior: str, name: str) -> type[TimedBehavior]:
     """
-    Return the class of a behaviour.
+    Look up the class of a behaviour.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def behavior_type(behavior: str, name: str) -> type[TimedBehavior]:
     Raises
     ------
     ConfigurationError
-        There is none with that name.
+        There is no such type.
 
     """
     official = name.replace('/', '::')

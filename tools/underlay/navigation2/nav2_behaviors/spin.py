@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviour that turns the robot on the spot."""
+"""The behaviour that rotates the robot in place."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ['Spin', 'SpinParameters']
 
 @dataclass(frozen=True)
 class SpinParameters:
-    """The parameters of spinning, without a prefix."""
+    """The parameters of Spin, without a prefix."""
 
     max_rotational_vel: float = parameter(1.0, 'The fastest turn (rad/s).', low=0.0)
     min_rotational_vel: float = parameter(0.4, 'The slowest turn (rad/s).', low=0.0)
@@ -26,7 +26,7 @@ class SpinParameters:
 
 
 class Spin(TimedBehavior):
-    """Turns the robot on the spot by an angle, as long as there is room."""
+    """Behaviour that rotates the robot in place by an angle, unless a collision is ahead."""
 
     action = SpinAction
 
@@ -37,7 +37,7 @@ class Spin(TimedBehavior):
 
     def begin(self, goal: Any) -> None:
         """
-        Check the angle, and note where the turn starts.
+        Check the angle, and record the initial yaw.
 
         Parameters
         ----------
@@ -47,7 +47,7 @@ class Spin(TimedBehavior):
         Raises
         ------
         ActionAborted
-            The angle is not finite, or the robot's pose is not known.
+            The angle is not finite, or the robot's pose is not available.
 
         """
         if not math.isfinite(goal.target_yaw):
@@ -61,7 +61,7 @@ class Spin(TimedBehavior):
         Parameters
         ----------
         elapsed_s
-            How long the goal has run, in s of the node's clock.
+            The time since the start of the goal, in s of the node's clock.
 
         Returns
         -------
@@ -71,7 +71,7 @@ class Spin(TimedBehavior):
         Raises
         ------
         ActionAborted
-            A collision is ahead, or the robot's pose is not known.
+            A collision is ahead, or the robot's pose is not available.
 
         """
         turn, limits = self._turn, self._limits.current

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the behaviours have in common: a cycle with a time limit, which ends at rest."""
+"""Base class of the behaviours: a control cycle with a time limit, after which the robot stops."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _STALE_POSE_S = 1.0
 
 @dataclass(frozen=True)
 class LookAheadParameters:
-    """The parameters of behaviours that look ahead, without a prefix."""
+    """Parameters of behaviours that predict collisions, without a prefix."""
 
     simulate_ahead_time: float = parameter(
         2.0, 'How far to look ahead for collisions (s).', low=0.0
@@ -36,10 +36,10 @@ class LookAheadParameters:
 
 class TimedBehavior(ABC):
     """
-    A behaviour: an action whose goals are worked on in cycles.
+    Base class of behaviours: an action whose goals are executed in control cycles.
 
-    Subclasses name their `action`, prepare a goal in `begin` and go on with it in `step`. Both may
-    raise ActionAborted. However a goal ends, the robot is told to stop.
+    Subclasses define their `action`, prepare a goal in `begin` and execute it in `step`. Both may
+    raise ActionAborted. However a goal ends, the robot is stopped.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class TimedBehavior(ABC):
         self.server: ActionServer = node.offer_action(self.action, name, self._work)
 
     def configure(self) -> None:  # noqa: B027
-        """Declare the parameters of the behaviour, and subscribe to what it needs."""
+        """Declare the parameters of the behaviour, and create its subscriptions."""
 
     @abstractmethod
     def begin(self, goal: Any) -> None:
@@ -80,12 +80,12 @@ class TimedBehavior(ABC):
     @abstractmethod
     def step(self, elapsed_s: float) -> bool:
         """
-        Work on the goal for one cycle; called `cycle_frequency` times a second.
+        Execute one cycle of the goal; called at `cycle_frequency`.
 
         Parameters
         ----------
         elapsed_s
-            How long the goal has run, in s of the node's clock.
+            The time since the start of the goal, in s of the node's clock.
 
         Returns
         -------
@@ -101,7 +101,7 @@ class TimedBehavior(ABC):
 
     def time_allowance_s(self, goal: Any) -> float:
         """
-        Return the time limit of a goal in s; 0 for no limit.
+        Return the time allowance of a goal in s; 0 for no limit.
 
         Parameters
         ----------
@@ -121,13 +121,13 @@ class TimedBehavior(ABC):
             The name of an error code in the action's result, such as `TIMEOUT`; a name that the
             result does not have stands for 1.
         message
-            Why, as a sentence.
+            The error message, a full sentence.
 
         """
         return ActionAborted(int(getattr(self.action.Result, code, 1)), message)
 
     def pose(self) -> Pose2D:
-        """Return where the robot is in the local frame; ActionAborted if that is not known."""
+        """Look up the pose of the robot in the local frame; raise ActionAborted if unavailable."""
         told = self.node.told.current
         try:
             return self.node.transforms.pose_of(
@@ -145,13 +145,13 @@ class TimedBehavior(ABC):
         Parameters
         ----------
         poses
-            Poses (K, 3): x, y (m) and yaw (rad) in the base frame of now, in their order.
+            Poses (K, 3): x, y (m) and yaw (rad) in the current base frame, in order.
 
         Raises
         ------
         ActionAborted
-            The footprint would be on an obstacle or off the local costmap, or that cannot be
-            checked.
+            The footprint would be on an obstacle or off the local costmap, or the check is
+            impossible.
 
         """
         try:
@@ -194,13 +194,13 @@ class TimedBehavior(ABC):
     async def _cycle(self, goal: Any, started_s: float) -> None:
         allowance_s = self.time_allowance_s(goal)
         cycle_hz = self.node.told.current.cycle_frequency
-        # Cancelling is heeded more often than the robot is steered.
+        # Cancel requests are checked more often than commands are published.
         checks = max(math.ceil(_CHECKS_HZ / cycle_hz), 1)
         self.server.check()
         self.begin(goal)
         with Rate(self.node, cycle_hz * checks) as rate:
             while True:
-                # Simulated time begins anew when the simulation is reset.
+                # Simulated time restarts when the simulation is reset.
                 started_s = min(started_s, now_s(self.node))
                 elapsed_s = now_s(self.node) - started_s
                 if 0.0 < allowance_s < elapsed_s:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviour that waits."""
+"""The behaviour that waits for a duration."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ __all__ = ['Wait']
 
 
 class Wait(TimedBehavior):
-    """Lets the robot stand for a time."""
+    """Behaviour that keeps the robot waiting for a duration."""
 
     action = WaitAction
 
     def time_allowance_s(self, goal: Any) -> float:
         """
-        Return 0: the time to wait is the only limit.
+        Return 0: the duration of the wait is the only limit.
 
         Parameters
         ----------
@@ -30,7 +30,7 @@ class Wait(TimedBehavior):
 
     def begin(self, goal: Any) -> None:
         """
-        Note how long to wait.
+        Record how long to wait.
 
         Parameters
         ----------
@@ -42,12 +42,12 @@ class Wait(TimedBehavior):
 
     def step(self, elapsed_s: float) -> bool:
         """
-        Publish how long the robot will still wait.
+        Publish the remaining time as feedback.
 
         Parameters
         ----------
         elapsed_s
-            How long the goal has run, in s of the node's clock.
+            The time since the start of the goal, in s of the node's clock.
 
         Returns
         -------

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch files that start navigation, and what they share."""
+"""Launch files that start navigation, and their shared functions."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start servers of navigation, in a container or each in a process, with their manager."""
+"""Start navigation servers and their manager, in a container or in processes of their own."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from nav2_common.launch import RewrittenYaml
 __all__ = ['REMAPPINGS', 'Server', 'configured_parameters', 'declared', 'server_actions']
 
 REMAPPINGS = [('/tf', 'tf'), ('/tf_static', 'tf_static')]
-"""Each robot with a namespace has transforms of its own."""
+"""Each robot with a namespace has its own transform topics."""
 
 DESCRIPTIONS = {
     'namespace': ('', 'Top-level namespace.'),
@@ -44,7 +44,7 @@ DESCRIPTIONS = {
 
 
 class Server(NamedTuple):
-    """A node of navigation: as a program, and as a component."""
+    """A navigation server: its executable and its component."""
 
     package: str
     executable: str
@@ -90,7 +90,7 @@ def configured_parameters(**rewrites: Any) -> ParameterFile:
     Parameters
     ----------
     **rewrites
-        New values by the names or whole paths of parameters, as `RewrittenYaml` takes them.
+        New values by the names or whole paths of parameters, as for `RewrittenYaml`.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def server_actions(
     servers: Sequence[Server], manager: str, rewrites: dict[str, Any] | None = None
 ) -> list[LaunchDescriptionEntity]:
     """
-    Return the actions that start servers and the manager of their lifecycles.
+    Make the actions that start servers and their lifecycle manager.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def server_actions(
     manager
         The name of the lifecycle manager.
     rewrites
-        Further values that are others than in the parameter file, by their paths.
+        Further values that override the parameter file, by their paths.
 
     """
     parameters = configured_parameters(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that navigates: it runs behavior trees for the goals of its actions."""
+"""The node `bt_navigator`: runs behavior trees for navigation goals."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ _USUAL = {
 
 class BtNavigator(LifecycleNode):
     """
-    Offers the actions `navigate_to_pose` and `navigate_through_poses`.
+    Node that offers the actions `navigate_to_pose` and `navigate_through_poses`.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -55,10 +55,10 @@ class BtNavigator(LifecycleNode):
         self.navigators: list[Navigator] = []
         self.files = TreeFiles()
         self.inhibition = ''
-        """Why the robot cannot go anywhere, if it cannot."""
+        """Why navigation is inhibited; empty if it is not."""
 
     def configure(self) -> None:
-        """Make the navigators, and the trees that they use by default."""
+        """Create the navigators and their default trees."""
         self.settings = self.parameters.declare(BtNavigatorParameters)
         self.parameters.declare_unsupported(UNSUPPORTED)
         settings = self.settings.current
@@ -83,12 +83,12 @@ class BtNavigator(LifecycleNode):
             self.navigators.append(self._make_navigator(name))
 
     def deactivate(self) -> None:
-        """End the goal that runs, now."""
+        """Abort the running goal immediately."""
         for navigator in self.navigators:
             navigator.step()
 
     def cleanup(self) -> None:
-        """Let go of the navigators."""
+        """Release the navigators."""
         for navigator in self.navigators:
             navigator.close()
         self.navigators.clear()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Navigates through poses to the last one."""
+"""The navigator for `navigate_through_poses`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['NavigateThroughPosesNavigator']
 
 
 class NavigateThroughPosesNavigator(Navigator):
-    """Offers `navigate_through_poses`."""
+    """Navigator that offers `navigate_through_poses`."""
 
     action = NavigateThroughPoses
     default_file = 'navigate_through_poses_w_replanning_and_recovery.xml'
@@ -46,7 +46,7 @@ class NavigateThroughPosesNavigator(Navigator):
 
     def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
         """
-        Write how many poses are left.
+        Fill in the number of remaining poses.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Navigates to a pose, as an action or as a topic asks."""
+"""The navigator for `navigate_to_pose`, and for goals from the topic `goal_pose`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ['NavigateToPoseNavigator']
 
 class NavigateToPoseNavigator(Navigator):
     """
-    Offers `navigate_to_pose`, and starts it for each pose on `goal_pose`.
+    Navigator that offers `navigate_to_pose`, and starts it for each pose on `goal_pose`.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class NavigateToPoseNavigator(Navigator):
     Raises
     ------
     ConfigurationError
-        The default behavior tree is not right.
+        The default behavior tree is invalid.
 
     """
 
@@ -47,13 +47,13 @@ class NavigateToPoseNavigator(Navigator):
         self._client.send_goal_async(NavigateToPose.Goal(pose=pose))
 
     def close(self) -> None:
-        """Stop what runs, and destroy the client."""
+        """Halt the running tree, and destroy the client."""
         super().close()
         self._client.destroy()
 
     def goals_of(self, goal: Any) -> list[PoseStamped]:
         """
-        Return the pose of a goal, as the only one.
+        Return the pose of a goal, as a list of one.
 
         Parameters
         ----------
@@ -70,7 +70,7 @@ class NavigateToPoseNavigator(Navigator):
         Parameters
         ----------
         blackboard, poses
-            As for `Navigator.write_goal`; the first pose counts.
+            As for `Navigator.write_goal`; only the first pose is used.
 
         """
         blackboard.set(self.node.settings.current.goal_blackboard_id, poses[0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base of the navigators: an action whose goals are reached by a behavior tree."""
+"""Base class of the navigators: an action whose goals are executed by a behavior tree."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ __all__ = ['Navigator']
 
 _FEEDBACK_PERIOD_S = 0.1
 _LOOK_S, _PATIENCE = 0.1, 50
-"""How often it is looked where the robot is, before it is said that nobody knows."""
+"""Period and number of pose lookups before the goal fails for lack of the robot's pose."""
 
 
 @dataclass
 class _Run:
-    """A navigation: its tree, file and end, and when it began, in s of the node's clock."""
+    """A running navigation: its tree, file and outcome, and its start in s of the node's clock."""
 
     tree: BehaviorTree
     file: str
@@ -41,7 +41,7 @@ class _Run:
 
 class Navigator:
     """
-    Offers an action, and ticks a tree while one of its goals runs.
+    Navigator that offers an action, and ticks a tree while one of its goals is running.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class Navigator:
     default_file: ClassVar[str]
     file_parameter: ClassVar[str]
     first_code: ClassVar[int]
-    """The error codes: this one is unknown, then: bad tree, no transform, timeout, bad goal."""
+    """The first of five error codes: unknown, bad tree, no transform, timeout, bad goal."""
 
     def __init__(self, node: BtNavigator, name: str) -> None:
         self.node, self.name = node, name
@@ -68,7 +68,7 @@ class Navigator:
         )
 
     def close(self) -> None:
-        """Stop what runs, while the clients of its actions are there."""
+        """Halt the running tree while the clients of its actions still exist."""
         if self._run is not None:
             self._run.tree.halt()
             self._run.tree.take_changes()
@@ -85,14 +85,14 @@ class Navigator:
         Returns
         -------
         list of PoseStamped
-            The poses in their order, in whatever frames; none if the goal has none.
+            The poses in order, in any frame; empty if the goal has none.
 
         """
         raise NotImplementedError
 
     def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
         """
-        Write the poses to the entry of the blackboard where the tree looks for them.
+        Write the poses to the blackboard entry that the tree reads.
 
         Parameters
         ----------
@@ -106,12 +106,12 @@ class Navigator:
 
     def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
         """
-        Write to the feedback what only this action reports.
+        Fill in the feedback fields that are specific to this action.
 
         Parameters
         ----------
         feedback
-            The feedback message, which is changed; what navigators have in common is in it.
+            The feedback message, modified in place; the common fields are already set.
         blackboard
             The blackboard of the main tree.
 
@@ -125,7 +125,7 @@ class Navigator:
         return find_tree_file(goal.behavior_tree) if goal.behavior_tree else self._default()
 
     def _check_default_tree(self) -> None:
-        """Make the tree once, so that its errors are seen now and its clients find servers."""
+        """Build the default tree once, to report errors and let its clients discover servers."""
         try:
             self._make_tree(self._default())
         except TreeError as error:
@@ -147,8 +147,8 @@ class Navigator:
         await self._find_robot()
         run = self._run = self._begin(goal)
         period_s = 1e-3 * self.node.settings.current.bt_loop_duration
-        # A timer ticks the tree: to wake this coroutine for each tick would cost as much again.
-        # Its clock always runs: goals are canceled also while a simulation stands.
+        # A timer ticks the tree: waking this coroutine for each tick would double the cost.
+        # It uses a steady clock: goals can be canceled even while a simulation is paused.
         timer = self.node.create_timer(period_s, self.step, clock=steady_clock())
         try:
             self.step()
@@ -162,7 +162,7 @@ class Navigator:
             self.node.log.publish(run.tree.take_changes())
 
     def step(self) -> None:
-        """Tick the tree of the goal that runs, and note if it is over or has to end."""
+        """Tick the tree of the running goal, and detect its end, cancellation or preemption."""
         run = self._run
         if run is None or run.end.done():
             return
@@ -177,7 +177,7 @@ class Navigator:
             run.end.set_exception(error)
 
     async def _find_robot(self) -> None:
-        """Wait a while for the first transforms: a stack that was just started has none."""
+        """Wait for the first transforms, which a newly started stack does not have yet."""
         for _ in range(_PATIENCE):
             self.server.check()
             self._check_inhibition()
@@ -203,7 +203,7 @@ class Navigator:
         return run
 
     def _take_over(self, run: _Run) -> None:
-        """Give a newer goal to the tree, or end the old one if that has another tree."""
+        """Pass a newer goal to the running tree, or abort the old one if it needs another tree."""
         goal = self.server.pending_goal()
         if self._file_of(goal) != run.file:
             raise ActionAborted(self.first_code, 'A newer goal with another tree took its place.')
@@ -216,7 +216,7 @@ class Navigator:
             run.tree.renew()
 
     def _set_goal(self, run: _Run, goal: Any) -> None:
-        """Write a goal to the blackboard; ActionAborted says why it is not possible."""
+        """Write a goal to the blackboard; raise ActionAborted if it is invalid."""
         poses = self.goals_of(goal)
         if not poses:
             raise ActionAborted(self.first_code + 4, 'The goal has no poses. Give at least one.')
@@ -254,7 +254,7 @@ class Navigator:
         return [*settings.error_code_names, *prefixed]
 
     def _tick(self, run: _Run) -> NodeStatus:
-        """Tick the tree; ActionAborted says why it has failed."""
+        """Tick the tree; raise ActionAborted with the reason if it has failed."""
         status = run.tree.tick()
         self.node.log.publish(run.tree.take_changes())
         if status is NodeStatus.RUNNING:
@@ -265,7 +265,7 @@ class Navigator:
         return status
 
     def _tell(self, run: _Run) -> None:
-        """Publish feedback, ten times a second."""
+        """Publish feedback at 10 Hz."""
         ros, board = self.node.ros, run.tree.blackboard
         now_s = ros.watchdog_s()
         if now_s - run.feedback_s < _FEEDBACK_PERIOD_S:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why a tree has failed: the code and the sentence for the result of a navigation."""
+"""Failure reason of a tree: the error code and message for the result of a navigation."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ __all__ = ['failure_reason']
 
 def failure_reason(tree: BehaviorTree, names: list[str]) -> tuple[int, str]:
     """
-    Return the error code, 0 if none is known, and the message of a tree that has failed.
+    Get the error code, 0 if unknown, and the error message of a failed tree.
 
     Parameters
     ----------
     tree
         The tree.
     names
-        The entries of the blackboard with the error codes of actions. The one of the node that
-        failed last counts, else the lowest one, as Nav2 documents.
+        The blackboard entries with the error codes of actions. The code of the node that failed
+        last is used, else the lowest one, as Nav2 documents.
 
     """
     board, failure = tree.blackboard, tree.failure

@@ -12,7 +12,7 @@ __all__ = ['UNSUPPORTED', 'BtNavigatorParameters']
 
 @dataclass(frozen=True)
 class BtNavigatorParameters:
-    """What the navigator is told; names and defaults are those of Nav2."""
+    """Parameters of the navigator; names and defaults are those of Nav2."""
 
     navigators: list[str] = parameter(
         ['navigate_to_pose', 'navigate_through_poses'], 'The actions to offer.', read_only=True

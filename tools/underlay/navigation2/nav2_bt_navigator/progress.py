@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far a navigation is: what is left of the path, and how long that takes."""
+"""Progress of a navigation: the remaining path length and time."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ _LEAST_WAY_M = 0.1
 
 
 class PathProgress:
-    """Measures what is left of a path; it converts each path once."""
+    """Tracker of the remaining path length; it converts each path once."""
 
     def __init__(self) -> None:
         self._path: Any = None
 
     def remaining_m(self, path: Any, robot: Pose2D) -> float:
         """
-        Return the length of the path from the robot on, in m.
+        Compute the length of the path from the robot on, in m.
 
         Parameters
         ----------
         path
-            A `nav_msgs/Path`, or None where there is none yet.
+            A `nav_msgs/Path`, or None if there is none yet.
         robot
             The robot's pose in the frame of the path.
 
@@ -43,19 +43,19 @@ class PathProgress:
 
 def time_left_s(way_m: float, speed_m_s: float) -> float:
     """
-    Estimate how long the rest of a path takes at a speed.
+    Estimate the time to travel the remaining path.
 
     Parameters
     ----------
     way_m
-        The length of the rest in m.
+        The remaining length in m.
     speed_m_s
-        The speed in m/s; its sign does not matter.
+        The speed in m/s; its sign is ignored.
 
     Returns
     -------
     float
-        The time in s; 0 if the robot stands, or is nearly there.
+        The time in s; 0 if the robot is stationary, or almost at the goal.
 
     """
     if abs(speed_m_s) < _LEAST_SPEED_M_S or way_m < _LEAST_WAY_M:

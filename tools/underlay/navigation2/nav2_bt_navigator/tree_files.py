@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find and read the files of trees; a file that has not changed is read once."""
+"""Find and read behavior tree files; unchanged files are cached."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['TREE_FOLDER', 'TreeFiles', 'find_tree_file']
 
 
 def _tree_folder() -> str:
-    """Return where the trees are: beside this file in the source, in the share folder else."""
+    """Find the tree folder: next to this file in the source, else in the share folder."""
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'behavior_trees')
     if os.path.isdir(beside):
         return beside
@@ -20,19 +20,19 @@ def _tree_folder() -> str:
 
 
 TREE_FOLDER = _tree_folder()
-"""Where the trees of this package are."""
+"""The folder with the trees of this package."""
 _OFFICIAL_FOLDER = os.path.join('nav2_bt_navigator', 'behavior_trees')
 
 
 def find_tree_file(path: str) -> str:
     """
-    Return the file that is meant by a path.
+    Resolve the path of a behavior tree file.
 
     Parameters
     ----------
     path
-        A path, or the name of a tree of this package. Where a path leads to the trees of an
-        installation of Nav2 that is not there, the tree of the same name of this package is meant.
+        A path, or the name of a tree of this package. A path into an installation of Nav2 that
+        does not exist is replaced by the tree of this package with the same name.
 
     """
     folder, name = os.path.split(path)
@@ -42,24 +42,24 @@ def find_tree_file(path: str) -> str:
 
 
 class TreeFiles:
-    """The files that were read."""
+    """Cache of tree files."""
 
     def __init__(self) -> None:
         self._known: dict[str, tuple[float, Document]] = {}
 
     def read(self, path: str) -> Document:
         """
-        Read a file of trees, or return what was read of it before if it has not changed.
+        Read a file of trees, from the cache if it has not changed.
 
         Parameters
         ----------
         path
-            The XML file; one that includes others is always read.
+            The XML file; one with includes is always read again.
 
         Raises
         ------
         TreeError
-            It cannot be read, or is not right.
+            It cannot be read, or is invalid.
 
         """
         try:

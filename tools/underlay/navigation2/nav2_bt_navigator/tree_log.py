@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell others how the states of a tree's nodes change."""
+"""Publish the status changes of a tree's nodes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['TreeLog']
 
 class TreeLog:
     """
-    Publishes changes on `behavior_tree_log`, if somebody listens.
+    Publisher of status changes on `behavior_tree_log`, if it has subscribers.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class TreeLog:
         Parameters
         ----------
         changes
-            The changes in their order; the last one counts as of now.
+            The changes in order; the last one is stamped with the current time.
 
         """
         if not changes or not self._publisher.get_subscription_count():
@@ -42,7 +42,7 @@ class TreeLog:
         latest_s = changes[-1].time_s
         log = BehaviorTreeLog(timestamp=now.to_msg())
         for change in changes:
-            # The tree counts s of a clock that may begin anywhere; the node's time is told.
+            # The tree's clock may have any epoch; the stamps are in the node's time.
             stamp = Time(
                 nanoseconds=max(now.nanoseconds - int(1e9 * (latest_s - change.time_s)), 0)
             )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stops the robot, or slows it down, where sensors see something near."""
+"""Collision monitor: stops the robot or slows it down near obstacles that sensors detect."""
 
 from nav2_collision_monitor.actions import act_in_zone, Action, ActionType, most_careful, Zone
 from nav2_collision_monitor.approach import collision_time

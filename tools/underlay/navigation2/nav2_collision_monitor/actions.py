@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the zones around the robot do with its velocity."""
+"""The actions of the zones around the robot on its velocity."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STOPPED = Velocity()
 
 
 class ActionType(IntEnum):
-    """What is done with a velocity; the values of `nav2_msgs/CollisionMonitorState`."""
+    """Type of an action; the values are those of `nav2_msgs/CollisionMonitorState`."""
 
     DO_NOTHING = 0
     STOP = 1
@@ -29,7 +29,7 @@ class ActionType(IntEnum):
 
 @dataclass(frozen=True)
 class Action:
-    """A velocity that may be driven, why, and because of which zone."""
+    """The resulting velocity, the action type, and the zone that caused it."""
 
     kind: ActionType
     velocity: Velocity
@@ -38,7 +38,7 @@ class Action:
 
 @dataclass(frozen=True)
 class Zone:
-    """A zone at the moment when it is looked at; parameters as in the documentation of Nav2."""
+    """Snapshot of a zone; parameters as in the documentation of Nav2."""
 
     name: str
     kind: ActionType
@@ -53,12 +53,12 @@ class Zone:
 
 def act_in_zone(zone: Zone, points: FloatArray, command: Velocity) -> Action:
     """
-    Return what one zone does with a commanded velocity.
+    Apply a zone to a commanded velocity.
 
     Parameters
     ----------
     zone
-        Its shape, what it does and its limits.
+        Its shape, action and limits.
     points
         (N, 2) obstacles in m in the base frame.
     command
@@ -83,7 +83,7 @@ def act_in_zone(zone: Zone, points: FloatArray, command: Velocity) -> Action:
 
 def is_occupied(zone: Zone, points: FloatArray) -> bool:
     """
-    Whether enough points are inside a zone.
+    Whether a zone contains enough points.
 
     Parameters
     ----------
@@ -100,19 +100,19 @@ def is_occupied(zone: Zone, points: FloatArray) -> bool:
 
 def most_careful(actions: Sequence[Action], command: Velocity) -> Action:
     """
-    Choose the action with the lowest speed; a stop goes before all others.
+    Choose the action with the lowest speed; a stop takes precedence.
 
     Parameters
     ----------
     actions
-        What the zones do with the command.
+        The actions of the zones.
     command
         The commanded velocity, in the base frame.
 
     Returns
     -------
     Action
-        The chosen one; if no zone does anything, the command as it is.
+        The chosen one; the unchanged command if no zone acts.
 
     """
     chosen = Action(ActionType.DO_NOTHING, command)
@@ -128,7 +128,7 @@ def most_careful(actions: Sequence[Action], command: Velocity) -> Action:
 
 
 def _approach(zone: Zone, points: FloatArray, command: Velocity) -> Action:
-    """Keep the time until the collision at least `time_before_collision`."""
+    """Scale the velocity so that the time to collision is at least `time_before_collision`."""
     time_s = collision_time(
         points,
         zone.shape,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long until the robot, if it goes on like that, hits a point."""
+"""Predict the time to collision at constant velocity."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def collision_time(
     step_s: float,
 ) -> float | None:
     """
-    Return when at least `min_points` are inside a shape that moves with the robot.
+    Compute when at least `min_points` are inside a shape that moves with the robot.
 
     Parameters
     ----------
@@ -34,16 +34,16 @@ def collision_time(
     shape
         The outline of the robot.
     velocity
-        The velocity of the robot, which is taken for constant.
+        The velocity of the robot, assumed constant.
     min_points
-        Fewer points are taken for noise.
+        Fewer points are ignored as noise.
     horizon_s, step_s
-        How far to look ahead, and in which steps.
+        The prediction horizon and the time step.
 
     Returns
     -------
     float or None
-        Seconds from now, 0 if they are inside already; None if not within the horizon.
+        The time in s, 0 if they are already inside; None if not within the horizon.
 
     """
     step_s = max(step_s, horizon_s / _MOST_STEPS, 1e-6)

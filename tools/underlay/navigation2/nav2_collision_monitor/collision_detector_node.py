@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that says in which zones sensors see something, and leaves velocities alone."""
+"""The node that reports which zones contain obstacles, without changing velocities."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ['CollisionDetector']
 
 class CollisionDetector(LifecycleNode):
     """
-    Publishes on `collision_detector_state` which zones have something in them.
+    Node that publishes on `collision_detector_state` which zones contain obstacles.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class CollisionDetector(LifecycleNode):
         self._timer: Timer | None = None
 
     def configure(self) -> None:
-        """Read the parameters; make zones, sensors and publishers."""
+        """Read the parameters; create zones, sensors and publishers."""
         self._told = self.parameters.declare(CollisionDetectorParameters)
         current = self._told.current
         self._zones = make_zones(self, current, ('none',))
@@ -56,21 +56,21 @@ class CollisionDetector(LifecycleNode):
         self._publisher = self.create_publisher(
             CollisionDetectorState, 'collision_detector_state', 10
         )
-        _ = self.transforms  # listens from now on
+        _ = self.transforms  # subscribes from now on
 
     def activate(self) -> None:
-        """Begin to look."""
+        """Start the detection."""
         period_s = 1.0 / self._told.current.frequency
         self._timer = self.create_timer(period_s, self._detect, clock=clock_of(self))
 
     def deactivate(self) -> None:
-        """Look no more."""
+        """Stop the detection."""
         if self._timer is not None:
             self.destroy_timer(self._timer)
             self._timer = None
 
     def cleanup(self) -> None:
-        """Forget the zones."""
+        """Release the zones."""
         for zone in self._zones:
             zone.close()
         self._zones = []

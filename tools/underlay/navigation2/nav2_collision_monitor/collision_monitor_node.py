@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that slows the robot down, or stops it, where sensors see something near."""
+"""The node that slows the robot down or stops it near obstacles that sensors detect."""
 
 from __future__ import annotations
 
@@ -33,9 +33,10 @@ _DONE = {
 
 class CollisionMonitor(LifecycleNode):
     """
-    Passes velocities on, slower or not at all while there is something in a zone.
+    Node that forwards velocities, and reduces them while obstacles are in a zone.
 
-    Each command is answered at once, in its callback. A sensor without fresh data stops the robot.
+    Each command is processed immediately, in its callback. A sensor without fresh data stops the
+    robot.
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ class CollisionMonitor(LifecycleNode):
         self._is_moving = False
 
     def configure(self) -> None:
-        """Read the parameters; make zones, sensors, publishers and the service."""
+        """Read the parameters; create zones, sensors, publishers and the service."""
         self.parameters.declare_unsupported(
             {'use_realtime_priority': 'Python has no threads of real-time priority'}
         )
@@ -77,22 +78,22 @@ class CollisionMonitor(LifecycleNode):
             self._states = self.create_publisher(CollisionMonitorState, current.state_topic, 1)
         subscribe_twist(self, current.cmd_vel_in_topic, is_stamped, self._on_command)
         self.create_service(Toggle, '~/toggle', self._toggle)
-        _ = self.transforms  # listens from now on
+        _ = self.transforms  # subscribes from now on
 
     def activate(self) -> None:
-        """Show the zones; commands are heeded from now on."""
+        """Publish the zones, and start processing commands."""
         self._reported, self._stopped_since_s, self._is_moving = None, None, False
         for zone in self._zones:
             zone.publish()
 
     def deactivate(self) -> None:
-        """Stop the robot, whose commands are not passed on any more."""
+        """Stop the robot, and stop forwarding commands."""
         if self._is_moving:
             self._publisher.publish(Velocity())
             self._is_moving = False
 
     def cleanup(self) -> None:
-        """Forget the zones."""
+        """Release the zones."""
         for zone in self._zones:
             zone.close()
         self._zones, self._states = [], None
@@ -113,7 +114,7 @@ class CollisionMonitor(LifecycleNode):
     def _decide(
         self, command: Velocity, points: Mapping[str, FloatArray], invalid: Mapping[str, str]
     ) -> Action:
-        """Return what to do with a command."""
+        """Choose the action on a command."""
         actions = []
         for each in self._zones:
             zone = each.zone(command) if each.is_enabled else None
@@ -127,7 +128,7 @@ class CollisionMonitor(LifecycleNode):
         return action
 
     def _publish(self, velocity: Velocity, header: Header | None) -> None:
-        """Publish a velocity; at rest, no longer than `stop_pub_timeout`."""
+        """Publish a velocity; zero velocities for at most `stop_pub_timeout`."""
         self._is_moving = not velocity.is_zero
         if self._is_moving:
             self._stopped_since_s = None
@@ -140,7 +141,7 @@ class CollisionMonitor(LifecycleNode):
         self._publisher.publish(velocity, header)
 
     def _report(self, action: Action, invalid: Mapping[str, str]) -> None:
-        """Say what is done, and why, when it changes."""
+        """Log the action and its cause when it changes."""
         if (action.kind, action.zone) == self._reported:
             return
         is_first, self._reported = self._reported is None, (action.kind, action.zone)

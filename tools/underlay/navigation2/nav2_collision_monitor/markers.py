@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the sensors see, for RViz: the points of each as a marker."""
+"""Publish the points of each sensor as a marker for RViz."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOST_POINTS = 5000
 
 class PointMarkers:
     """
-    Publishes the points of sensors on `~/collision_points_marker`, if anybody listens.
+    Publisher of sensor points on `~/collision_points_marker`, if it has subscribers.
 
     Parameters
     ----------
@@ -36,12 +36,12 @@ class PointMarkers:
 
     def publish(self, points: Mapping[str, FloatArray]) -> None:
         """
-        Publish a marker for each sensor; of more than 5000 points, every few.
+        Publish a marker for each sensor, downsampled to at most 5000 points.
 
         Parameters
         ----------
         points
-            Points (N, 2) in m, in the frame of the markers, by the names of the sensors.
+            Points (N, 2) in m, in the frame of the markers, by sensor name.
 
         """
         if not self._publisher.get_subscription_count():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The points that sensors measure, as arrays: of a scan, a range, a point cloud, a polygon."""
+"""Convert sensor messages to point arrays: scan, range, point cloud, polygon."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ def points_of_scan(
     range_max: float,
 ) -> FloatArray:
     """
-    Return the (N, 3) hits of a laser scan in m in its frame.
+    Convert a laser scan to (N, 3) hits in m in its frame.
 
     Parameters
     ----------
     ranges, angle_min, angle_increment, range_min, range_max
-        As in `sensor_msgs/LaserScan`: m and rad. Ranges outside of the limits are no hits.
+        As in `sensor_msgs/LaserScan`: m and rad. Ranges outside of the limits are not hits.
 
     Raises
     ------
     ValueError
-        An angle is not finite, or a limit is not a number.
+        An angle is not finite, or a limit is NaN.
 
     """
     if not (math.isfinite(angle_min) and math.isfinite(angle_increment)):
@@ -66,12 +66,12 @@ def points_of_range(
     obstacles_angle: float,
 ) -> FloatArray:
     """
-    Return the (N, 3) points of an arc across what a sonar sees, in m in its frame.
+    Convert a range to the (N, 3) points of an arc across its field of view, in m in its frame.
 
     Parameters
     ----------
     distance, field_of_view, min_range, max_range
-        As in `sensor_msgs/Range`: m and rad. Outside of its limits there is no point.
+        As in `sensor_msgs/Range`: m and rad. A range outside of the limits yields no points.
     obstacles_angle
         The angle between two points in rad.
 
@@ -137,14 +137,14 @@ def points_of_cloud(cloud: Any) -> FloatArray:
 
 def points_of_polygon(corners: FloatArray, distance: float) -> FloatArray:
     """
-    Return (N, 3) points along the outline of a polygon.
+    Sample (N, 3) points along the outline of a polygon.
 
     Parameters
     ----------
     corners
         (M, 2) array in m.
     distance
-        Of two points, in m.
+        The spacing of the points, in m.
 
     """
     corners = corners[np.isfinite(corners).all(axis=1)]
@@ -170,7 +170,7 @@ def transformed(points: FloatArray, matrix: FloatArray) -> FloatArray:
     points
         Points (N, 3) in m.
     matrix
-        Rotation and translation (3, 4), from the frame of the points to the other one.
+        Rotation and translation (3, 4), from the frame of the points to the target frame.
 
     Returns
     -------

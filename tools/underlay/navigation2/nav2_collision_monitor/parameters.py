@@ -20,7 +20,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class CommonParameters:
-    """What both nodes are told."""
+    """Parameters that both nodes share."""
 
     base_frame_id: str = parameter('base_footprint', 'The frame of the robot.')
     odom_frame_id: str = parameter('odom', 'The frame in which the robot moves smoothly.')
@@ -39,7 +39,7 @@ class CommonParameters:
 
 @dataclass(frozen=True)
 class CollisionMonitorParameters(CommonParameters):
-    """What the collision monitor is told."""
+    """Parameters of the collision monitor."""
 
     cmd_vel_in_topic: str = parameter('cmd_vel_smoothed', 'Where commands come from.')
     cmd_vel_out_topic: str = parameter('cmd_vel', 'Where safe velocities go.')
@@ -54,14 +54,14 @@ class CollisionMonitorParameters(CommonParameters):
 
 @dataclass(frozen=True)
 class CollisionDetectorParameters(CommonParameters):
-    """What the collision detector is told."""
+    """Parameters of the collision detector."""
 
     frequency: float = parameter(10.0, 'States a second.', low=0.1, high=1000.0)
 
 
 @dataclass(frozen=True)
 class PolygonParameters:
-    """What is said of a zone, `<name>.*`."""
+    """Parameters of a zone, `<name>.*`."""
 
     kind: str = parameter(
         '', 'What shape it has.', choices=('polygon', 'circle', 'velocity_polygon'), name='type'
@@ -99,7 +99,7 @@ class PolygonParameters:
 
 @dataclass(frozen=True)
 class VelocityPolygonParameters:
-    """What is said of a polygon for a range of velocities, `<zone>.<name>.*`."""
+    """Parameters of a polygon for a range of velocities, `<zone>.<name>.*`."""
 
     points: str = parameter('', 'Its corners as "[[x, y], ...]" in m in the base frame.')
     linear_min: float = parameter(0.0, 'The least linear velocity (m/s).')
@@ -116,7 +116,7 @@ class VelocityPolygonParameters:
 
 @dataclass(frozen=True)
 class SourceParameters:
-    """What is said of a sensor, `<name>.*`."""
+    """Parameters of a sensor, `<name>.*`."""
 
     kind: str = parameter(
         '',

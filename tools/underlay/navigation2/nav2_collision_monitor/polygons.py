@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The zones of a node: their parameters, and their shapes that parameters or topics give."""
+"""The zones of a node: their parameters, and their shapes from parameters or topics."""
 
 from __future__ import annotations
 
@@ -47,17 +47,17 @@ _FIXED = {
     'visualize': 'visualize',
     'velocity_polygons': 'velocity_polygons',
 }
-"""The parameters that have effect when a node is configured, and their attributes."""
+"""Parameters that only take effect when a node is configured, and their attributes."""
 
 
 class MonitoredZone:
     """
-    A zone that parameters describe, and whose shape may come from a topic.
+    Zone that is defined by parameters; its shape may come from a topic.
 
     Parameters
     ----------
     node
-        The node that subscribes and publishes.
+        The node with the subscription and the publisher.
     name
         The name of the zone, the prefix of its parameters.
     common
@@ -93,22 +93,22 @@ class MonitoredZone:
 
     @property
     def is_enabled(self) -> bool:
-        """Whether the zone counts."""
+        """Whether the zone is enabled."""
         return self.parameters.current.enabled
 
     def zone(self, command: Velocity) -> Zone | None:
         """
-        Return the zone with the shape and the parameters that hold now.
+        Take a snapshot of the zone, with its current shape and parameters.
 
         Parameters
         ----------
         command
-            The commanded velocity in the base frame, which chooses among velocity polygons.
+            The commanded velocity in the base frame, which selects a velocity polygon.
 
         Returns
         -------
         Zone or None
-            None while its shape is not known.
+            None while its shape is unknown.
 
         """
         shape = self._shape_now(command)
@@ -128,7 +128,7 @@ class MonitoredZone:
         )
 
     def publish(self) -> None:
-        """Publish the shape, if that is wanted and anybody listens."""
+        """Publish the shape, if enabled and if there are subscribers."""
         if self._publisher is None or not self._publisher.get_subscription_count():
             return
         shape = self._shape_now(None)
@@ -140,11 +140,11 @@ class MonitoredZone:
             self._publisher.publish(message)
 
     def close(self) -> None:
-        """Let all parameters be changed, for when the node is configured again."""
+        """Unlock all parameters, for the next configuration."""
         self.parameters.on_change = None
 
     def _change(self, new: PolygonParameters) -> None:
-        """Take a changed shape over; ValueError for what cannot be changed now."""
+        """Apply a changed shape; raise ValueError for parameters that cannot be changed now."""
         old = self.parameters.current
         for name, attribute in _FIXED.items():
             if getattr(new, attribute) != getattr(old, attribute):
@@ -269,19 +269,19 @@ def make_zones(
     node: LifecycleNode, common: CommonParameters, allowed: tuple[str, ...]
 ) -> list[MonitoredZone]:
     """
-    Return the zones that the parameters of a node describe.
+    Make the zones that the parameters of a node define.
 
     Parameters
     ----------
     node, common
         The node and its parameters.
     allowed
-        The types of actions that its zones may have.
+        The allowed action types of its zones.
 
     Raises
     ------
     ConfigurationError
-        There is none, or something is wrong with one.
+        There is no zone, or a zone is misconfigured.
 
     """
     if not common.polygons:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shapes around the robot: which points are inside, in the robot's base frame."""
+"""Shapes around the robot, with point containment tests, in the base frame."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Circle:
 
     @property
     def reach_m(self) -> float:
-        """Return the greatest distance of its outline from the origin."""
+        """Return the maximum distance of the outline from the origin."""
         return self.radius_m
 
     @property
     def outline(self) -> FloatArray:
-        """Return a polygon that looks like it: (N, 2) array in m."""
+        """Return a polygon that approximates the circle: (N, 2) array in m."""
         angles = np.linspace(0.0, 2.0 * math.pi, _CIRCLE_CORNERS, endpoint=False)
         return self.radius_m * np.column_stack([np.cos(angles), np.sin(angles)])
 
@@ -47,7 +47,7 @@ class Circle:
         Returns
         -------
         numpy.ndarray
-            Which are inside, or on the outline (...).
+            Mask of the points inside or on the outline (...).
 
         """
         inside = np.einsum('...i,...i', points, points) <= self.radius_m**2
@@ -62,7 +62,7 @@ class Polygon:
 
     @property
     def reach_m(self) -> float:
-        """Return the greatest distance of its outline from the origin."""
+        """Return the maximum distance of the outline from the origin."""
         return float(np.hypot(self.corners[:, 0], self.corners[:, 1]).max())
 
     @property
@@ -75,7 +75,7 @@ class Polygon:
         Find the points inside.
 
         A point is inside if a ray from it along x crosses the outline an odd number of times
-        (Shimrat, Algorithm 112, 1962); points that are beyond the corners are not looked at.
+        (Shimrat, Algorithm 112, 1962); points outside of the bounding box are skipped.
 
         Parameters
         ----------
@@ -85,7 +85,7 @@ class Polygon:
         Returns
         -------
         numpy.ndarray
-            Which are inside (...).
+            Mask of the points inside (...).
 
         """
         flat = points.reshape(-1, 2)
@@ -107,7 +107,7 @@ Shape = Union[Circle, Polygon]
 
 def parse_points(text: str) -> FloatArray:
     """
-    Return the corners of a polygon that a parameter gives, as `[[0.3, 0.2], [0.3, -0.2], ...]`.
+    Parse the corners of a polygon from a parameter such as `[[0.3, 0.2], [0.3, -0.2], ...]`.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def parse_points(text: str) -> FloatArray:
     Raises
     ------
     ValueError
-        It is no such list; the text goes on after 'The points'.
+        It is not such a list; the text continues after 'The points'.
 
     """
     try:
@@ -136,7 +136,7 @@ def parse_points(text: str) -> FloatArray:
 
 def checked_corners(corners: FloatArray) -> FloatArray:
     """
-    Check that corners make a polygon.
+    Check that corners form a polygon.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def checked_corners(corners: FloatArray) -> FloatArray:
     Raises
     ------
     ValueError
-        There are fewer than three, or some are not finite; the text goes on after 'The points'.
+        There are fewer than three, or some are not finite; the text continues after 'The points'.
 
     """
     if len(corners) < 3:

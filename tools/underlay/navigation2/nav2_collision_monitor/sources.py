@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The sensors: what they measure, kept as points and moved to where the robot is now."""
+"""The sensors: their newest data as points, moved to the current frame of the robot."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ _MESSAGES = {
 
 
 class SourceInvalid(NavigationError):
-    """A sensor has no data that can be used now."""
+    """A sensor has no usable data."""
 
 
 @dataclass(frozen=True)
 class _Data:
-    """(N, 3) points in m in a frame, as they were at a time."""
+    """(N, 3) points in m, in a frame, with their time."""
 
     stamp: Time
     frame: str
@@ -49,7 +49,7 @@ class _Data:
 
 class Source:
     """
-    One sensor. A message is converted once; its points stay put in the odometry's frame.
+    Sensor source. A message is converted once; its points are fixed in the odometry frame.
 
     Parameters
     ----------
@@ -84,24 +84,24 @@ class Source:
 
     @property
     def is_enabled(self) -> bool:
-        """Whether the sensor counts."""
+        """Whether the sensor is enabled."""
         return self._told.current.enabled
 
     def points(self, now: Time, base_from_fixed: FloatArray) -> FloatArray:
         """
-        Return the (N, 2) points in m in the base frame of now.
+        Return the (N, 2) points in m in the current base frame.
 
         Parameters
         ----------
         now
             The time of the node's clock.
         base_from_fixed
-            (3, 4) matrix from the frame in which points stay put to the base frame.
+            (3, 4) matrix from the fixed frame of the points to the base frame.
 
         Raises
         ------
         SourceInvalid
-            There is no data, or it is too old, or nobody knows where it was measured.
+            There is no data, it is too old, or its transform is not available.
 
         """
         reason = self._locate(now)
@@ -130,7 +130,7 @@ class Source:
         return limit > 0.0 and abs((now - data.stamp).nanoseconds) * 1e-9 > limit
 
     def _receive(self, message: Any) -> None:
-        """Keep a message; it is converted when somebody wants the points."""
+        """Store a message; it is converted when its points are needed."""
         if self._node.is_active:
             is_polygon = isinstance(message, PolygonInstanceStamped)
             self._new[message.polygon.id if is_polygon else 0] = message
@@ -166,7 +166,7 @@ class Source:
         return points_of_polygon(corners, current.sampling_distance)
 
     def _locate(self, now: Time) -> str | None:
-        """Move new data to the frame in which it stays put; return why that cannot be."""
+        """Transform new data to the fixed frame; return the error message if impossible."""
         reason = None
         for key, data in list(self._new.items()):
             try:
@@ -195,7 +195,7 @@ class Source:
         return transformed(points, self._matrix(self._frame, data))
 
     def _matrix(self, target: str, data: _Data) -> FloatArray:
-        """Return the transform at the time of the data, or the newest if that is near."""
+        """Look up the transform at the time of the data, or the newest if its time is close."""
         buffer = self._node.transforms.buffer
         try:
             return matrix_of(buffer.lookup_transform(target, data.frame, data.stamp))
@@ -235,7 +235,7 @@ class Sources:
         self.all = [Source(node, name, common) for name in common.observation_sources]
 
     def points(self) -> tuple[dict[str, FloatArray], dict[str, str]]:
-        """Return the points of each sensor that is enabled, and why others have none."""
+        """Return the points of each enabled sensor, and the error messages of the others."""
         found: dict[str, FloatArray] = {}
         invalid: dict[str, str] = {}
         enabled = [source for source in self.all if source.is_enabled]
@@ -266,7 +266,7 @@ def matrix_of(transform: TransformStamped) -> FloatArray:
     Parameters
     ----------
     transform
-        As tf2 looks it up; its quaternion is taken for normalised.
+        As tf2 returns it; its quaternion is assumed to be normalised.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Zones that depend on the velocity: one polygon for each range of velocities."""
+"""Velocity polygons: zones with one polygon for each range of velocities."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['VelocityPolygon', 'choose']
 @dataclass(frozen=True)
 class VelocityPolygon:
     """
-    A polygon and the velocities for which it counts: m/s, rad/s, rad; limits are inclusive.
+    Polygon and its range of velocities: m/s, rad/s, rad; limits are inclusive.
 
     For robots that move sideways, `linear` is the speed and `direction` its direction in the base
     frame, from the start angle counter-clockwise to the end angle; else `linear` is that along x.
@@ -40,7 +40,8 @@ class VelocityPolygon:
         velocity
             The velocity in the base frame.
         is_holonomic
-            Whether the robot moves sideways, so that speed and direction count, and not x.
+            Whether the robot moves sideways, so that speed and direction are compared instead of
+            x.
 
         """
         linear = velocity.linear if is_holonomic else velocity.x
@@ -66,7 +67,7 @@ def choose(
     Parameters
     ----------
     polygons
-        The polygons of a zone, in their order.
+        The polygons of a zone, in order.
     velocity, is_holonomic
         As for `VelocityPolygon.covers`.
 

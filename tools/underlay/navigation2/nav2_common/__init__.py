@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What launch files of navigation have in common."""
+"""Utilities for the launch files of navigation."""

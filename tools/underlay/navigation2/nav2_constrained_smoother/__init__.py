@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The smoother for which parameter files name nav2_constrained_smoother."""
+"""The smoother plugin that parameter files name nav2_constrained_smoother."""
 
 from nav2_constrained_smoother.constrained_smoother import ConstrainedSmoother
 

@@ -23,7 +23,7 @@ _NO_OPTIMIZER = 'the path is smoothed by solving linear equations, not by an opt
 
 @dataclass(frozen=True)
 class ConstrainedSmootherParameters:
-    """The parameters that the smoother heeds."""
+    """The supported parameters of the smoother."""
 
     reversing_enabled: bool = parameter(True, 'Whether points where the path reverses stay.')
     keep_start_orientation: bool = parameter(True, 'Whether the first pose keeps its yaw.')
@@ -35,11 +35,11 @@ class ConstrainedSmootherParameters:
 
 class ConstrainedSmoother(Smoother):
     """
-    Rounds corners with about the turning radius, and keeps off obstacles.
+    Smoother that rounds corners to about the turning radius, and avoids obstacles.
 
-    Genuine Nav2 minimizes length, curvature and cost with the solver Ceres. Here the points are
-    balanced between straightness and nearness to the path, which takes a millisecond; the weights
-    of the optimizer have no effect.
+    Genuine Nav2 minimizes length, curvature and cost with the solver Ceres. Here straightness is
+    balanced against the deviation from the path, which takes a millisecond; the weights of the
+    optimizer have no effect.
 
     Parameters
     ----------

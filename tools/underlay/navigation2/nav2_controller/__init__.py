@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The controller server, and what its plugins are made of."""
+"""The controller server, and the interfaces of its plugins."""
 
 from nav2_controller.checkers import GoalChecker, ProgressChecker
 from nav2_controller.control import Command, Controller, ControlState, NoValidControl

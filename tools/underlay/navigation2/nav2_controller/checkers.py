@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the robot has reached its goal, and whether it still gets ahead."""
+"""Progress checkers and goal checkers."""
 
 from __future__ import annotations
 
@@ -86,14 +86,14 @@ class StoppedGoalParameters(SimpleGoalParameters):
 
 
 class ProgressChecker:
-    """The base of checkers of progress."""
+    """Base class of progress checkers."""
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the checker for a new goal."""
 
     def check(self, pose: Pose2D, now_s: float) -> bool:
         """
-        Whether the robot still makes progress.
+        Whether the robot is still making progress.
 
         Parameters
         ----------
@@ -106,13 +106,13 @@ class ProgressChecker:
         raise NotImplementedError
 
     def reason(self) -> str:
-        """Return how little the robot has moved, as a sentence."""
+        """Describe the lack of progress in a sentence."""
         return 'The robot does not get ahead.'
 
 
 class SimpleProgressChecker(ProgressChecker):
     """
-    Expects that the robot moves by a distance within a time.
+    Progress checker that requires a minimum translation within a time.
 
     Parameters
     ----------
@@ -128,12 +128,12 @@ class SimpleProgressChecker(ProgressChecker):
         self._start: tuple[Pose2D, float] | None = None
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the checker for a new goal."""
         self._start = None
 
     def check(self, pose: Pose2D, now_s: float) -> bool:
         """
-        Whether the robot has moved far enough within the time, or still has time to.
+        Whether the robot has moved far enough within the time, or the time is not over.
 
         Parameters
         ----------
@@ -147,7 +147,7 @@ class SimpleProgressChecker(ProgressChecker):
         return now_s - self._start[1] <= self._parameters.current.movement_time_allowance
 
     def reason(self) -> str:
-        """Return how little the robot has moved, as a sentence."""
+        """Describe the lack of progress in a sentence."""
         current = self._parameters.current
         return (
             f'The robot did not move by {current.required_movement_radius:g} m within '
@@ -159,7 +159,7 @@ class SimpleProgressChecker(ProgressChecker):
 
 
 class PoseProgressChecker(SimpleProgressChecker):
-    """Expects that the robot moves by a distance or turns by an angle within a time."""
+    """Progress checker that requires a minimum translation or rotation within a time."""
 
     kind = PoseProgressParameters
 
@@ -171,10 +171,10 @@ class PoseProgressChecker(SimpleProgressChecker):
 
 
 class GoalChecker:
-    """The base of checkers of the goal."""
+    """Base class of goal checkers."""
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the checker for a new goal."""
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
         """
@@ -191,13 +191,13 @@ class GoalChecker:
         raise NotImplementedError
 
     def tolerances(self) -> tuple[float, float]:
-        """Return how far from the goal in m, and from its orientation in rad, is near enough."""
+        """Return the goal tolerances of position in m and orientation in rad."""
         raise NotImplementedError
 
 
 class PositionGoalChecker(GoalChecker):
     """
-    Expects that the robot is near the goal, whatever its orientation.
+    Goal checker for the position only.
 
     Parameters
     ----------
@@ -214,12 +214,12 @@ class PositionGoalChecker(GoalChecker):
         self._is_there = False
 
     def reset(self) -> None:
-        """Start anew, with a new goal."""
+        """Reset the checker for a new goal."""
         self._is_there = False
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
         """
-        Whether the robot is near the goal, or was so before if the checker is stateful.
+        Whether the robot is within the position tolerance, or was so before if stateful.
 
         Parameters
         ----------
@@ -233,18 +233,18 @@ class PositionGoalChecker(GoalChecker):
         return self._is_there
 
     def tolerances(self) -> tuple[float, float]:
-        """Return how far in m and rad from the goal is near enough."""
+        """Return the goal tolerances of position in m and orientation in rad."""
         return self._parameters.current.xy_goal_tolerance, math.pi
 
 
 class SimpleGoalChecker(PositionGoalChecker):
-    """Expects that the robot is near the goal and has its orientation."""
+    """Goal checker for the position and orientation."""
 
     kind = SimpleGoalParameters
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
         """
-        Whether the robot is near the goal, and has its orientation.
+        Whether the robot is within the position and orientation tolerances.
 
         Parameters
         ----------
@@ -256,20 +256,20 @@ class SimpleGoalChecker(PositionGoalChecker):
         return super().is_reached(pose, goal, velocity) and turn <= self.tolerances()[1]
 
     def tolerances(self) -> tuple[float, float]:
-        """Return how far in m and rad from the goal is near enough."""
+        """Return the goal tolerances of position in m and orientation in rad."""
         current = self._parameters.current
         assert isinstance(current, SimpleGoalParameters)
         return current.xy_goal_tolerance, current.yaw_goal_tolerance
 
 
 class StoppedGoalChecker(SimpleGoalChecker):
-    """Expects that the robot stands at the goal."""
+    """Goal checker that also requires the robot to have stopped."""
 
     kind = StoppedGoalParameters
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
         """
-        Whether the robot is near the goal, has its orientation, and has stopped.
+        Whether the robot is within the position and orientation tolerances, and has stopped.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller is given in each period, what it returns, and how it refuses."""
+"""The interface of controllers: their state, command and base class."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ FloatArray = npt.NDArray[np.float64]
 
 
 class NoValidControl(NavigationError):
-    """A controller finds no velocity that is safe and follows the path; says why."""
+    """A controller finds no collision-free velocity along the path; the message states why."""
 
 
 class SpeedLimit(NamedTuple):
-    """The highest speed that is allowed: a part of the configured one, or m/s."""
+    """Speed limit: a fraction of the configured speed, or m/s."""
 
     value: float
     is_percentage: bool
 
     def ratio(self, configured_speed: float) -> float:
         """
-        Convert the limit to a part of a configured speed.
+        Convert the limit to a fraction of a configured speed.
 
         Parameters
         ----------
         configured_speed
-            The highest speed without the limit, in m/s.
+            The maximum speed without the limit, in m/s.
 
         Returns
         -------
@@ -60,33 +60,33 @@ class SpeedLimit(NamedTuple):
 
 @dataclass(frozen=True)
 class ControlState:
-    """What a controller knows in one period; all poses are in the frame of the costmap."""
+    """State of one control period; all poses are in the frame of the costmap."""
 
     pose: Pose2D
     velocity: Velocity
     plan: FloatArray
-    """(N, 3) poses of the path from the one nearest to the robot to the end of the costmap."""
+    """(N, 3) poses of the path from the one nearest to the robot to the edge of the costmap."""
     goal: Pose2D
     is_goal_in_plan: bool
     """Whether `plan` reaches the goal."""
     remaining_m: float
-    """The length of the path that is still to be followed."""
+    """The remaining length of the path."""
     xy_tolerance_m: float
-    """How near to the goal is near enough."""
+    """The position tolerance of the goal."""
     yaw_tolerance_rad: float
     surroundings: Surroundings
     now_s: float
-    """Time of the node's clock, for differences."""
+    """The time of the node's clock, for differences."""
     period_s: float
     """The duration of a control period."""
 
     @property
     def goal_distance_m(self) -> float:
-        """Return the distance to the goal in a straight line."""
+        """Return the straight-line distance to the goal."""
         return self.pose.distance_to(self.goal)
 
     def plan_in_base(self) -> FloatArray:
-        """Return the (N, 3) plan in the base frame."""
+        """Transform the (N, 3) plan to the base frame."""
         cos, sin = math.cos(self.pose.yaw), math.sin(self.pose.yaw)
         moved = self.plan - self.pose
         turned = np.array(moved)
@@ -97,10 +97,10 @@ class ControlState:
 
 @dataclass
 class Displays:
-    """What a controller wants to be seen, in the frame of the costmap; None: nothing."""
+    """What a controller displays, in the frame of the costmap; None: nothing."""
 
     local_plan: FloatArray | None = None
-    """(N, 3) poses that the robot is expected to pass."""
+    """(N, 3) predicted poses of the robot."""
     lookahead: tuple[float, float] | None = None
     curvature_lookahead: tuple[float, float] | None = None
     collision_arc: FloatArray | None = None
@@ -108,13 +108,13 @@ class Displays:
     motion_target: Pose2D | None = None
     slowdown_radius_m: float | None = None
     trajectories: FloatArray | None = None
-    """(K, T, 2) positions of candidates."""
+    """(K, T, 2) positions of candidate trajectories."""
     is_rotating: bool | None = None
 
 
 @dataclass(frozen=True)
 class Command:
-    """A velocity, and what leads to it."""
+    """A velocity command, and its displays."""
 
     velocity: Velocity
     displays: Displays = field(default_factory=Displays)
@@ -122,27 +122,27 @@ class Command:
 
 class Controller:
     """
-    The base of controllers: computes a velocity in each period.
+    Base class of controllers, which compute a velocity in each control period.
 
-    Subclasses override `compute`, and `new_plan` if they remember something. They are made with
-    `nav2_controller.plugins.PluginContext` and declare their parameters then.
+    Subclasses override `compute`, and `new_plan` if they are stateful. Their constructor accepts a
+    `nav2_controller.plugins.PluginContext` and declares their parameters.
     """
 
     speed_limit: SpeedLimit | None = None
-    """The limit that holds now; None: what is configured."""
+    """The current speed limit; None: no limit besides the configured speeds."""
     transform_tolerance_s: float = 0.0
-    """How old the pose of the robot may be, if that is more than the server allows."""
+    """The maximum age of the robot's pose, if larger than that of the server."""
     search_distance_m: float = math.inf
-    """How far along the path the pose nearest to the robot is searched."""
+    """The distance along the path within which the nearest pose is searched for."""
 
     def new_plan(self, *, is_new_goal: bool) -> None:
         """
-        Follow another path from now on.
+        Set a new path.
 
         Parameters
         ----------
         is_new_goal
-            Whether it leads elsewhere; otherwise it is a correction of the way.
+            Whether the path leads to another goal; otherwise it is a new path to the same one.
 
         """
 
@@ -158,14 +158,14 @@ class Controller:
         Raises
         ------
         NoValidControl
-            There is none.
+            There is no valid velocity.
 
         """
         raise NotImplementedError
 
     def cancel(self, state: ControlState) -> Command | None:
         """
-        Slow down after the goal was canceled; called in each period until it returns None.
+        Decelerate after the goal was canceled; called in each period until it returns None.
 
         Parameters
         ----------
@@ -182,12 +182,12 @@ class Controller:
 
     def limit_ratio(self, configured_speed: float) -> float:
         """
-        Return the part of a configured speed that the speed limit allows now, from 0 to 1.
+        Compute the fraction of a configured speed that the speed limit allows, from 0 to 1.
 
         Parameters
         ----------
         configured_speed
-            The highest speed without a limit, in m/s.
+            The maximum speed without a limit, in m/s.
 
         """
         return 1.0 if self.speed_limit is None else self.speed_limit.ratio(configured_speed)
@@ -202,12 +202,12 @@ def approach_angular_velocity(
     slowest: float = 0.0,
 ) -> float:
     """
-    Return the angular velocity for turning in place by an angle, such that it can stop there.
+    Compute the angular velocity for rotating in place, such that the robot can stop at the target.
 
     Parameters
     ----------
     angle_rad
-        What is left to turn.
+        The remaining angle.
     current, fastest, slowest
         The angular velocity now, and the limits of its magnitude, in rad/s.
     acceleration

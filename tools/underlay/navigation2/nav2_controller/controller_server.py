@@ -41,14 +41,14 @@ _DEFAULT_KINDS = {
 
 class ControllerServer(LifecycleNode):
     """
-    Follows paths with `follow_path`, by velocities on `cmd_vel`.
+    Controller server: follows the paths of `follow_path` by velocities on `cmd_vel`.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -67,7 +67,7 @@ class ControllerServer(LifecycleNode):
         self._velocities: TwistPublisher | None = None
 
     def configure(self) -> None:
-        """Make the plugins, and what the node publishes and listens to."""
+        """Create the plugins, publishers and subscriptions."""
         self.settings = self.parameters.declare(ServerParameters)
         self.parameters.declare_unsupported(UNSUPPORTED)
         current = self.settings.current
@@ -115,12 +115,12 @@ class ControllerServer(LifecycleNode):
         _require('local costmap', 'activated', self.costmap.trigger_activate())
 
     def deactivate(self) -> None:
-        """Stop the robot, and the local costmap."""
+        """Stop the robot, and deactivate the local costmap."""
         self.publish_velocity(Velocity())
         self.costmap.trigger_deactivate()
 
     def cleanup(self) -> None:
-        """Let go of the plugins, and clean up the costmap."""
+        """Release the plugins, and clean up the costmap."""
         self._velocities = None
         for made in (self.controllers, self.goal_checkers, self.progress_checkers):
             made.clear()
@@ -128,7 +128,7 @@ class ControllerServer(LifecycleNode):
 
     def publish_velocity(self, velocity: Velocity) -> None:
         """
-        Publish a velocity command on `cmd_vel`; nothing while the node is unconfigured.
+        Publish a velocity command on `cmd_vel`; do nothing while the node is unconfigured.
 
         Parameters
         ----------
@@ -140,7 +140,7 @@ class ControllerServer(LifecycleNode):
             self._velocities.publish(velocity)
 
     def _older_name(self, name: str, names: list[str]) -> list[str]:
-        """Return names of plugins; the one that an older parameter names if there is one."""
+        """Return plugin names, or the one from a deprecated parameter if that is set."""
         if name not in self._parameter_overrides:
             return names
         return [str(self.parameters.declare_value(name, names[0], 'The name of one checker.'))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What controllers show: published for those who listen, and not in each period."""
+"""Displays of controllers, rate-limited and published only to subscribers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PERIOD_S = 0.2
 
 class DisplayPublisher:
     """
-    Publishes paths, points and markers of controllers.
+    Publisher of the paths, points and markers of controllers.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class DisplayPublisher:
 
     def show_plan(self, path: Path) -> None:
         """
-        Publish a path as it came, on `received_global_plan`.
+        Publish a path as received, on `received_global_plan`.
 
         Parameters
         ----------
@@ -64,14 +64,14 @@ class DisplayPublisher:
 
     def show(self, state: ControlState, command: Command, frame: str) -> None:
         """
-        Publish what led to a command, at most five times a second.
+        Publish the displays of a command, at 5 Hz at most.
 
         Parameters
         ----------
         state
-            What the controller was given.
+            The state that the controller received.
         command
-            What it returned, with its displays.
+            The command that it returned, with its displays.
         frame
             The frame of the costmap, in which both are.
 
@@ -108,7 +108,7 @@ class DisplayPublisher:
         message = PointStamped()
         message.header.frame_id, message.header.stamp = self._frame, self._stamp
         message.point.x, message.point.y = float(point[0]), float(point[1])
-        # Above the ground, where no map hides it.
+        # Above the ground, so that no map hides it.
         message.point.z = 0.01
         return message
 

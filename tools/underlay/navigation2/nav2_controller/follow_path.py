@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One goal of follow_path after another: from a path to velocities, and why that may end."""
+"""Execution of follow_path goals: from a path to velocity commands, and why a goal is aborted."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _NO_POINTS = np.empty((0, 2))
 
 @dataclass
 class _Task:
-    """A path that is followed, and by what."""
+    """A path that is being followed, with its plugins."""
 
     tracker: PlanTracker
     frame: str
@@ -45,7 +45,7 @@ class _Task:
 
 
 class _NoVelocity(Exception):
-    """No velocity can be computed now: a code, and why."""
+    """No velocity can be computed now: the error code and the message."""
 
     def __init__(self, code: int, message: str) -> None:
         super().__init__(message)
@@ -54,12 +54,12 @@ class _NoVelocity(Exception):
 
 class PathFollower:
     """
-    Works on the goals of follow_path.
+    Executor of follow_path goals.
 
     Parameters
     ----------
     node
-        The controller server, configured: it has the plugins, the costmap and the publishers.
+        The configured controller server, which has the plugins, the costmap and the publishers.
 
     """
 
@@ -70,7 +70,7 @@ class PathFollower:
 
     async def work(self, goal: FollowPath.Goal) -> None:
         """
-        Follow a path, and each newer one, until the goal is reached.
+        Follow a path, and each path that preempts it, until the goal is reached.
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ class PathFollower:
         Raises
         ------
         ActionAborted
-            The goal is not valid, or the robot cannot reach it.
+            The goal is invalid, or the robot cannot reach it.
 
         """
         node, server = self._node, self._node.server
@@ -104,7 +104,7 @@ class PathFollower:
                 node.publish_velocity(Velocity())
 
     def _begin(self, goal: FollowPath.Goal) -> None:
-        """Check a goal and take its path; ActionAborted says why not."""
+        """Validate a goal and set its path; raise ActionAborted if it is invalid."""
         node, before = self._node, self._task
         names = (
             _chosen(node.controllers, goal.controller_id, 'controller', Code.INVALID_CONTROLLER),
@@ -159,7 +159,7 @@ class PathFollower:
         return False
 
     def _observe(self, task: _Task, now: float) -> ControlState:
-        """Return the state of the robot and of its path, in the frame of the costmap."""
+        """Observe the state of the robot and of its path, in the frame of the costmap."""
         node, costmap = self._node, self._node.costmap
         age = node.odometry.age_s
         if age is not None and age > _STALE_S:
@@ -217,7 +217,7 @@ class PathFollower:
             raise _NoVelocity(Code.CONTROLLER_TIMED_OUT, 'The local costmap is not up to date.')
 
     def _fail(self, error: Exception, now: float) -> None:
-        """Stand still; end the goal if that has lasted too long."""
+        """Stop the robot; abort the goal if failures have lasted too long."""
         node, tolerance = self._node, self._node.settings.current.failure_tolerance
         node.publish_velocity(Velocity())
         code = error.code if isinstance(error, _NoVelocity) else Code.NO_VALID_CONTROL
@@ -245,7 +245,7 @@ class PathFollower:
         )
 
     def _slowed_down(self) -> Command | None:
-        """Return how to slow down after the goal was canceled; None to stop at once."""
+        """Compute the decelerating command after a cancel request; None to stop immediately."""
         if self._task is None:
             return None
         try:
@@ -256,7 +256,7 @@ class PathFollower:
 
 
 def _chosen(known: dict[str, PluginT], name: str, what: str, code: int) -> str:
-    """Return the name of a plugin; the only one if none is named."""
+    """Resolve the name of a plugin; the only one if none is specified."""
     if not name and len(known) == 1:
         return next(iter(known))
     if name in known:
@@ -269,7 +269,7 @@ def _chosen(known: dict[str, PluginT], name: str, what: str, code: int) -> str:
 
 
 def _checked_path(path: Any) -> tuple[Any, str]:
-    """Return the (N, 3) poses of a path and their frame."""
+    """Validate a path; return its (N, 3) poses and their frame."""
     if not path.poses:
         raise ActionAborted(Code.INVALID_PATH, 'The path is empty. Has the planner found none?')
     frame = path.header.frame_id or path.poses[0].header.frame_id

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How fast the robot is, by the mean of the newest odometry."""
+"""Velocity of the robot, as the mean of recent odometry."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ __all__ = ['OdometryMonitor']
 
 class OdometryMonitor:
     """
-    Keeps the newest velocities.
+    Moving average of the velocities from odometry.
 
     Parameters
     ----------
     node
         The node that subscribes.
     topic
-        Where Odometry comes from.
+        The topic of the odometry.
     duration_s
-        Over what time velocities are averaged.
+        The averaging window.
     now_s
-        Returns the time in s.
+        Function that returns the time in s.
 
     """
 
@@ -40,7 +40,7 @@ class OdometryMonitor:
 
     def velocity(self, thresholds: Velocity = Velocity()) -> Velocity:
         """
-        Return the mean velocity over the duration; 0 if none is known.
+        Compute the mean velocity over the window; 0 if none is known.
 
         Parameters
         ----------
@@ -61,7 +61,7 @@ class OdometryMonitor:
 
     @property
     def age_s(self) -> float | None:
-        """Return the time in s since the newest one came; None if none ever came."""
+        """Return the time in s since the newest message; None before the first."""
         return self._now_s() - self._found[-1][0] if self._found else None
 
     def _receive(self, _: float, velocity: tuple[float, float, float]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of the controller server, beside those of its plugins."""
+"""The parameters of the controller server, besides those of its plugins."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which plugins there are, by their official names, and what they are made with."""
+"""Registry of the plugins by their official names, and the context that they are made with."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ GOAL_CHECKERS = {
 
 
 class ParameterSource(Protocol):
-    """Declares parameters; `nav2_util.parameters.ParameterServer` is one."""
+    """Interface that declares parameters; `nav2_util.parameters.ParameterServer` implements it."""
 
     def declare(self, kind: type[KindT], prefix: str = '') -> ParameterSet[KindT]:
         """
@@ -56,12 +56,12 @@ class ParameterSource(Protocol):
         kind
             A frozen dataclass with fields made by `nav2_util.parameters.parameter`.
         prefix
-            What stands before their names and a dot.
+            The prefix of their names, without the dot.
 
         Returns
         -------
         ParameterSet
-            Their values, which follow later changes.
+            Their values, updated by later changes.
 
         """
 
@@ -74,83 +74,83 @@ class ParameterSource(Protocol):
         name
             Its full name.
         default
-            Its value if nobody sets it, which is also its type.
+            Its value if it is not set, which also gives its type.
         description
-            What it does, with the unit.
+            Its purpose, with the unit.
 
         """
 
     def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
         """
-        Name parameters that have no effect, for a warning if they are set.
+        Declare unsupported parameters, to warn if they are set.
 
         Parameters
         ----------
         names
-            Their names, and what happens instead, as the rest of a sentence.
+            Their names, and what happens instead, as the end of a sentence.
         prefix
-            What stands before their names and a dot.
+            The prefix of their names, without the dot.
 
         """
 
 
 @dataclass(frozen=True)
 class PluginContext:
-    """What a plugin is made with: its name, its parameters, and what it has to fit."""
+    """Context of a plugin: its name, its parameters, and properties of its server."""
 
     source: ParameterSource
     name: str
     """The prefix of its parameters, such as FollowPath."""
     period_s: float = 0.05
-    """The period in which it is called."""
+    """The control period."""
     costmap_extent_m: float = 1.5
-    """Half of the larger side of the local costmap."""
+    """Half of the longer side of the local costmap."""
 
     def declare(self, kind: type[KindT], below: str = '') -> ParameterSet[KindT]:
         """
-        Declare the parameters of a dataclass, below the name of the plugin.
+        Declare the parameters of a dataclass, with the name of the plugin as prefix.
 
         Parameters
         ----------
         kind
             A frozen dataclass with fields made by `nav2_util.parameters.parameter`.
         below
-            A further prefix between the name of the plugin and those of the parameters.
+            A second prefix, after the name of the plugin.
 
         Returns
         -------
         ParameterSet
-            Their values, which follow later changes.
+            Their values, updated by later changes.
 
         """
         return self.source.declare(kind, self._prefix(below))
 
     def value(self, name: str, default: Any, description: str) -> Any:
         """
-        Declare a single parameter below the name of the plugin; return its value.
+        Declare a single parameter, with the name of the plugin as prefix; return its value.
 
         Parameters
         ----------
         name
-            Its name below that of the plugin.
+            Its name without the prefix.
         default
-            Its value if nobody sets it, which is also its type.
+            Its value if it is not set, which also gives its type.
         description
-            What it does, with the unit.
+            Its purpose, with the unit.
 
         """
         return self.source.declare_value(f'{self.name}.{name}', default, description)
 
     def unsupported(self, names: Mapping[str, str], below: str = '') -> None:
         """
-        Name parameters of the plugin that have no effect, for a warning if they are set.
+        Declare unsupported parameters of the plugin, to warn if they are set.
 
         Parameters
         ----------
         names
-            Their names, and what happens instead, as the rest of a sentence.
+            Their names, and what happens instead, as the end of a sentence.
         below
-            A further prefix between the name of the plugin and those of the parameters.
+            A second prefix, after the name of the plugin.
 
         """
         self.source.declare_unsupported(names, self._prefix(below))
@@ -173,7 +173,7 @@ class PluginContext:
         Parameters
         ----------
         default_s
-            Its value if nobody sets it.
+            Its value if it is not set.
 
         """
         return float(
@@ -186,7 +186,7 @@ class PluginContext:
 
     def named(self, name: str) -> PluginContext:
         """
-        Return the same context for a plugin of another name.
+        Copy the context for a plugin of another name.
 
         Parameters
         ----------

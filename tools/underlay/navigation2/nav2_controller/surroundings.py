@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a robot of some shape collides in a costmap, for many poses at once."""
+"""Collision checks of a robot footprint in a costmap, for many poses at once."""
 
 from __future__ import annotations
 
@@ -20,16 +20,17 @@ BoolArray = npt.NDArray[np.bool_]
 
 class Surroundings:
     """
-    The costmap around a robot, and the robot's shape.
+    Collision checker with the costmap around a robot, and its footprint.
 
     Parameters
     ----------
     grid
-        Costs, in the frame of the poses that are asked for.
+        The costmap, in the frame of the poses to check.
     footprint
-        (N, 2) corners in m in the base frame; empty for a circular robot, whose centre counts.
+        (N, 2) corners in m in the base frame; empty for a circular robot, of which the centre is
+        checked.
     inscribed_radius_m
-        The radius of a circular robot, or of the largest circle in the footprint.
+        The radius of a circular robot, or the inscribed radius of the footprint.
 
     """
 
@@ -40,12 +41,12 @@ class Surroundings:
 
     @property
     def is_circular(self) -> bool:
-        """Whether only the cost at the centre of the robot counts."""
+        """Whether only the cost at the centre of the robot is checked."""
         return not len(self.footprint)
 
     @cached_property
     def clearance(self) -> npt.NDArray[np.float32]:
-        """Distance in m from each cell to the nearest obstacle cell, of the shape of the grid."""
+        """Distance in m from each cell to the nearest obstacle cell, in the shape of the grid."""
         free = (self.grid.cells != LETHAL_OBSTACLE).astype(np.uint8)
         if free.all():
             return np.full(free.shape, 1e3, np.float32)
@@ -54,7 +55,7 @@ class Surroundings:
 
     def collisions(self, poses: FloatArray) -> BoolArray:
         """
-        Find the poses at which the robot hits an obstacle; outside of the costmap it hits none.
+        Find the poses at which the robot is in collision; off the costmap it never is.
 
         Parameters
         ----------
@@ -76,11 +77,11 @@ class Surroundings:
         return hits
 
     def _outline_collisions(self, poses: FloatArray, asked: BoolArray) -> BoolArray:
-        """Check outlines, but only of poses so near to an obstacle that they may touch it."""
+        """Check the outlines at poses close enough to an obstacle for a collision."""
         reach = float(np.hypot(*self.footprint.T).max()) + 1.5 * self.grid.resolution
         cells = self.grid.world_to_map_array(poses[:, :2])
         size = np.array([self.grid.size_x, self.grid.size_y])
-        # The outline of a robot whose centre is outside may touch what is inside.
+        # The outline of a robot whose centre is off the costmap may reach into it.
         inside = ((cells >= 0) & (cells < size)).all(axis=1)
         clear = np.zeros(len(poses), bool)
         columns, rows = cells[inside].T

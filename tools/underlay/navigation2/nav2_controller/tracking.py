@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where on its path the robot is, and which part of the path the controller sees."""
+"""Path tracking: progress along the path, and the part of it that the controller sees."""
 
 from __future__ import annotations
 
@@ -40,18 +40,18 @@ def path_lengths(poses: FloatArray) -> FloatArray:
 
 def densified(poses: FloatArray, spacing_m: float = _SPACING_M) -> FloatArray:
     """
-    Insert poses into a sparse path, by linear interpolation.
+    Densify a sparse path by linear interpolation.
 
     Parameters
     ----------
     poses
         (N, 3) array of x, y (m) and yaw (rad).
     spacing_m
-        No two neighbours are farther apart afterwards.
+        The maximum distance of neighbours afterwards.
 
     Returns
     -------
-    (M, 3) poses, which contain the given ones.
+    (M, 3) poses, which include the given ones.
 
     """
     if len(poses) < 2:
@@ -93,7 +93,7 @@ def transform_poses(poses: FloatArray, frame: Pose2D) -> FloatArray:
 
 class PlanTracker:
     """
-    A path, and how far the robot has come on it.
+    Tracker of the robot's progress along a path.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class PlanTracker:
         self.poses = densified(poses)
         self.lengths = path_lengths(self.poses)
         self.index = 0
-        """The pose nearest to the robot."""
+        """The index of the pose nearest to the robot."""
 
     @property
     def goal(self) -> Pose2D:
@@ -115,19 +115,19 @@ class PlanTracker:
 
     @property
     def remaining_m(self) -> float:
-        """Return the length of the path from the nearest pose on."""
+        """Return the remaining length of the path from the nearest pose on."""
         return float(self.lengths[-1] - self.lengths[self.index])
 
     def advance(self, position: Pose2D, search_m: float = math.inf) -> None:
         """
-        Find the pose nearest to the robot, from the last one found on.
+        Find the pose nearest to the robot, starting from the last one found.
 
         Parameters
         ----------
         position
             The robot in the frame of the path.
         search_m
-            How far along the path is searched; less than a loop of it.
+            The search distance along the path; shorter than any loop of it.
 
         """
         end = len(self.poses)
@@ -139,7 +139,7 @@ class PlanTracker:
 
     def visible(self, frame: Pose2D, grid: Costmap2D) -> tuple[FloatArray, bool]:
         """
-        Return the path from the nearest pose to where it leaves the costmap.
+        Get the path from the nearest pose to where it leaves the costmap.
 
         Parameters
         ----------
@@ -150,7 +150,8 @@ class PlanTracker:
 
         Returns
         -------
-        (N, 3) poses in the frame of the costmap, at least one, and whether the goal is the last.
+        (N, 3) poses in the frame of the costmap, at least one, and whether the last one is the
+        goal.
 
         """
         reach = self.lengths[self.index] + 2.0 * max(grid.size_x_m, grid.size_y_m)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Costmaps: grids that say how much it costs to be where, made of layers."""
+"""Costmaps: layered grids of the cost of positions."""
 
 from nav2_costmap_2d.costmap_node import Costmap2DROS, make_costmap
 from nav2_costmap_2d.footprint import Footprint, FootprintCollisionChecker, is_collision

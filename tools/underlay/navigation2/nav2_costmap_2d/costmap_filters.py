@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Costmap filters: areas of a map in which the robot is not to be, is to be slow, and so on."""
+"""Costmap filters: keepout zones, speed limits and other areas of a filter mask."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class BinaryParameters(FilterParameters):
 
 class CostmapFilter(Layer):
     """
-    Receives a mask, and what it means; the base of the filters.
+    Base class of the filters, which receives a filter mask and its info.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ class CostmapFilter(Layer):
 
     parameters_kind: Any = FilterParameters
     types: tuple[int, ...] = ()
-    """The types of CostmapFilterInfo for which the filter is."""
+    """The types of CostmapFilterInfo that the filter accepts."""
 
     def __init__(self, node: Costmap2DROS, name: str) -> None:
         super().__init__(name)
@@ -110,7 +110,7 @@ class CostmapFilter(Layer):
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the filter is enabled."""
         return self._is_enabled
 
     def _take_info(self, info: CostmapFilterInfo) -> None:
@@ -163,7 +163,7 @@ class CostmapFilter(Layer):
         return response
 
     def _pose_in_mask(self) -> Pose2D | None:
-        """Return where the frame of the costmap is in that of the mask, if that is known."""
+        """Look up the frame of the costmap in that of the mask; None if unavailable."""
         if self._mask_frame in ('', self._node.global_frame):
             return Pose2D(0.0, 0.0, 0.0)
         try:
@@ -175,7 +175,7 @@ class CostmapFilter(Layer):
             return None
 
     def _mask_at(self, robot: Pose2D | None) -> int | None:
-        """Return the mask at the robot, 0 outside of it; None if that is not known."""
+        """Look up the mask at the robot, 0 outside of it; None if unavailable."""
         if robot is None or self._mask is None:
             return None
         pose = self._pose_in_mask()
@@ -187,7 +187,7 @@ class CostmapFilter(Layer):
         return None if value == _UNKNOWN else value
 
     def _meaning(self, value: int) -> float:
-        """Return what a value of the mask means."""
+        """Convert a mask value by the base and multiplier of the filter info."""
         if self._info is None:
             return 0.0
         return float(self._info.base + self._info.multiplier * value)
@@ -195,7 +195,7 @@ class CostmapFilter(Layer):
 
 class KeepoutFilter(CostmapFilter):
     """
-    Makes areas obstacles, or more or less expensive.
+    Keepout filter: marks areas as obstacles, or changes their cost.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ class KeepoutFilter(CostmapFilter):
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
         """
-        Find out whether the mask has moved, or what the robot may do in it has changed.
+        Check whether the mask has moved, or the exemption of a trapped robot has changed.
 
         Parameters
         ----------
@@ -267,7 +267,7 @@ class KeepoutFilter(CostmapFilter):
         write_maximum(grid.cells[region.slices], costs)
 
     def _trapped(self, grid: Costmap2D, robot: Pose2D | None) -> Pose2D | None:
-        """Return the pose of a robot that is in a keepout area and may leave it."""
+        """Return the pose of a robot that is trapped in a keepout zone and may leave it."""
         if not self._settings.current.override_lethal_cost or robot is None:
             return None
         if self._mask is None or self._pose is None:
@@ -279,7 +279,7 @@ class KeepoutFilter(CostmapFilter):
 
 class SpeedFilter(CostmapFilter):
     """
-    Publishes how fast the robot may be where it is.
+    Speed filter: publishes the speed limit at the robot's position.
 
     Parameters
     ----------
@@ -321,7 +321,7 @@ class SpeedFilter(CostmapFilter):
         if value is None or self._info is None:
             return None
         is_percentage = self._info.type == _SPEED_PERCENTAGE
-        # 0 says that there is no limit, in a mask and in the message.
+        # 0 means no limit, in a mask and in the message.
         limit = self._meaning(value) if value else 0.0
         if value and not 0.0 < limit <= (100.0 if is_percentage else math.inf):
             self._node.get_logger().warning(
@@ -341,7 +341,7 @@ class SpeedFilter(CostmapFilter):
 
 class BinaryFilter(CostmapFilter):
     """
-    Publishes whether the robot is in an area.
+    Binary filter: publishes whether the robot is in an area.
 
     Parameters
     ----------

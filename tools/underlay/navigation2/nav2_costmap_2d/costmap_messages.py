@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Costmaps as messages."""
+"""Convert costmaps to messages and back."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def make_grid(grid: Costmap2D, frame: str, stamp: Time, height_m: float = 0.0) -
     frame, stamp
         The header; the stamp is also the time of the map.
     height_m
-        The z of its origin, so that displays show it above other things.
+        The z of its origin, so that displays show it above other objects.
 
     """
     message = OccupancyGrid()
@@ -79,7 +79,7 @@ def make_costmap_message(
     grid: Costmap2D, frame: str, stamp: Time, layer: str = 'master'
 ) -> Costmap:
     """
-    Convert a costmap, or a layer of one, to a message with its costs as they are.
+    Convert a costmap, or one of its layers, to a message with raw costs.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def make_costmap_message(
 
 def make_costmap_update(grid: Costmap2D, region: Region, frame: str, stamp: Time) -> CostmapUpdate:
     """
-    Convert a region of a costmap to an update with its costs as they are.
+    Convert a region of a costmap to an update with raw costs.
 
     Parameters
     ----------
@@ -131,12 +131,12 @@ def costmap_from(message: Costmap) -> Costmap2D:
     Parameters
     ----------
     message
-        The whole costmap, and not an update.
+        The whole costmap, not an update.
 
     Raises
     ------
     ValueError
-        It has not as many cells as it says.
+        Its number of cells does not match its size.
 
     """
     data = message.metadata
@@ -149,7 +149,7 @@ def costmap_from(message: Costmap) -> Costmap2D:
     return Costmap2D(
         data.size_x,
         data.size_y,
-        # The message has it in single precision.
+        # The message has single precision.
         round(float(data.resolution), 7),
         data.origin.position.x,
         data.origin.position.y,
@@ -177,7 +177,7 @@ def corners_of(polygon: Polygon) -> FloatArray:
     Parameters
     ----------
     polygon
-        The message; z does not count.
+        The message; z is ignored.
 
     Returns
     -------

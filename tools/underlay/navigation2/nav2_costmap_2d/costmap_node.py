@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node of a costmap, alone or as part of a planner or controller server."""
+"""The node of a costmap, standalone or owned by a planner or controller server."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ __all__ = ['Costmap2DROS', 'make_costmap']
 
 class Costmap2DROS(LifecycleNode):
     """
-    Keeps a costmap up to date from a map and from sensors, and publishes it.
+    Costmap node: updates a costmap from a map and sensors, and publishes it.
 
     Parameters
     ----------
     node_name
-        Its name, which the services have in theirs, too.
+        Its name, which is also part of the service names.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
     def __init__(self, node_name: str = 'costmap', **options: Any) -> None:
         super().__init__(node_name, **options)
         self.is_current = False
-        """Whether all layers have what they need, and the robot's pose is known."""
+        """Whether all layers have current data, and the robot's pose is available."""
         self._settings = ParameterSet(CostmapParameters())
         self._robot = Robot(self, self._take_shape)
         self._costmap = LayeredCostmap(Costmap2D(0, 0, 0.1, 0.0, 0.0), FREE_SPACE, False)
@@ -59,12 +59,12 @@ class Costmap2DROS(LifecycleNode):
 
     @property
     def settings(self) -> CostmapParameters:
-        """Return the newest parameters."""
+        """Return the current parameters."""
         return self._settings.current
 
     @property
     def grid(self) -> Costmap2D:
-        """Return the newest costmap: replaced as a whole, and never changed."""
+        """Return the newest costmap: replaced as a whole, never modified."""
         return self._costmap.grid
 
     @property
@@ -84,7 +84,7 @@ class Costmap2DROS(LifecycleNode):
 
     @property
     def tracks_unknown(self) -> bool:
-        """Whether what nobody has seen is unknown; otherwise it is free."""
+        """Whether unobserved cells are unknown; otherwise they are free."""
         return self.settings.track_unknown_space
 
     @property
@@ -94,17 +94,17 @@ class Costmap2DROS(LifecycleNode):
 
     @property
     def footprint(self) -> FloatArray:
-        """Return the (N, 2) corners of the robot in its frame, with padding, in m."""
+        """Return the (N, 2) padded footprint of the robot in its frame, in m."""
         return self.shape.points
 
     @property
     def radius(self) -> float:
-        """Return the radius in m of a circle around the whole robot."""
+        """Return the circumscribed radius of the robot in m."""
         return self.shape.circumscribed_radius_m
 
     @property
     def is_circular(self) -> bool:
-        """Whether the robot is a circle, so that the cost at its centre tells all."""
+        """Whether the robot is circular, so that the cost at its centre suffices."""
         return self.shape.is_circular
 
     @property
@@ -114,12 +114,12 @@ class Costmap2DROS(LifecycleNode):
 
     def robot_pose(self) -> Pose2D:
         """
-        Return where the robot is in `global_frame`.
+        Look up the pose of the robot in `global_frame`.
 
         Raises
         ------
         TransformError
-            It is not known, or older than `transform_tolerance`.
+            It is not available, or older than `transform_tolerance`.
 
         """
         return self.transforms.pose_of(
@@ -127,17 +127,17 @@ class Costmap2DROS(LifecycleNode):
         )
 
     def checker(self) -> FootprintCollisionChecker:
-        """Return what finds collisions with the newest costmap."""
+        """Make a collision checker for the newest costmap."""
         return FootprintCollisionChecker(self.grid)
 
     def resolve_beside(self, topic: str) -> str:
         """
-        Resolve the name of a topic in the parent of the costmap's namespace.
+        Resolve a topic name in the parent of the costmap's namespace.
 
         Parameters
         ----------
         topic
-            Its name; one that begins with `/` or `~` stays as it is.
+            Its name; one that starts with `/` or `~` is unchanged.
 
         """
         if topic.startswith(('/', '~')):
@@ -145,7 +145,7 @@ class Costmap2DROS(LifecycleNode):
         return f'{self.get_namespace().rpartition("/")[0]}/{topic}'
 
     def update(self) -> None:
-        """Bring the costmap up to date now."""
+        """Update the costmap now."""
         robot = self._robot.find()
         region = self._costmap.update(robot)
         self.is_current = robot is not None and all(
@@ -157,21 +157,21 @@ class Costmap2DROS(LifecycleNode):
                 self._publisher.publish_footprint(robot)
 
     def touch(self) -> None:
-        """Make the whole costmap anew in the next update."""
+        """Mark the whole costmap for the next update."""
         self._costmap.touch()
 
     def clear(
         self, region_of: Callable[[Costmap2D], Region] | None, *, is_inverted: bool = False
     ) -> None:
         """
-        Forget what sensors have seen.
+        Clear the data of sensors.
 
         Parameters
         ----------
         region_of
-            Returns the region of a costmap; None for everything.
+            Function that returns the region of a costmap; None for everything.
         is_inverted
-            Whether all but the region is forgotten.
+            Whether to clear everything except for the region.
 
         """
         self._costmap.clear(region_of, is_inverted)
@@ -179,12 +179,12 @@ class Costmap2DROS(LifecycleNode):
 
     def take_map_size(self, layer: Layer, grid: Costmap2D) -> None:
         """
-        Resize the costmap to a map, unless it follows the robot or another map.
+        Resize the costmap to a map, unless it is rolling or sized by another map.
 
         Parameters
         ----------
         layer
-            The layer that has received the map; the first one to call it keeps the right to.
+            The layer that has received the map; only the first caller may resize.
         grid
             The map, whose size, resolution and origin the costmap gets.
 
@@ -196,7 +196,7 @@ class Costmap2DROS(LifecycleNode):
         self._resize(grid.with_cells(np.full_like(grid.cells, default)))
 
     def configure(self) -> None:
-        """Read the parameters, and make the layers."""
+        """Read the parameters, and create the layers."""
         self._settings = self.parameters.declare(CostmapParameters)
         self._settings.on_change = self._change
         self.parameters.declare_unsupported(UNSUPPORTED)
@@ -214,7 +214,7 @@ class Costmap2DROS(LifecycleNode):
         self._robot.listen()
 
     def activate(self) -> None:
-        """Begin to update the costmap."""
+        """Start updating the costmap."""
         self._robot.await_pose()
         if self.settings.update_frequency > 0.0:
             period_s = 1.0 / self.settings.update_frequency
@@ -222,14 +222,14 @@ class Costmap2DROS(LifecycleNode):
         self._update_and_publish()
 
     def deactivate(self) -> None:
-        """Stop to update the costmap."""
+        """Stop updating the costmap."""
         self.is_current = False
         if self._timer is not None:
             self.destroy_timer(self._timer)
             self._timer = None
 
     def cleanup(self) -> None:
-        """Forget the layers."""
+        """Release the layers."""
         self._costmap = LayeredCostmap(Costmap2D(0, 0, 0.1, 0.0, 0.0), FREE_SPACE, False)
         self._publisher = self._sized_by = None
         self.is_current = False
@@ -242,14 +242,14 @@ class Costmap2DROS(LifecycleNode):
         self.update()
         now, frequency = now_s(self), self.settings.publish_frequency
         since_s = now - self._published_s
-        # The clock of timers is not exact, and simulated time may jump back.
+        # Timers are not exact, and simulated time may jump back.
         is_due = frequency > 0.0 and (since_s < 0.0 or since_s >= 0.99 / frequency)
         if self._publisher is not None and is_due:
             self._published_s = now
             self._publisher.publish(self.grid)
 
     def _resize(self, grid: Costmap2D) -> None:
-        """Take another size, and fill the costmap at once: nobody is to take it for free."""
+        """Resize the costmap, and update it immediately: it must not be taken for free space."""
         self._costmap.resize(grid)
         self.is_current = False
         if self.is_active:
@@ -261,7 +261,7 @@ class Costmap2DROS(LifecycleNode):
         self.touch()
 
     def _change(self, new: CostmapParameters) -> None:
-        """Take parameters that were set while the node runs; ValueError says why not."""
+        """Apply parameters set at run time; raise ValueError to reject them."""
         old = self.settings
         try:
             footprint = footprint_of(new)
@@ -285,8 +285,8 @@ def make_costmap(owner: LifecycleNode, name: str) -> Costmap2DROS:
     Make the costmap of a server: the node `<namespace of the server>/<name>/<name>`.
 
     Its parameters come from the files with which the process or the server was started, below
-    `<name>/<name>`, and from parameters `<name>.<name>.<parameter>` of the server. Whoever runs
-    the server runs it, too; the server configures, activates, deactivates and cleans it up with
+    `<name>/<name>`, and from parameters `<name>.<name>.<parameter>` of the server. It is spun
+    together with the server, which configures, activates, deactivates and cleans it up with
     `trigger_configure` and so on.
 
     Parameters
@@ -317,7 +317,7 @@ def make_costmap(owner: LifecycleNode, name: str) -> Costmap2DROS:
 
 
 def _shared_words(words: list[str]) -> list[str]:
-    """Return which arguments of a server hold for its costmap: parameter files, renamed topics."""
+    """Select the arguments of a server for its costmap: parameter files, topic remappings."""
     shared: list[str] = []
     for flag, value in zip(words, words[1:]):
         is_file = flag == '--params-file'
@@ -328,7 +328,7 @@ def _shared_words(words: list[str]) -> list[str]:
 
 
 def _taken_overrides(owner: LifecycleNode, name: str) -> list[Parameter]:
-    """Take away from a server, and return, the parameters that are meant for its costmap."""
+    """Move the parameter overrides that are meant for the costmap out of those of its server."""
     given = owner._parameter_overrides
     taken = []
     for full in [each for each in given if each.startswith(f'{name}.{name}.')]:

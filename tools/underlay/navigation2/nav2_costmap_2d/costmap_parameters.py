@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of a costmap's node."""
+"""The parameters of the costmap node."""
 
 from __future__ import annotations
 
@@ -84,17 +84,17 @@ class CostmapParameters:
 
 def footprint_of(values: CostmapParameters) -> Footprint:
     """
-    Return the shape of the robot that parameters describe.
+    Make the footprint of the robot from parameters.
 
     Parameters
     ----------
     values
-        The parameters; the radius counts if there are no corners.
+        The parameters; the radius is used if there are no corners.
 
     Raises
     ------
     ConfigurationError
-        The parameter `footprint` is no list of corners.
+        The parameter `footprint` is not a list of corners.
 
     """
     try:
@@ -108,14 +108,14 @@ def footprint_of(values: CostmapParameters) -> Footprint:
 
 def grid_of(values: CostmapParameters, default_cost: int) -> Costmap2D:
     """
-    Make the grid that parameters describe.
+    Make the grid from parameters.
 
     Parameters
     ----------
     values
         The parameters: size, resolution and origin.
     default_cost
-        What all cells cost.
+        The cost of all cells.
 
     """
     return Costmap2D(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publishes a costmap: the whole to newcomers and when it moves, else what has changed."""
+"""Costmap publisher: the whole map to new subscribers and when it moves, else updates."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ __all__ = ['CostmapPublisher']
 
 
 class _Topic:
-    """A topic of a costmap, and perhaps one of its updates."""
+    """Topic of a costmap, with its topic of updates if it has one."""
 
     def __init__(
         self,
@@ -58,7 +58,7 @@ class _Topic:
     def publish(
         self, find: Callable[[], Costmap2D | None], region: Region | None, is_whole: bool
     ) -> None:
-        """Publish what those who listen do not know of the costmap that is found."""
+        """Publish the costmap or an update to the subscribers."""
         if self._has_newcomers or (region is not None and (is_whole or self._updates is None)):
             if self._publisher.get_subscription_count() and (grid := find()) is not None:
                 self._publisher.publish(self._make(grid))
@@ -69,13 +69,13 @@ class _Topic:
                 self._updates.publish(self._make_update(grid, region))
 
     def _greet(self, status: Any) -> None:
-        """Take note of who has begun to listen: the last message is old for them."""
+        """Detect new subscribers, whose latched message is outdated."""
         self._has_newcomers |= status.total_count_change > 0
 
 
 class CostmapPublisher:
     """
-    Publishes a costmap and its layers to those who listen; of layers always the whole.
+    Publisher of a costmap and of its layers to subscribers; layers are never sent as updates.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ class CostmapPublisher:
         self._place: tuple[Any, ...] = ()
 
     def _make_topics(self, topic: str, layer: str, kinds: tuple[Any, Any]) -> list[_Topic]:
-        """Return the topics with costs from 0 to 100, and with the costs themselves."""
+        """Make the topics with scaled occupancies, and with raw costs."""
         node = self._node
         return [
             _Topic(
@@ -123,24 +123,24 @@ class CostmapPublisher:
 
     def add(self, region: Region | None) -> None:
         """
-        Add a region to what the next publication contains.
+        Add a region to the next publication.
 
         Parameters
         ----------
         region
-            The cells that have changed; None if none has.
+            The cells that have changed; None if none have.
 
         """
         self._region = self._region if region is None else region.union(self._region)
 
     def publish(self, grid: Costmap2D) -> None:
         """
-        Publish what has changed since the last publication.
+        Publish the changes since the last publication.
 
         Parameters
         ----------
         grid
-            The newest costmap; the whole is sent if it has another size or place.
+            The newest costmap; it is sent as a whole if its size or origin has changed.
 
         """
         place = (grid.cells.shape, grid.resolution, grid.origin_x, grid.origin_y)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of a costmap: to forget obstacles, and to ask for costs."""
+"""The services of a costmap: clear obstacles, and get costs."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ _OUTSIDE = -1.0
 
 def square_around(grid: Costmap2D, pose: Pose2D, side_m: float) -> Region:
     """
-    Return the cells of a square around a pose.
+    Compute the cells of a square around a pose.
 
     Parameters
     ----------
     grid
         The costmap.
     pose
-        The middle of the square; its sides are parallel to the axes whatever the yaw.
+        The centre of the square; its sides are parallel to the axes whatever the yaw.
     side_m
         The length of a side in m.
 
@@ -55,7 +55,7 @@ def square_around(grid: Costmap2D, pose: Pose2D, side_m: float) -> Region:
 
 class CostmapServices:
     """
-    Offers the services.
+    Services of a costmap.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the numbers in a costmap mean, and their scale in messages of type OccupancyGrid."""
+"""Cost values of a costmap, and their scale in OccupancyGrid messages."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ __all__ = [
 ]
 
 FREE_SPACE = 0
-"""Nothing is there."""
+"""The cost of free cells."""
 MAX_NON_OBSTACLE = 252
-"""The highest cost of a cell in which the robot's centre may be, whatever its heading."""
+"""The maximum cost of a cell in which the robot's centre may be, whatever its heading."""
 INSCRIBED_INFLATED_OBSTACLE = 253
-"""A robot whose centre is in the cell hits an obstacle, whatever its heading."""
+"""A robot whose centre is in the cell collides, whatever its heading."""
 LETHAL_OBSTACLE = 254
-"""An obstacle is in the cell."""
+"""The cell contains an obstacle."""
 NO_INFORMATION = 255
-"""Nobody has seen what is there."""
+"""The cell is unknown."""
 
 CellArray = npt.NDArray[np.uint8]
 
@@ -55,8 +55,8 @@ def occupancy_of(cells: CellArray) -> npt.NDArray[np.int8]:
 
     Returns
     -------
-    The same shape: 0 where free, 1 to 98 for the costs from 1 to 252, 99 where the robot's centre
-    collides, 100 at obstacles, -1 where nothing is known.
+    The same shape: 0 where free, 1 to 98 for the costs from 1 to 252, 99 where the inscribed
+    circle collides, 100 at obstacles, -1 where unknown.
 
     """
     return _OCCUPANCIES[cells]
@@ -66,14 +66,14 @@ def cost_table(
     lethal_threshold: int, unknown_value: int, *, track_unknown: bool, trinary: bool
 ) -> CellArray:
     """
-    Make the table that converts a map's occupancy to costs.
+    Make the lookup table from a map's occupancy to costs.
 
     Parameters
     ----------
     lethal_threshold
         The occupancy from which a cell is an obstacle, from 0 to 100.
     unknown_value
-        The occupancy, as an unsigned byte, of cells of which nothing is known: 255 for -1.
+        The occupancy, as an unsigned byte, of unknown cells: 255 for -1.
     track_unknown
         Whether such cells get NO_INFORMATION; otherwise they are free.
     trinary

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The layer that removes obstacles which are too small to be real."""
+"""The layer that removes obstacles too small to be real."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class DenoiseParameters:
 
 def remove_small_groups(cells: CellArray, size: int, connectivity: int) -> None:
     """
-    Free groups of obstacles that are too small, in place.
+    Remove groups of obstacles that are too small, in place.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def remove_small_groups(cells: CellArray, size: int, connectivity: int) -> None:
 
 class DenoiseLayer(Layer):
     """
-    Removes small groups of obstacles from the layers below.
+    Layer that removes small groups of obstacles from the layers below.
 
     Parameters
     ----------
@@ -76,17 +76,17 @@ class DenoiseLayer(Layer):
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the layer is enabled."""
         return self._settings.current.enabled
 
     def affected(self, region: Region) -> Region:
         """
-        Extend a changed region to all cells: a change may enlarge a group that reaches far.
+        Extend a changed region to all cells, as a change may affect a group that extends far.
 
         Parameters
         ----------
         region
-            Which cells the layers below have changed.
+            The cells that the layers below have changed.
 
         """
         return Region.whole(self._node.grid)

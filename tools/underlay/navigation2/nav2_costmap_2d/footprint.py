@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The outline of a robot on the ground: how it is given, and whether it hits something."""
+"""Robot footprint: its definition and padding, and collision checks."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _CIRCLE_POINTS = 16
 
 
 class Footprint(NamedTuple):
-    """The shape of a robot, in its base frame."""
+    """Footprint of a robot, in its base frame."""
 
     points: FloatArray
-    """(N, 2) corners in m, with padding; of a circle, those of a polygon."""
+    """(N, 2) padded corners in m; those of an inscribed polygon for a circle."""
     inscribed_radius_m: float
     circumscribed_radius_m: float
     is_circular: bool
-    """Whether it was given as a radius."""
+    """Whether it was defined by a radius."""
 
     @classmethod
     def of_points(cls, points: npt.ArrayLike, padding_m: float = 0.0) -> Footprint:
@@ -51,7 +51,7 @@ class Footprint(NamedTuple):
         points
             Corners (N, 2) in m in the base frame, without padding.
         padding_m
-            How far each corner is moved away from the axes, in m.
+            The distance by which each corner is moved away from the axes, in m.
 
         """
         padded = pad(np.asarray(points, float), padding_m)
@@ -67,7 +67,7 @@ class Footprint(NamedTuple):
         radius_m
             The radius in m, without padding.
         padding_m
-            How far each corner is moved away from the axes, in m.
+            The distance by which each corner is moved away from the axes, in m.
 
         """
         padded = pad(make_circle(radius_m), padding_m)
@@ -76,7 +76,7 @@ class Footprint(NamedTuple):
 
 def parse_footprint(text: str) -> FloatArray:
     """
-    Read the corners of a footprint.
+    Parse the corners of a footprint.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def parse_footprint(text: str) -> FloatArray:
     Raises
     ------
     ValueError
-        It is something else; the text is the rest of a sentence about it.
+        It has another format; the text is the end of a sentence about it.
 
     """
     example = "as in '[[0.2, 0.1], [0.2, -0.1], [-0.2, -0.1], [-0.2, 0.1]]'"
@@ -115,7 +115,7 @@ def parse_footprint(text: str) -> FloatArray:
 
 def make_circle(radius_m: float) -> FloatArray:
     """
-    Make the polygon that stands for a circle around the origin.
+    Make a polygon that approximates a circle around the origin.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def pad(points: FloatArray, padding_m: float) -> FloatArray:
     points
         Corners (N, 2) in m.
     padding_m
-        How far along each axis, in m; coordinates that are 0 stay so.
+        The distance along each axis, in m; coordinates of 0 are unchanged.
 
     Returns
     -------
@@ -156,8 +156,8 @@ def radii_of(points: FloatArray) -> tuple[float, float]:
     """
     Compute the inscribed and the circumscribed radius of a footprint.
 
-    The inscribed one is the distance from the base frame's origin to the nearest side; it is the
-    distance of every obstacle that the robot hits whatever its heading.
+    The inscribed one is the distance from the base frame's origin to the nearest side: the robot
+    hits obstacles within it whatever its heading.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def radii_of(points: FloatArray) -> tuple[float, float]:
 
 def transformed(points: FloatArray, x: float, y: float, yaw: float) -> FloatArray:
     """
-    Transform points of the base frame to the frame in which its pose is given.
+    Transform points from the base frame to the frame of its pose.
 
     Parameters
     ----------
@@ -203,19 +203,19 @@ def transformed(points: FloatArray, x: float, y: float, yaw: float) -> FloatArra
 
 def fill_polygon(grid: Costmap2D, points: FloatArray) -> npt.NDArray[np.bool_]:
     """
-    Find the cells inside a polygon and under its outline.
+    Rasterize a polygon: find the cells inside and under its outline.
 
     Parameters
     ----------
     grid
-        Its size and place.
+        The grid, for its size and origin.
     points
         Corners (N, 2) in m in the frame of the grid.
 
     Returns
     -------
     numpy.ndarray
-        Which cells of the grid are covered (rows, columns).
+        Mask of the covered cells (rows, columns).
 
     """
     mask = np.zeros(grid.cells.shape, np.uint8)
@@ -226,16 +226,16 @@ def fill_polygon(grid: Costmap2D, points: FloatArray) -> npt.NDArray[np.bool_]:
 
 def is_collision(cost: int, *, is_circular: bool, allow_unknown: bool = True) -> bool:
     """
-    Whether a robot with this highest cost hits something.
+    Whether a footprint cost means a collision.
 
     Parameters
     ----------
     cost
-        What `FootprintCollisionChecker` returns.
+        The cost from `FootprintCollisionChecker`.
     is_circular
-        Whether it is the cost at the robot's centre, and not one on its outline.
+        Whether it is the cost at the robot's centre, not one on its outline.
     allow_unknown
-        Whether it may be where nothing is known.
+        Whether unknown space is allowed.
 
     """
     if cost == NO_INFORMATION:
@@ -245,7 +245,7 @@ def is_collision(cost: int, *, is_circular: bool, allow_unknown: bool = True) ->
 
 class FootprintCollisionChecker:
     """
-    Finds the highest cost on the outline of a robot.
+    Collision checker that finds the maximum cost on the outline of a robot.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ class FootprintCollisionChecker:
         self, pose: tuple[float, float, float], footprint: FloatArray | None
     ) -> int:
         """
-        Return the highest cost on the outline.
+        Compute the maximum cost on the outline at a pose.
 
         Parameters
         ----------
@@ -271,7 +271,7 @@ class FootprintCollisionChecker:
             x and y in m, yaw in rad: a Pose2D.
         footprint
             (N, 2) corners in m in the base frame; None for a circular robot, of which the cost at
-            the centre counts.
+            the centre is returned.
 
         Returns
         -------
@@ -283,7 +283,7 @@ class FootprintCollisionChecker:
 
     def footprint_costs(self, poses: npt.ArrayLike, footprint: FloatArray | None) -> CellArray:
         """
-        Return the highest costs on the outlines at many poses, as `footprint_cost` does for one.
+        Compute the maximum costs on the outlines at many poses, as `footprint_cost` for one.
 
         Parameters
         ----------
@@ -315,7 +315,7 @@ class FootprintCollisionChecker:
         return highest
 
     def _points_on(self, footprint: FloatArray) -> FloatArray:
-        """Return points on the outline that leave out no cell."""
+        """Sample the outline densely enough to skip no cell."""
         if self._outlined is not footprint:
             ends = np.roll(footprint, -1, axis=0)
             parts = []

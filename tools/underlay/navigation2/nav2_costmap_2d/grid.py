@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A grid of costs: which cell is where, and what it costs to be there."""
+"""A grid of costs, and the conversion between cells and positions."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ def shift_cells(
     cells: npt.NDArray[ScalarT], dx: int, dy: int, default: float
 ) -> npt.NDArray[ScalarT]:
     """
-    Return what is in cells after the origin of their grid has moved.
+    Shift the cells of a grid after its origin has moved.
 
     Parameters
     ----------
     cells
-        (rows, columns) of what each cell has.
+        (rows, columns) values of the cells.
     dx, dy
         The motion of the origin in cells.
     default
-        What cells get that were outside.
+        The value of cells that were outside.
 
     """
     moved = np.full_like(cells, default)
@@ -44,7 +44,7 @@ def shift_cells(
 
 class Costmap2D:
     """
-    Costs of square cells that are parallel to the axes of a frame.
+    Costmap: a grid of square cells, aligned with the axes of a frame.
 
     Parameters
     ----------
@@ -55,9 +55,9 @@ class Costmap2D:
     origin_x, origin_y
         The outer corner of cell [0, 0] in m.
     default_cost
-        What all cells cost at first.
+        The initial cost of all cells.
     cells
-        The costs themselves, in place of `default_cost`: shape (size_y, size_x), not copied.
+        The costs, instead of `default_cost`: shape (size_y, size_x), not copied.
 
     """
 
@@ -101,12 +101,12 @@ class Costmap2D:
         return self.size_y * self.resolution
 
     def copy(self) -> Costmap2D:
-        """Return a grid of the same costs that may be changed."""
+        """Copy the grid, so that its costs can be modified."""
         return self.with_cells(self.cells.copy())
 
     def with_cells(self, cells: CellArray) -> Costmap2D:
         """
-        Return a grid at the same place with other costs.
+        Make a grid with the same size and origin, and other costs.
 
         Parameters
         ----------
@@ -160,7 +160,7 @@ class Costmap2D:
 
     def world_to_map_array(self, xy: npt.ArrayLike) -> npt.NDArray[np.int64]:
         """
-        Return the cells of points.
+        Convert points to the cells that contain them.
 
         Parameters
         ----------
@@ -195,7 +195,7 @@ class Costmap2D:
 
     def cost_at(self, x: float, y: float) -> int:
         """
-        Return the cost at a point: LETHAL_OBSTACLE outside.
+        Look up the cost at a point; LETHAL_OBSTACLE outside.
 
         Parameters
         ----------
@@ -208,14 +208,14 @@ class Costmap2D:
 
     def costs_at(self, xy: npt.ArrayLike, outside: int = LETHAL_OBSTACLE) -> CellArray:
         """
-        Return the costs at points.
+        Look up the costs at points.
 
         Parameters
         ----------
         xy
             (..., 2) array of x and y in m.
         outside
-            The cost of points that are not in the grid.
+            The cost of points outside of the grid.
 
         Returns
         -------
@@ -234,12 +234,12 @@ class Costmap2D:
 
     def snapped(self, x: float, y: float) -> tuple[int, int]:
         """
-        Compute by how many whole cells the origin is to move towards a point.
+        Compute the shift of the origin towards a point, in whole cells.
 
         Parameters
         ----------
         x, y
-            Where the origin should be, in m.
+            The desired origin in m.
 
         Returns
         -------
@@ -254,7 +254,7 @@ class Costmap2D:
 
     def shifted(self, dx: int, dy: int, default_cost: int) -> Costmap2D:
         """
-        Return a grid of the same size, moved by whole cells, with the costs of the same places.
+        Make a grid of the same size shifted by whole cells, preserving the costs of the overlap.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How costs decay with the distance from obstacles."""
+"""Inflation: costs that decay with the distance from obstacles."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ __all__ = ['Inflation', 'decayed_cost']
 
 def decayed_cost(distance_m: float, inscribed_radius_m: float, scaling: float) -> int:
     """
-    Return the cost at a distance in m from the nearest obstacle.
+    Compute the cost at a distance in m from the nearest obstacle.
 
     Parameters
     ----------
     distance_m
-        From the centre of the obstacle's cell.
+        The distance from the centre of the obstacle's cell.
     inscribed_radius_m
-        Up to this distance the robot collides.
+        The distance up to which the robot collides.
     scaling
-        How fast the cost decays beyond, in 1/m: the `cost_scaling_factor`.
+        The decay rate beyond it in 1/m: the `cost_scaling_factor`.
 
     """
     if distance_m <= 0.0:
@@ -47,7 +47,7 @@ def decayed_cost(distance_m: float, inscribed_radius_m: float, scaling: float) -
 def _cost_table(
     reach: int, resolution: float, inscribed_radius_m: float, scaling: float
 ) -> CellArray:
-    """Return the cost for each square of a distance in cells."""
+    """Precompute the cost for each squared distance in cells."""
     distances = np.sqrt(np.arange(reach * reach + 2)) * resolution
     decays = np.exp(-scaling * np.maximum(distances - inscribed_radius_m, 0.0))
     table = ((INSCRIBED_INFLATED_OBSTACLE - 1) * decays).astype(np.uint8)
@@ -59,14 +59,14 @@ def _cost_table(
 
 @dataclass(frozen=True)
 class Inflation:
-    """Raises the costs around obstacles."""
+    """Inflation of the costs around obstacles."""
 
     inflation_radius_m: float
     inscribed_radius_m: float
     scaling: float
     """In 1/m."""
     inflates_unknown: bool = False
-    """Whether unknown cells get every cost above zero; otherwise only those of a collision."""
+    """Whether unknown cells accept every cost above zero; otherwise only those of a collision."""
     inflates_around_unknown: bool = False
     """Whether unknown cells count as obstacles."""
 
@@ -89,7 +89,7 @@ class Inflation:
         Parameters
         ----------
         grid
-            Obstacles around the region count, too.
+            The costmap; obstacles around the region are considered, too.
         region
             The cells to write.
 
@@ -113,7 +113,7 @@ class Inflation:
         )
         table = _cost_table(reach, grid.resolution, self.inscribed_radius_m, self.scaling)
         near = np.minimum(distances[inner], reach + 1.0)
-        # Squares of distances between centres of cells are whole numbers.
+        # Squared distances between cell centres are integers.
         squares = np.rint(near * near).astype(np.int32)
         costs = table.take(squares, mode='clip')
         self._write(grid.cells[region.slices], costs)

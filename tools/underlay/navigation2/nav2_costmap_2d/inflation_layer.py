@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The layer that keeps the robot away from obstacles."""
+"""The inflation layer, which keeps the robot away from obstacles."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class InflationParameters:
 
 class InflationLayer(Layer):
     """
-    Raises the costs around obstacles, so that paths keep away from them.
+    Layer that inflates obstacles, so that paths keep away from them.
 
     Parameters
     ----------
@@ -57,22 +57,22 @@ class InflationLayer(Layer):
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the layer is enabled."""
         return self._settings.current.enabled
 
     @property
     def cost_scaling_factor(self) -> float:
-        """How fast costs decay with the distance, in 1/m."""
+        """The decay rate of the costs with the distance, in 1/m."""
         return self._settings.current.cost_scaling_factor
 
     @property
     def inflation_radius(self) -> float:
-        """Up to which distance from obstacles costs are raised, in m."""
+        """The distance from obstacles up to which costs are raised, in m."""
         return self._settings.current.inflation_radius
 
     def set_footprint(self, footprint: Footprint) -> None:
         """
-        Take the inscribed radius, up to which the robot collides.
+        Set the inscribed radius, up to which the robot collides.
 
         Parameters
         ----------
@@ -89,12 +89,12 @@ class InflationLayer(Layer):
         Parameters
         ----------
         region
-            Which cells the layers below have changed.
+            The cells that the layers below have changed.
 
         Returns
         -------
         Region
-            The cells whose inflation depends on the region, perhaps beyond the grid.
+            The cells whose inflation depends on the region, possibly beyond the grid.
 
         """
         return region.grown(self._inflation().reach(self._node.grid.resolution))

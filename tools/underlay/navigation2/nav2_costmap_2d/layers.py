@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-How layers make a costmap: each says what it has changed, and only that is made anew.
+Layered costmap: each layer reports its changed region, and only that is updated.
 
 The idea is from D. V. Lu, D. Hershberger, W. D. Smart: Layered Costmaps for Context-Sensitive
 Navigation. IROS 2014.
@@ -32,12 +32,12 @@ class Region(NamedTuple):
     @classmethod
     def whole(cls, grid: Costmap2D) -> Region:
         """
-        Return the region of all cells of a grid.
+        Make the region of all cells of a grid.
 
         Parameters
         ----------
         grid
-            Only its size counts.
+            The grid, for its size.
 
         """
         return cls(0, 0, grid.size_x, grid.size_y)
@@ -45,12 +45,12 @@ class Region(NamedTuple):
     @classmethod
     def of_mask(cls, mask: npt.NDArray[np.bool_]) -> Region | None:
         """
-        Return the smallest region with all cells that are set.
+        Compute the bounding region of all set cells.
 
         Parameters
         ----------
         mask
-            Which cells are set (rows, columns).
+            Mask of the set cells (rows, columns).
 
         Returns
         -------
@@ -66,17 +66,17 @@ class Region(NamedTuple):
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """Return the index of the region in an array of cells."""
+        """Return the slices that index an array of cells."""
         return slice(self.y, self.y_end), slice(self.x, self.x_end)
 
     def union(self, other: Region | None) -> Region:
         """
-        Return the smallest region that contains both.
+        Compute the bounding region of both.
 
         Parameters
         ----------
         other
-            The other one; None for nothing.
+            The other one; None if empty.
 
         """
         if other is None:
@@ -90,7 +90,7 @@ class Region(NamedTuple):
 
     def grown(self, cells: int) -> Region:
         """
-        Return the region with a margin, perhaps beyond the grid.
+        Extend the region by a margin, possibly beyond the grid.
 
         Parameters
         ----------
@@ -102,17 +102,17 @@ class Region(NamedTuple):
 
     def clipped(self, grid: Costmap2D) -> Region | None:
         """
-        Return the part of the region that is in a grid.
+        Clip the region to a grid.
 
         Parameters
         ----------
         grid
-            Only its size counts.
+            The grid, for its size.
 
         Returns
         -------
         Region or None
-            None if nothing is in it.
+            None if they do not overlap.
 
         """
         found = Region(
@@ -126,14 +126,14 @@ class Region(NamedTuple):
 
 def write_maximum(cells: CellArray, added: CellArray, *, keep_unknown: bool = False) -> None:
     """
-    Raise costs to others of the same shape, in place; unknown is less than free here.
+    Merge costs by the maximum, in place; unknown ranks below free.
 
     Parameters
     ----------
     cells, added
-        Costs; where `added` is NO_INFORMATION nothing changes.
+        Costs of the same shape; where `added` is NO_INFORMATION nothing changes.
     keep_unknown
-        Whether cells of which nothing is known stay so.
+        Whether unknown cells stay unknown.
 
     """
     highest: CellArray = np.maximum(cells + np.uint8(1), added + np.uint8(1)) - np.uint8(1)
@@ -145,7 +145,7 @@ def write_maximum(cells: CellArray, added: CellArray, *, keep_unknown: bool = Fa
 
 def write_over(cells: CellArray, added: CellArray) -> None:
     """
-    Replace costs by others that are known, in place.
+    Overwrite costs by others that are known, in place.
 
     Parameters
     ----------
@@ -163,11 +163,11 @@ def forget_cells(grid: Costmap2D, region: Region, is_inverted: bool) -> None:
     Parameters
     ----------
     grid
-        The grid that is changed.
+        The grid, modified in place.
     region
-        The cells to forget, perhaps beyond the grid.
+        The cells to clear, possibly beyond the grid.
     is_inverted
-        Whether all but the region is forgotten.
+        Whether to clear everything except for the region.
 
     """
     inside = region.clipped(grid)
@@ -185,7 +185,7 @@ def forget_cells(grid: Costmap2D, region: Region, is_inverted: bool) -> None:
 
 class Layer:
     """
-    A layer of a costmap; the base does nothing.
+    Base class of costmap layers, which does nothing.
 
     Parameters
     ----------
@@ -195,57 +195,57 @@ class Layer:
     """
 
     is_clearable = False
-    """Whether services that clear a costmap clear this layer."""
+    """Whether the services that clear a costmap clear this layer."""
 
     def __init__(self, name: str) -> None:
         self.name = name
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the layer is enabled."""
         return True
 
     @property
     def is_current(self) -> bool:
-        """Whether it has the data that it needs, and those are not too old."""
+        """Whether the data of the layer are available and recent."""
         return True
 
     def match(self, grid: Costmap2D) -> None:
         """
-        Take another size or place of the costmap.
+        Match a new size or origin of the costmap.
 
         Parameters
         ----------
         grid
-            The new costmap; its costs do not count.
+            The new costmap; its costs are ignored.
 
         """
 
     def set_footprint(self, footprint: Footprint) -> None:
         """
-        Take another shape of the robot.
+        Set the footprint of the robot.
 
         Parameters
         ----------
         footprint
-            The new shape, with padding.
+            The new footprint, with padding.
 
         """
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
         """
-        Take what is new.
+        Process new data.
 
         Parameters
         ----------
         grid
-            The costmap as it was; only its size and place count.
+            The previous costmap, for its size and origin.
         robot
-            Where the robot is, in the frame of the costmap, if that is known.
+            The pose of the robot in the frame of the costmap, if available.
 
         Returns
         -------
-        Which cells are to be made anew; None if nothing has changed.
+        The cells to update; None if nothing has changed.
 
         """
         return None
@@ -262,7 +262,7 @@ class Layer:
         Returns
         -------
         Region
-            The cells that have to be made anew, perhaps beyond the grid.
+            The cells to update, possibly beyond the grid.
 
         """
         return region
@@ -282,53 +282,53 @@ class Layer:
 
     def costs(self, grid: Costmap2D) -> Costmap2D | None:
         """
-        Return the costs of the layer itself.
+        Return the costs of this layer alone.
 
         Parameters
         ----------
         grid
-            The costmap, for its size and place.
+            The costmap, for its size and origin.
 
         Returns
         -------
         Costmap2D or None
-            A grid of that size; None for a layer without costs of its own.
+            A grid of that size; None for a layer without its own costs.
 
         """
         return None
 
     def clear(self, region: Region | None, *, is_inverted: bool = False) -> None:
         """
-        Forget what sensors have seen.
+        Clear the data of sensors.
 
         Parameters
         ----------
         region
-            The cells to forget; None for everything.
+            The cells to clear; None for everything.
         is_inverted
-            Whether all but the region is forgotten.
+            Whether to clear everything except for the region.
 
         """
 
 
 class LayeredCostmap:
     """
-    A costmap that is made of layers.
+    Layered costmap.
 
     Parameters
     ----------
     grid
-        Its size and place at first.
+        Its initial size and origin.
     default_cost
-        What cells cost of which no layer says anything.
+        The cost of cells that no layer sets.
     is_rolling
-        Whether the robot stays in the middle.
+        Whether the costmap follows the robot.
 
     """
 
     def __init__(self, grid: Costmap2D, default_cost: int, is_rolling: bool) -> None:
         self.grid = grid
-        """The newest costmap: replaced as a whole, and never changed."""
+        """The newest costmap: replaced as a whole, never modified."""
         self.default_cost = default_cost
         self.is_rolling = is_rolling
         self.layers: list[Layer] = []
@@ -344,12 +344,12 @@ class LayeredCostmap:
 
     def resize(self, grid: Costmap2D) -> None:
         """
-        Take another size or place; the costs come with the next update.
+        Change the size or origin; the costs follow with the next update.
 
         Parameters
         ----------
         grid
-            The new costmap, which stands until then.
+            The new costmap, used until then.
 
         """
         self.grid = self._below_filters = grid
@@ -358,19 +358,19 @@ class LayeredCostmap:
         self.touch()
 
     def touch(self) -> None:
-        """Make everything anew in the next update."""
+        """Mark everything for the next update."""
         self._is_stale = True
 
     def clear(self, region_of: Callable[[Costmap2D], Region] | None, is_inverted: bool) -> None:
         """
-        Forget what sensors have seen, in all layers that are clearable.
+        Clear the data of sensors in all clearable layers.
 
         Parameters
         ----------
         region_of
-            Returns the region of a costmap; None for everything.
+            Function that returns the region of a costmap; None for everything.
         is_inverted
-            Whether all but the region is forgotten.
+            Whether to clear everything except for the region.
 
         """
         region = None if region_of is None else region_of(self.grid)
@@ -381,16 +381,16 @@ class LayeredCostmap:
 
     def update(self, robot: Pose2D | None) -> Region | None:
         """
-        Make anew what has changed.
+        Update the cells that have changed.
 
         Parameters
         ----------
         robot
-            Where the robot is in the frame of the costmap, if that is known.
+            The pose of the robot in the frame of the costmap, if available.
 
         Returns
         -------
-        The cells that are new; None if there are none.
+        The updated cells; None if there are none.
 
         """
         if self.is_rolling:
@@ -434,7 +434,7 @@ class LayeredCostmap:
         self.grid = grid
 
     def _follow(self, robot: Pose2D) -> None:
-        """Move the costmap by whole cells, so that the robot is in the middle."""
+        """Shift the costmap by whole cells to centre it on the robot."""
         grid = self.grid
         dx, dy = grid.snapped(robot.x - 0.5 * grid.size_x_m, robot.y - 0.5 * grid.size_y_m)
         if dx or dy:

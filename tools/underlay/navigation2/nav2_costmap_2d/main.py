@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The executable of a costmap that is no part of a server: /costmap/costmap."""
+"""The executable of a standalone costmap: /costmap/costmap."""
 
 from __future__ import annotations
 
@@ -10,5 +10,5 @@ __all__ = ['main']
 
 
 def main() -> int:
-    """Run the node until a signal; return the exit status."""
+    """Spin the node until a signal; return the exit status."""
     return run_main(lambda: Costmap2DROS('costmap', namespace='costmap'))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A sensor of an obstacle layer: keeps its messages until it is known where it was."""
+"""Sensor source of an obstacle layer; it buffers messages until their transform arrives."""
 
 from __future__ import annotations
 
@@ -58,19 +58,19 @@ class SourceParameters:
 
 class ObservationSource:
     """
-    Receives the messages of a sensor, and gives what it saw in the frame of the costmap.
+    Observation source: transforms the messages of a sensor to the frame of the costmap.
 
     Parameters
     ----------
     node
         The costmap's node.
     layer, name
-        The names of the layer and of the source, before the names of its parameters.
+        The names of the layer and of the source, which prefix its parameters.
 
     Raises
     ------
     ConfigurationError
-        A parameter has a value that is not allowed.
+        A parameter has an invalid value.
 
     """
 
@@ -99,12 +99,12 @@ class ObservationSource:
 
     @property
     def settings(self) -> SourceParameters:
-        """Return the newest parameters."""
+        """Return the current parameters."""
         return self._settings.current
 
     @property
     def is_current(self) -> bool:
-        """Whether messages come as often as they should."""
+        """Whether messages arrive at the expected rate."""
         limit_s = self.settings.expected_update_rate
         if limit_s <= 0.0:
             return True
@@ -120,7 +120,7 @@ class ObservationSource:
 
     def refresh(self) -> bool:
         """
-        Transform the messages for which that is possible now.
+        Transform the messages whose transforms are available.
 
         Returns
         -------
@@ -138,7 +138,7 @@ class ObservationSource:
 
     @property
     def observations(self) -> list[Observation]:
-        """Return what the sensor saw, the oldest first."""
+        """Return the observations, the oldest first."""
         return [each for _, each in self._kept]
 
     def _take(self, message: Any) -> None:
@@ -146,7 +146,7 @@ class ObservationSource:
         self._waiting.append(message)
 
     def _transform_waiting(self) -> bool:
-        """Transform the newest message that can be; all that can be if they persist."""
+        """Transform the newest possible message, or all possible ones if observations persist."""
         persists = self.settings.observation_persistence > 0.0
         done: list[tuple[float, Observation]] = []
         for index in reversed(range(len(self._waiting))):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The layers that mark what sensors see, and clear what they see through."""
+"""The layers that mark obstacles seen by sensors, and clear free space by raytracing."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _OVERWRITE, _MAXIMUM, _MAXIMUM_OF_KNOWN = 0, 1, 2
 
 @dataclass(frozen=True)
 class ObstacleParameters:
-    """The parameters of `nav2_costmap_2d::ObstacleLayer`, beside those of its sources."""
+    """The parameters of `nav2_costmap_2d::ObstacleLayer`, besides those of its sources."""
 
     enabled: bool = parameter(True, 'Whether the layer takes part.')
     footprint_clearing_enabled: bool = parameter(
@@ -46,7 +46,7 @@ class ObstacleParameters:
 
 @dataclass(frozen=True)
 class VoxelParameters(ObstacleParameters):
-    """The parameters of `nav2_costmap_2d::VoxelLayer`, beside those of its sources."""
+    """The parameters of `nav2_costmap_2d::VoxelLayer`, besides those of its sources."""
 
     z_voxels: int = parameter(10, 'The number of voxels in a column.', low=0, high=16)
     origin_z: float = parameter(0.0, 'The height of the lowest voxel in m.')
@@ -58,7 +58,7 @@ class VoxelParameters(ObstacleParameters):
 
 class ObstacleLayer(Layer):
     """
-    Remembers what sensors saw, until they see through it.
+    Layer that keeps the obstacles seen by sensors until they are cleared by raytracing.
 
     Parameters
     ----------
@@ -91,17 +91,17 @@ class ObstacleLayer(Layer):
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the layer is enabled."""
         return bool(self._settings.current.enabled)
 
     @property
     def is_current(self) -> bool:
-        """Whether all sensors send as often as they should."""
+        """Whether all sensors publish at the expected rate."""
         return all(source.is_current for source in self._sources)
 
     def match(self, grid: Costmap2D) -> None:
         """
-        Move what was seen along with the costmap; a costmap of another size starts empty.
+        Shift the observed cells with the costmap; a costmap of another size starts empty.
 
         Parameters
         ----------
@@ -114,7 +114,7 @@ class ObstacleLayer(Layer):
             dx = round((grid.origin_x - old.origin_x) / grid.resolution)
             dy = round((grid.origin_y - old.origin_y) / grid.resolution)
             self._grid = old.shifted(dx, dy, self._default)
-            # Whole cells from one origin, so that nothing adds up.
+            # Whole cells from one origin, so that rounding errors do not accumulate.
             self._grid.origin_x, self._grid.origin_y = grid.origin_x, grid.origin_y
         else:
             self._grid = grid.with_cells(np.full_like(grid.cells, self._default))
@@ -122,7 +122,7 @@ class ObstacleLayer(Layer):
 
     def clear(self, region: Region | None, *, is_inverted: bool = False) -> None:
         """
-        Forget what was seen; what the newest messages say comes back with the next update.
+        Clear the observed cells; the newest messages are applied again with the next update.
 
         Parameters
         ----------
@@ -138,7 +138,7 @@ class ObstacleLayer(Layer):
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
         """
-        Take the newest messages, and free the cells below the robot.
+        Process the newest messages, and clear the cells under the footprint.
 
         Parameters
         ----------
@@ -166,7 +166,7 @@ class ObstacleLayer(Layer):
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
         """
-        Combine what was seen with the layers below by `combination_method`, in place.
+        Combine the observed cells with the layers below by `combination_method`, in place.
 
         Parameters
         ----------
@@ -184,7 +184,7 @@ class ObstacleLayer(Layer):
 
     def costs(self, grid: Costmap2D) -> Costmap2D:
         """
-        Return the costs of what was seen; later updates change the same grid.
+        Return the costs of the observed cells; later updates modify the same grid.
 
         Parameters
         ----------
@@ -211,21 +211,21 @@ class ObstacleLayer(Layer):
                     mark_points(self._grid, each, nearest, farthest, heights, threshold)
 
     def _heights(self) -> tuple[float, float]:
-        """Return between which heights points mark, in m."""
+        """Return the height limits for marking, in m."""
         values = self._settings.current
         return values.min_obstacle_height, values.max_obstacle_height
 
     def _threshold(self) -> int:
-        """Return more than how many points mark a cell."""
+        """Return the number of points that a cell must exceed to be marked."""
         return 0
 
 
 class VoxelLayer(ObstacleLayer):
     """
-    An obstacle layer with limits of height from a grid of voxels.
+    Obstacle layer with the height limits of a voxel grid.
 
-    The voxels themselves are not kept: rays clear whole columns, and `mark_threshold` counts the
-    points of a message in a column.
+    The voxels themselves are not stored: rays clear whole columns, and `mark_threshold` applies to
+    the points of a message in a column.
 
     Parameters
     ----------

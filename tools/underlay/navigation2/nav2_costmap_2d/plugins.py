@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which class a layer or a filter is."""
+"""Registry of layer and filter plugins."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PLUGINS: dict[str, str] = {
     'nav2_costmap_2d::SpeedFilter': 'nav2_costmap_2d.costmap_filters:SpeedFilter',
     'nav2_costmap_2d::BinaryFilter': 'nav2_costmap_2d.costmap_filters:BinaryFilter',
 }
-"""The places of layers and filters by their types; packages may add theirs."""
+"""The import paths of layers and filters by their types; packages may add their own."""
 
 _DEFAULT_TYPES = {
     'static_layer': 'nav2_costmap_2d::StaticLayer',
@@ -49,7 +49,7 @@ def make_plugin(node: Costmap2DROS, name: str) -> Layer:
     Raises
     ------
     ConfigurationError
-        There is no such type, or the layer cannot be made with its parameters.
+        There is no such type, or the parameters of the layer are invalid.
 
     """
     kind = node.parameters.declare_value(
@@ -66,7 +66,7 @@ def make_plugin(node: Costmap2DROS, name: str) -> Layer:
 
 def explain_unused(node: Costmap2DROS, used: Collection[str]) -> None:
     """
-    Say of parameters of layers that are not used why they have no effect.
+    Warn about parameters of unused layers, and state why they have no effect.
 
     Parameters
     ----------

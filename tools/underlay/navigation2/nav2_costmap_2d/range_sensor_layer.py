@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The layer for sonars and infrared sensors, which see a cone and not a ray."""
+"""The layer for sonars and infrared sensors, which measure in a cone instead of along a ray."""
 
 from __future__ import annotations
 
@@ -64,23 +64,23 @@ def cone_probabilities(
     grid: Costmap2D, sensor: Pose2D, range_m: float, half_angle_rad: float, is_hit: bool
 ) -> npt.NDArray[np.float64]:
     """
-    Return how probable obstacles are, given what one sensor says now.
+    Compute the obstacle probabilities given one sensor reading.
 
-    Cells before the range are free, those at it occupied, the rest undecided; the certainty falls
-    from the axis of the cone to its edge.
+    Cells closer than the range are free, those at it occupied, the rest undecided; the certainty
+    decreases from the axis of the cone to its edge.
 
     Parameters
     ----------
     grid
-        Its size and place.
+        The grid, for its size and origin.
     sensor
         The pose of the sensor, x along the axis of the cone.
     range_m
-        What it says.
+        The measured range.
     half_angle_rad
         The angle from the axis to the edge.
     is_hit
-        Whether something is there; otherwise the cone is free up to `range_m`.
+        Whether there is an obstacle at `range_m`; otherwise the cone is free up to it.
 
     Returns
     -------
@@ -100,7 +100,7 @@ def cone_probabilities(
 
 class RangeSensorLayer(Layer):
     """
-    Keeps the probability of an obstacle in each cell, and updates it with Bayes' rule.
+    Layer with an obstacle probability for each cell, updated by Bayes' rule.
 
     Parameters
     ----------
@@ -134,18 +134,18 @@ class RangeSensorLayer(Layer):
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the layer is enabled."""
         return self._settings.current.enabled
 
     @property
     def is_current(self) -> bool:
-        """Whether messages come as often as they should."""
+        """Whether messages arrive at the expected rate."""
         limit_s = self._settings.current.no_readings_timeout
         return limit_s <= 0.0 or now_s(self._node) - self._last_s <= limit_s
 
     def match(self, grid: Costmap2D) -> None:
         """
-        Move the probabilities along with the costmap; a costmap of another size starts anew.
+        Shift the probabilities with the costmap; a costmap of another size starts undecided.
 
         Parameters
         ----------
@@ -237,7 +237,7 @@ class RangeSensorLayer(Layer):
         self._waiting.append(message)
 
     def _observe(self, message: Range) -> Region | None:
-        """Take a message; return where it changes something."""
+        """Process a message; return the region that it changes."""
         reading = self._reading(message)
         if reading is None:
             return None
@@ -265,13 +265,13 @@ class RangeSensorLayer(Layer):
         return Region.of_mask(change != 0.0)
 
     def _reading(self, message: Range) -> tuple[float, bool] | None:
-        """Return up to where the cone is free, and whether something is there."""
+        """Evaluate a reading: the range up to which the cone is free, and whether it is a hit."""
         values = self._settings.current
         is_fixed = message.min_range == message.max_range
         if values.input_sensor_type != 'ALL' and is_fixed != (values.input_sensor_type == 'FIXED'):
             return None
         if is_fixed:
-            # By REP 117, -inf says that something is near, and inf that nothing is.
+            # By REP 117, -inf means too close to measure, and inf no detection.
             if math.isfinite(message.range):
                 return None
             return message.max_range, message.range < 0.0

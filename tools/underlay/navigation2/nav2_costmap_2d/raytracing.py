@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sensor tells of cells: those with its points are occupied, those before them are free."""
+"""Raytracing of sensor points: cells with points are occupied, those in front of them free."""
 
 from __future__ import annotations
 
@@ -19,21 +19,23 @@ _FAR = 1 << 14
 
 @dataclass(frozen=True)
 class Observation:
-    """What a sensor has seen at one time, in the frame of the costmap."""
+    """Observation of a sensor at one time, in the frame of the costmap."""
 
     origin: FloatArray
     """(3,) position of the sensor in m."""
     points: FloatArray
-    """(N, 3) points that it has seen, in m."""
+    """(N, 3) observed points, in m."""
     is_hit: npt.NDArray[np.bool_] | None = None
-    """(N,) which points are surfaces, and not the end of the sensor's range; None for all."""
+    """
+    (N,) whether each point is a surface, not the maximum range of the sensor; None if all are.
+    """
 
 
 def clear_rays(
     grid: Costmap2D, observation: Observation, min_range_m: float, max_range_m: float
 ) -> None:
     """
-    Free the cells between a sensor and its points, in place.
+    Clear the cells between a sensor and its points, in place.
 
     Parameters
     ----------
@@ -42,7 +44,7 @@ def clear_rays(
     observation
         The points.
     min_range_m, max_range_m
-        Only this part of each ray counts, from the sensor.
+        The part of each ray to clear, from the sensor.
 
     """
     if not len(observation.points):
@@ -54,7 +56,7 @@ def clear_rays(
     if far.any():
         rays = rays * np.where(far, max_range_m / np.maximum(lengths, 1e-9), 1.0)[:, None]
     if min_range_m <= 0.0:
-        # One line to each point and back takes a third of the time of many lines.
+        # One polyline to each point and back takes a third of the time of many lines.
         fan = np.empty((2 * len(rays), 2))
         fan[0::2], fan[1::2] = origin, rays + origin
         cv2.polylines(grid.cells, [_drawable(grid, fan)], False, FREE_SPACE)
@@ -78,7 +80,7 @@ def mark_points(
     threshold: int = 0,
 ) -> None:
     """
-    Occupy the cells with points, in place.
+    Mark the cells with points as occupied, in place.
 
     Parameters
     ----------
@@ -87,11 +89,11 @@ def mark_points(
     observation
         The points.
     min_range_m, max_range_m
-        How far from the sensor points count.
+        The range limits of points that mark, from the sensor.
     heights_m
-        Between which heights points count.
+        The height limits of points that mark.
     threshold
-        More points than this are needed in a cell.
+        The number of points that a cell must exceed.
 
     """
     away = observation.points - observation.origin

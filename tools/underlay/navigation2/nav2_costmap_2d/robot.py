@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a costmap knows of its robot: its shape, and where it is."""
+"""The robot of a costmap: its footprint and pose."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _QUIET_S = 5.0
 
 class Robot:
     """
-    Keeps the shape of the robot, which may come from a topic, and finds the robot.
+    Robot of a costmap: its footprint, which may come from a topic, and its pose.
 
     Parameters
     ----------
     node
         The costmap's node.
     on_change
-        Called with another shape.
+        Callback with a new footprint.
 
     """
 
@@ -40,10 +40,10 @@ class Robot:
         self._started_s = 0.0
         self._is_known = False
         self.shape = Footprint.of_radius(0.1)
-        """The newest shape."""
+        """The newest footprint."""
 
     def listen(self) -> None:
-        """Take shapes from the topic `footprint`."""
+        """Subscribe to the topic `footprint`."""
         if self._node.settings.subscribe_to_stamped_footprint:
             self._node.create_subscription(
                 PolygonStamped, 'footprint', lambda stamped: self._take(stamped.polygon), 10
@@ -53,7 +53,7 @@ class Robot:
 
     def set_shape(self, shape: Footprint) -> None:
         """
-        Take another shape; `on_change` is called if it differs.
+        Set the footprint; call `on_change` if it differs.
 
         Parameters
         ----------
@@ -71,11 +71,11 @@ class Robot:
             self._on_change(shape)
 
     def await_pose(self) -> None:
-        """Begin to wait for the first pose."""
+        """Start waiting for the first pose."""
         self._started_s, self._is_known = now_s(self._node), False
 
     def find(self) -> Pose2D | None:
-        """Return where the robot is in the frame of the costmap; say so if that is not known."""
+        """Look up the pose of the robot in the frame of the costmap; log if it is unavailable."""
         try:
             pose = self._node.robot_pose()
         except TransformError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The points in messages of sensors."""
+"""Extract the points of sensor messages."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def scan_points(
     scan: LaserScan, *, inf_is_valid: bool
 ) -> tuple[FloatArray, npt.NDArray[np.bool_] | None]:
     """
-    Return what a scan has seen, in the frame of the sensor.
+    Extract the points of a scan, in the frame of the sensor.
 
     Parameters
     ----------
     scan
         The message.
     inf_is_valid
-        Whether a beam that hit nothing is free up to the range of the sensor.
+        Whether a beam without a hit is free up to the range of the sensor.
 
     Returns
     -------
@@ -80,7 +80,7 @@ def cloud_points(cloud: PointCloud2) -> FloatArray:
     Raises
     ------
     ValueError
-        It has no fields x, y and z, or less data than it says; the text is a sentence.
+        It has no fields x, y and z, or less data than it states; the text is a full sentence.
 
     """
     fields = {field.name: field for field in cloud.fields}
@@ -144,7 +144,7 @@ def observation_of(
     heights_m: tuple[float, float] = (-math.inf, math.inf),
 ) -> Observation:
     """
-    Return points of a sensor in the frame of a costmap.
+    Transform points of a sensor to the frame of a costmap.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def observation_of(
     transform
         The pose of the sensor in the frame of the costmap.
     heights_m
-        Points at other heights in the frame of the costmap are left out.
+        The height limits in the frame of the costmap; points outside of them are dropped.
 
     """
     at = transform.translation

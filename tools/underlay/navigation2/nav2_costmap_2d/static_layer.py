@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The layer with the map."""
+"""The static layer, with the map."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class StaticParameters:
 
 class StaticLayer(Layer):
     """
-    Takes the costs from a map. A costmap that does not follow the robot gets the map's size.
+    Layer with the costs of a map. A costmap that is not rolling is resized to the map.
 
     Parameters
     ----------
@@ -99,17 +99,17 @@ class StaticLayer(Layer):
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it takes part."""
+        """Whether the layer is enabled."""
         return self._settings.current.enabled
 
     @property
     def is_current(self) -> bool:
-        """Whether it has a map."""
+        """Whether it has received a map."""
         return self._map is not None
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
         """
-        Find where the map is new, or where cells below the robot are to be freed.
+        Find the region where the map is new, or where the footprint is to be cleared.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class StaticLayer(Layer):
         Returns
         -------
         Region or None
-            The cells to be made anew, perhaps beyond the grid; None if nothing has changed.
+            The cells to update, possibly beyond the grid; None if nothing has changed.
 
         """
         if self._map is None:
@@ -169,7 +169,7 @@ class StaticLayer(Layer):
 
     def costs(self, grid: Costmap2D) -> Costmap2D:
         """
-        Return the map in the place of the costmap; NO_INFORMATION where there is none.
+        Return the map on the grid of the costmap; NO_INFORMATION where there is none.
 
         Parameters
         ----------
@@ -211,7 +211,7 @@ class StaticLayer(Layer):
         self._map = Costmap2D(
             info.width,
             info.height,
-            # The message has it in single precision.
+            # The message has single precision.
             round(float(info.resolution), 7),
             origin.x,
             origin.y,
@@ -247,7 +247,7 @@ class StaticLayer(Layer):
             self._changed = Region.whole(self._node.grid)
 
     def _is_same_place(self, grid: Costmap2D) -> bool:
-        """Whether the cells of the map are those of the costmap."""
+        """Whether the cells of the map coincide with those of the costmap."""
         return (
             self._map is not None
             and self._map_pose == (0.0, 0.0, 0.0)
@@ -257,7 +257,7 @@ class StaticLayer(Layer):
         )
 
     def _follows_map_frame(self) -> bool:
-        """Take where the costmap's frame is in that of the map; return whether that has moved."""
+        """Update the transform from the costmap's frame to the map's; return whether it moved."""
         if self._map_frame in ('', self._node.global_frame):
             return False
         try:
@@ -271,7 +271,7 @@ class StaticLayer(Layer):
         return is_moved
 
     def _points_in_map(self, grid: Costmap2D, region: Region) -> FloatArray:
-        """Return the (rows, columns, 2) centres of cells, in m in the frame of the map."""
+        """Compute the (rows, columns, 2) cell centres, in m in the frame of the map."""
         columns, rows = np.meshgrid(
             np.arange(region.x, region.x_end), np.arange(region.y, region.y_end)
         )

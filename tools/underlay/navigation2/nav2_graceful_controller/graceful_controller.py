@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The graceful controller: smooth arcs to poses ahead on the path."""
+"""The graceful controller: smooth arcs to target poses ahead on the path."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TARGETS = 5
 
 class GracefulController(Controller):
     """
-    Drives to the farthest pose of the path that a smooth control law reaches without collision.
+    Controller that follows a smooth control law to the farthest collision-free pose of the path.
 
     Source: J. J. Park, B. Kuipers, A Smooth Control Law for Graceful Motion of Differential
     Wheeled Mobile Robots in 2D Environment, ICRA 2011.
@@ -64,13 +64,13 @@ class GracefulController(Controller):
 
     def new_plan(self, *, is_new_goal: bool) -> None:
         """
-        Follow another path from now on.
+        Set a new path.
 
         Parameters
         ----------
         is_new_goal
-            Whether the path leads to another goal, to which the robot may first turn in place;
-            otherwise it is a new path to the same goal.
+            Whether the path leads to another goal, towards which the robot may first rotate in
+            place; otherwise it is a new path to the same goal.
 
         """
         if is_new_goal:
@@ -94,7 +94,7 @@ class GracefulController(Controller):
         ------
         NoValidControl
             The robot would hit an obstacle on all arcs to poses within the lookahead distance, or
-            when it turns in place.
+            when it rotates in place.
 
         """
         p = self._parameters.current
@@ -133,7 +133,7 @@ class GracefulController(Controller):
         )
 
     def _turn(self, state: ControlState, angle: float, p: GracefulParameters) -> Command:
-        """Turn in place by an angle in rad."""
+        """Rotate in place by an angle in rad."""
         count = max(math.ceil(abs(angle) / p.in_place_collision_resolution), 1)
         poses = np.tile(np.array(state.pose), (count + 1, 1))
         poses[:, 2] += np.linspace(0.0, angle, count + 1)
@@ -146,7 +146,7 @@ class GracefulController(Controller):
 
 def _law(p: GracefulParameters, ratio: float, state: ControlState) -> SmoothControlLaw:
     v_max = p.v_linear_max * ratio
-    # Only the goal slows down, and not each target on the way.
+    # Only slow down for the goal, not for each intermediate target.
     near = state.is_goal_in_plan and state.remaining_m < p.slowdown_radius
     if near and p.slowdown_radius > 0.0:
         v_max = max(v_max * state.remaining_m / p.slowdown_radius, min(p.v_linear_min, v_max))
@@ -162,7 +162,7 @@ def _law(p: GracefulParameters, ratio: float, state: ControlState) -> SmoothCont
 
 
 def _targets(plan: FloatArray, lengths: FloatArray, p: GracefulParameters) -> list[int]:
-    """Return the poses to try, the farthest one first."""
+    """Return the candidate target poses, the farthest one first."""
     away = np.hypot(plan[:, 0], plan[:, 1])
     beyond = np.flatnonzero(away > p.max_lookahead)
     last = int(beyond[0]) - 1 if len(beyond) else len(plan) - 1
@@ -175,7 +175,7 @@ def _targets(plan: FloatArray, lengths: FloatArray, p: GracefulParameters) -> li
 
 
 def _with_orientations(plan: FloatArray, state: ControlState, p: GracefulParameters) -> FloatArray:
-    """Return (N, 3) poses that face along the path, unless they tell how to drive."""
+    """Orient (N, 3) poses along the path, unless driving backward is allowed."""
     if p.allow_backward or len(plan) < 2:
         return plan
     steps = np.diff(plan[:, :2], axis=0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-A control law that leads smoothly to a pose.
+Smooth control law for driving to a pose.
 
 Source: J. J. Park, B. Kuipers, A Smooth Control Law for Graceful Motion of Differential Wheeled
 Mobile Robots in 2D Environment, ICRA 2011.
@@ -22,15 +22,15 @@ FloatArray = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SmoothControlLaw:
-    """The gains of the law, and its limits."""
+    """Smooth control law with its gains and limits."""
 
     k_phi: float
-    """k1 of the paper: how fast the heading turns to the target's line."""
+    """k1 of the paper: how fast the heading converges to the line of the target."""
     k_delta: float
-    """k2 of the paper: how fast the error of the heading vanishes."""
+    """k2 of the paper: how fast the heading error converges to zero."""
     beta: float
     lambda_: float
-    """Both: how much curvature slows down."""
+    """Beta and lambda of the paper: how much curvature reduces the speed."""
     v_min: float
     """m/s"""
     v_max: float
@@ -39,18 +39,18 @@ class SmoothControlLaw:
 
     def velocity(self, target: Pose2D, *, backward: bool = False) -> tuple[float, float]:
         """
-        Return the velocity along x in m/s, and the angular velocity in rad/s.
+        Compute the velocity along x in m/s, and the angular velocity in rad/s.
 
         Parameters
         ----------
         target
-            Where to go, in the base frame.
+            The target pose in the base frame.
         backward
             Whether to drive there backward.
 
         """
         if backward:
-            # Seen from behind, the robot drives forward.
+            # In the reversed frame, the robot drives forward.
             v, w = self.velocity(Pose2D(-target.x, -target.y, target.yaw))
             return -v, w
         r = math.hypot(target.x, target.y)
@@ -72,23 +72,23 @@ class SmoothControlLaw:
         self, target: Pose2D, step_m: float, tolerance_m: float, *, backward: bool = False
     ) -> FloatArray:
         """
-        Return the poses on the way to a target.
+        Simulate the poses on the way to a target.
 
         Parameters
         ----------
         target
-            Where to go, in the base frame.
+            The target pose in the base frame.
         step_m
-            The distance of the poses.
+            The spacing of the poses.
         tolerance_m
-            How near to the target the way ends.
+            The distance to the target at which the simulation ends.
         backward
             Whether to drive backward.
 
         Returns
         -------
         (N, 3) poses in the base frame; the last one is far from the target if the law does not
-        lead there.
+        converge.
 
         """
         pose = Pose2D(0.0, 0.0, 0.0)

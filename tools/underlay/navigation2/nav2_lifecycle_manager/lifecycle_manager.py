@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that brings other nodes up and down in order, and watches over them."""
+"""The lifecycle manager, which brings other nodes up and down in order, and monitors them."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ _PATIENCE_S = 5.0
 
 class LifecycleManager(Node):
     """
-    Brings nodes up in order and down in the opposite one; ends all when one of them is gone.
+    Lifecycle manager: brings nodes up in order, and down in reverse order or after a failure.
 
-    Instead of bonds, it asks the nodes for their state: one that does not answer for
-    `bond_timeout` counts as gone. The others are brought down then; when all are there again
-    within `bond_respawn_max_duration`, they are brought up.
+    Instead of bonds, it polls the state of the nodes: one that does not respond for `bond_timeout`
+    counts as failed. The others are then brought down; if all are available again within
+    `bond_respawn_max_duration`, they are brought up.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -65,7 +65,7 @@ class LifecycleManager(Node):
             self.create_timer(self._watch_s, self._look_after, clock=steady_clock())
 
     async def startup(self) -> bool:
-        """Configure all nodes, then activate them; return whether that went well."""
+        """Configure, then activate all nodes; return whether that succeeded."""
         await self._appear()
         return await self._in_order(
             'bring up',
@@ -81,31 +81,31 @@ class LifecycleManager(Node):
         )
 
     async def pause(self) -> bool:
-        """Deactivate all nodes, the last one first; return whether that went well."""
+        """Deactivate all nodes in reverse order; return whether that succeeded."""
         return await self._backwards('pause', Transition.TRANSITION_DEACTIVATE)
 
     async def resume(self) -> bool:
-        """Activate all nodes; return whether that went well."""
+        """Activate all nodes; return whether that succeeded."""
         steps = [(each, Transition.TRANSITION_ACTIVATE) for each in self._managed]
         return await self._in_order('resume', steps, active=True)
 
     async def reset(self) -> bool:
-        """Deactivate and clean up all nodes; return whether that went well."""
+        """Deactivate and clean up all nodes; return whether that succeeded."""
         return await self._backwards(
             'reset', Transition.TRANSITION_DEACTIVATE, Transition.TRANSITION_CLEANUP
         )
 
     async def configure(self) -> bool:
-        """Configure all nodes; return whether that went well."""
+        """Configure all nodes; return whether that succeeded."""
         steps = [(each, Transition.TRANSITION_CONFIGURE) for each in self._managed]
         return await self._in_order('configure', steps, active=False)
 
     async def clean_up(self) -> bool:
-        """Clean up all nodes; return whether that went well."""
+        """Clean up all nodes; return whether that succeeded."""
         return await self._backwards('clean up', Transition.TRANSITION_CLEANUP)
 
     async def shutdown(self) -> bool:
-        """Bring all nodes to their end; return whether that went well."""
+        """Shut down all nodes; return whether that succeeded."""
         self.is_active = False
         is_well = True
         for each in reversed(self._managed):
@@ -123,7 +123,7 @@ class LifecycleManager(Node):
     async def _in_order(
         self, what: str, steps: Iterable[tuple[ManagedNode, int]], active: bool
     ) -> bool:
-        """Take steps until one fails; one that a node has behind it already is left out."""
+        """Run transitions until one fails; skip those that a node has already made."""
         self.is_active = False
         for node, transition in steps:
             try:
@@ -140,7 +140,7 @@ class LifecycleManager(Node):
         return True
 
     async def _appear(self) -> None:
-        """Wait until all nodes are there; say now and then which are not."""
+        """Wait until all nodes are available; log the missing ones periodically."""
         said_s = time.monotonic()
         while True:
             missing = [each.name for each in self._managed if not each.is_there]
@@ -153,7 +153,7 @@ class LifecycleManager(Node):
             await wait_for(self, Future(), _LOOK_S)
 
     async def _answer(self, timeout_s: float) -> bool:
-        """Wait until all nodes answer: one that has died seems to be there for a while."""
+        """Wait until all nodes respond, as a dead node stays discoverable for a while."""
         end_s = time.monotonic() + timeout_s
         for each in self._managed:
             while not await each.answers(_ANSWER_S):
@@ -171,7 +171,7 @@ class LifecycleManager(Node):
         await self._alone(self.startup)
 
     async def _alone(self, work: Any) -> bool:
-        """Do one thing at a time."""
+        """Run an operation, unless another one is in progress; return whether it succeeded."""
         if self._is_busy:
             self.get_logger().warning('Busy with another change of state: ask again')
             return False
@@ -220,7 +220,7 @@ class LifecycleManager(Node):
             self._is_looking = False
 
     async def _ask_all(self) -> None:
-        """Ask all nodes for their state; when one is gone, bring the others down and wait."""
+        """Poll the state of all nodes; when one has failed, bring the others down and wait."""
         for each in self._managed:
             try:
                 state = await each.state(self._watch_s)
@@ -232,7 +232,7 @@ class LifecycleManager(Node):
             if state == State.PRIMARY_STATE_ACTIVE:
                 self._seen_s[each.name] = now_s
                 continue
-            # What was not seen since the nodes were brought up was there one period ago.
+            # A node not seen since the bring-up counts as last seen one period ago.
             seen_s = self._seen_s.setdefault(each.name, now_s - self._watch_s)
             if state is None and now_s - seen_s < self._told.bond_timeout:
                 continue
@@ -244,7 +244,7 @@ class LifecycleManager(Node):
             return
 
     async def _recover(self) -> bool:
-        """Bring down what is left; bring all up when they are there again."""
+        """Bring down the remaining nodes; bring all up again when they are available."""
         self.is_active = False
         for each in reversed(self._managed):
             try:
@@ -271,7 +271,7 @@ class LifecycleManager(Node):
 
 
 def _is_behind(state: int, transition: int) -> bool:
-    """Return whether a transition leads to where a node already is, or is not needed there."""
+    """Whether a node has already reached the target state of a transition, or does not need it."""
     if transition == Transition.TRANSITION_CONFIGURE:
         return state in (State.PRIMARY_STATE_INACTIVE, State.PRIMARY_STATE_ACTIVE)
     if transition == Transition.TRANSITION_ACTIVATE:

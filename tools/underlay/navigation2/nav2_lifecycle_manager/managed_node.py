@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One node with a lifecycle, asked through its services."""
+"""Client of the lifecycle services of one node."""
 
 from __future__ import annotations
 
@@ -33,21 +33,21 @@ _AGAIN_S = 1.0
 
 
 class TransitionError(NavigationError):
-    """A node did not go into the state that it was to go into."""
+    """A lifecycle transition of a node has failed."""
 
 
 class ManagedNode:
     """
-    Asks for the state of another node, and changes it.
+    Client that gets and changes the lifecycle state of another node.
 
     Parameters
     ----------
     node
-        The node that asks.
+        The node that owns the clients.
     name
-        The name of the other one, relative to the namespace of this one.
+        The name of the managed node, relative to the namespace of `node`.
     timeout_s
-        How long an answer may take, in s.
+        The timeout of responses, in s.
 
     """
 
@@ -59,17 +59,17 @@ class ManagedNode:
 
     @property
     def is_there(self) -> bool:
-        """Whether its services are there."""
+        """Whether its services are available."""
         return bool(self._get.service_is_ready() and self._change.service_is_ready())
 
     async def state(self, timeout_s: float | None = None) -> int:
         """
-        Query the lifecycle state of the node, repeating a request that gets lost.
+        Query the lifecycle state of the node, repeating lost requests.
 
         Parameters
         ----------
         timeout_s
-            How long the answer may take, in s; by default as long as the class says.
+            The timeout in s; by default that of the class.
 
         Returns
         -------
@@ -79,7 +79,7 @@ class ManagedNode:
         Raises
         ------
         ServiceError
-            There was no answer in time.
+            There was no response in time.
 
         """
         all_s = left_s = timeout_s or self._timeout_s
@@ -90,17 +90,17 @@ class ManagedNode:
                 )
                 return int(response.current_state.id)
             except ServiceError:
-                left_s -= _AGAIN_S  # a request is lost while the two are getting to know another
+                left_s -= _AGAIN_S  # requests can get lost during discovery
         raise ServiceError(f"'{self.name}' has not told its state within {all_s:g} s.")
 
     async def answers(self, timeout_s: float) -> bool:
         """
-        Whether the node tells its state in time, and accepts requests for transitions.
+        Whether the node reports its state in time, and its transition service is available.
 
         Parameters
         ----------
         timeout_s
-            How long it may take to tell its state, in s.
+            The timeout for its state, in s.
 
         """
         try:
@@ -111,7 +111,7 @@ class ManagedNode:
 
     async def change(self, transition: int) -> None:
         """
-        Trigger a lifecycle transition, and wait until the node has gone through it.
+        Trigger a lifecycle transition, and wait until it is complete.
 
         Parameters
         ----------
@@ -121,7 +121,7 @@ class ManagedNode:
         Raises
         ------
         TransitionError
-            It refused, failed or did not answer.
+            It was rejected, failed or timed out.
 
         """
         self._node.get_logger().info(f'{WORDS[transition]} {self.name}')
@@ -136,7 +136,7 @@ class ManagedNode:
             )
 
     async def shut_down(self) -> None:
-        """Let it go to its end, from whatever state; TransitionError as for `change`."""
+        """Shut the node down from any state; raise TransitionError like `change`."""
         try:
             transition = _SHUTDOWNS.get(await self.state())
         except ServiceError as error:

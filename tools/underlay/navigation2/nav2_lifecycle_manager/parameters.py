@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the lifecycle manager is told."""
+"""The parameters of the lifecycle manager."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['LifecycleManagerParameters']
 
 @dataclass(frozen=True)
 class LifecycleManagerParameters:
-    """What the lifecycle manager is told."""
+    """Parameters of the lifecycle manager."""
 
     node_names: list[str] = parameter(
         ['controller_server', 'planner_server', 'behavior_server', 'bt_navigator'],

@@ -49,7 +49,7 @@ class LoopbackParameters:
     )
 
     def laser_shape(self) -> LaserShape:
-        """Return the beams of the scanner."""
+        """Compute the beam angles and range limits of the scanner."""
         return LaserShape(
             self.scan_angle_min,
             self.scan_angle_max,

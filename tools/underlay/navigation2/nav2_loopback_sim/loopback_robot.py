@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that moves exactly as it is told, in any direction, and where it is in the map."""
+"""Ideal robot that follows velocity commands exactly, and its pose in the map."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ _STRAIGHT_RAD = 1e-6
 
 class LoopbackRobot:
     """
-    A robot on a frictionless plane.
+    Ideal omnidirectional robot.
 
-    It moves once it was placed in the map. A command holds for `timeout_s` of the time that
-    `step` counts; then the robot stops.
+    It moves once it was placed in the map. A command is held for `timeout_s` of the time that
+    `step` simulates; then the robot stops.
 
     Parameters
     ----------
     timeout_s
-        How long a command holds.
+        The timeout of commands.
 
     """
 
@@ -43,14 +43,14 @@ class LoopbackRobot:
 
     @property
     def pose_in_map(self) -> Pose2D | None:
-        """Where the base is in the map, once it was placed."""
+        """The base in the map, once it was placed."""
         return None if self.map_to_odom is None else self.map_to_odom @ self.odom
 
     def place(self, pose: Pose2D) -> None:
         """
         Place the robot at a pose in the map.
 
-        Only the transform from map to odom changes: odometry goes on, as if the robot were
+        Only the transform from map to odom changes: odometry is continuous, as if the robot were
         carried.
 
         Parameters
@@ -68,7 +68,8 @@ class LoopbackRobot:
         Parameters
         ----------
         velocity
-            The velocity in the base frame (m/s, rad/s), which holds for `timeout_s` of the class.
+            The velocity in the base frame (m/s, rad/s), which is held for `timeout_s` of the
+            class.
 
         """
         if self.map_to_odom is not None:
@@ -91,7 +92,7 @@ class LoopbackRobot:
 
 
 def _arc(velocity: Velocity, duration_s: float) -> Pose2D:
-    """Return the motion of a constant velocity, in the frame at its beginning."""
+    """Compute the motion at constant velocity, in the frame at its start."""
     turn = velocity.yaw * duration_s
     x, y = velocity.x * duration_s, velocity.y * duration_s
     if abs(turn) < _STRAIGHT_RAD:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node `loopback_simulator`: turns commands into odometry, transforms, scans and time."""
+"""The node `loopback_simulator`: converts commands to odometry, transforms, scans and time."""
 
 from __future__ import annotations
 
@@ -41,17 +41,17 @@ _LONGEST_STEP_S = 0.1
 
 class LoopbackSimulator(Node):
     """
-    Simulates a robot without physics; see `LoopbackParameters`.
+    Node that simulates an ideal robot; see `LoopbackParameters`.
 
-    It takes `cmd_vel` and `initialpose`, and publishes `odom`, `scan`, `/clock` and transforms.
-    It stands still until the first initial pose. The map comes from `map_server/map`.
+    It subscribes to `cmd_vel` and `initialpose`, and publishes `odom`, `scan`, `/clock` and
+    transforms. It stands still until the first initial pose. The map comes from `map_server/map`.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     **options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -76,7 +76,7 @@ class LoopbackSimulator(Node):
         self._offer(values)
 
     def _offer(self, values: LoopbackParameters) -> None:
-        """Create topics, clients and timers."""
+        """Create publishers, subscriptions, clients and timers."""
         subscribe_twist(
             self, 'cmd_vel', values.enable_stamped_cmd_vel, lambda v, _: self._robot.command(v)
         )
@@ -96,7 +96,7 @@ class LoopbackSimulator(Node):
         self.create_timer(_LOOK_S, self._look, clock=steady_clock())
 
     def _update(self) -> None:
-        """Let the robot move on, and say so."""
+        """Step the simulation, and publish its state."""
         self._robot.step(self._advance())
         stamp = Time(nanoseconds=self._now_ns).to_msg()
         self._broadcaster.sendTransform(self._transforms(stamp))
@@ -104,15 +104,15 @@ class LoopbackSimulator(Node):
             self._odometry.publish(self._odometry_message(stamp))
         if self._values.publish_scan and self._scan_rhythm.is_due(self._now_ns):
             self._publish_scan(stamp)
-        if self._values.publish_clock:  # at last: nobody is to miss what is stamped with this time
+        if self._values.publish_clock:  # last, after the messages stamped with it
             self._clocks.publish(ClockMessage(clock=stamp))
 
     def _advance(self) -> float:
         """
-        Go on in time; return by how many seconds.
+        Advance the time; return the time step in s.
 
-        At another speed than 1, time is counted in equal steps, so that it waits for a computer
-        that is busy. Otherwise it is that of the computer, which others may use beside /clock.
+        At a speed other than 1, time advances in equal steps, so that it is delayed on a busy
+        computer. Otherwise it is the system time, which other nodes may use instead of /clock.
         """
         if not self._is_real_time:
             self._now_ns += round(self._values.update_duration * 1e9)
@@ -168,10 +168,10 @@ class LoopbackSimulator(Node):
             f'The robot is at x {pose.x:.2f}, y {pose.y:.2f}, yaw {pose.yaw:.2f} in the map now.'
         )
         if self._laser.has_map:
-            self._ask_for_map()  # another one may be there meanwhile
+            self._ask_for_map()  # another map may be available meanwhile
 
     def _look(self) -> None:
-        """Look for the map, and for where the laser is, until they are there."""
+        """Look up the map and the pose of the laser until both are available."""
         self._looks += 1
         if self._laser_in_base is None:
             self._look_for_laser()
@@ -185,7 +185,7 @@ class LoopbackSimulator(Node):
                 )
 
     def _look_for_laser(self) -> None:
-        """Take where the laser is from the robot's model; without one, it is at the base."""
+        """Look up the pose of the laser in the robot's model; without one, it is at the base."""
         base, laser = self._values.base_frame_id, self._values.scan_frame_id
         try:
             moved = self._buffer.lookup_transform(base, laser, Time()).transform
@@ -225,14 +225,14 @@ class LoopbackSimulator(Node):
 
 
 class _Rhythm:
-    """Tells when something is due, once in each period of a time that may jump."""
+    """Rate limiter that is due once per period of a clock that may jump."""
 
     def __init__(self, period_s: float) -> None:
         self._period_ns = round(period_s * 1e9)
         self._next_ns = 0
 
     def is_due(self, now_ns: int) -> bool:
-        """Return whether it is due now; it is then due again after a period."""
+        """Whether a tick is due; the next one is due after a period."""
         if 0 < self._next_ns - now_ns <= self._period_ns:
             return False
         self._next_ns += self._period_ns

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a laser scanner of the loopback simulator sees."""
+"""Simulated laser scanner of the loopback simulator."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _BELOW_MAXIMUM_M = 0.1
 
 @dataclass(frozen=True)
 class LaserShape:
-    """The angles of a scanner's beams in rad, and between which ranges in m it sees."""
+    """Beam angles of a scanner in rad, and its range limits in m."""
 
     angle_min_rad: float
     angle_max_rad: float
@@ -28,14 +28,14 @@ class LaserShape:
 
     @property
     def count(self) -> int:
-        """How many beams there are."""
+        """The number of beams."""
         span = self.angle_max_rad - self.angle_min_rad
         return max(int(span / self.angle_increment_rad + 1e-6) + 1, 1)
 
 
 class SimulatedLaser:
     """
-    Sees the occupied cells of a map, without noise; nothing as long as there is no map.
+    Noiseless laser scanner that detects the occupied cells of a map, once there is one.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class SimulatedLaser:
 
     @property
     def has_map(self) -> bool:
-        """Whether there is a map."""
+        """Whether a map is set."""
         return self._caster is not None
 
     def set_map(self, grid: OccupancyMap) -> None:
@@ -74,12 +74,12 @@ class SimulatedLaser:
         Parameters
         ----------
         pose
-            The laser in the map; None if that is not known.
+            The pose of the laser in the map; None if unknown.
 
         Returns
         -------
-        (B,) array of ranges in m, at least the minimum; where nothing is seen, inf or 0.1 m below
-        the maximum.
+        (B,) array of ranges in m, at least the minimum; without a hit, inf or 0.1 m below the
+        maximum.
 
         """
         if self._caster is None or pose is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Maps in files, and the servers that publish and save them."""
+"""Map files, and the servers that publish and save maps."""
 
 from nav2_map_server.map_io import MapError, read_map, write_map
 from nav2_map_server.occupancy_map import OccupancyMap

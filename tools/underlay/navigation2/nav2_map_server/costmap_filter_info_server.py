@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that says which mask a costmap filter takes, and what its values mean."""
+"""The node that publishes the topic of a filter mask, and the meaning of its values."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ class FilterInfoParameters:
 
 class CostmapFilterInfoServer(LifecycleNode):
     """
-    Publishes what a costmap filter has to know of its mask.
+    Node that publishes the info of a costmap filter on its mask.
 
     Parameters
     ----------
     node_name
         Its name.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read and write maps: a YAML file with what is known of the map, and an image with its cells."""
+"""Read and write maps: a YAML file with the metadata, and an image with the cells."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ __all__ = [
 
 IMAGE_FORMATS = ('pgm', 'png', 'bmp')
 _TRINARY = Thresholds(0.196, 0.65)
-"""Between which the pixel of unknown cells is; other thresholds would read it as free."""
+"""The thresholds written in mode 'trinary'; with others, unknown cells could be read as free."""
 _KEYS = (
     'image',
     'resolution',
@@ -50,24 +50,24 @@ _KEYS = (
 
 
 class MapError(NavigationError):
-    """A map cannot be read or written; the text is a sentence with the file."""
+    """A map cannot be read or written; the text is a full sentence with the file."""
 
 
 class MissingMapError(MapError):
-    """There is no such YAML file."""
+    """The YAML file does not exist."""
 
 
 class MapMetadataError(MapError):
-    """The YAML file is not that of a map."""
+    """The YAML file is not valid map metadata."""
 
 
 class MapDataError(MapError):
-    """The image is missing, or is no image."""
+    """The image is missing or invalid."""
 
 
 @dataclass(frozen=True)
 class _Metadata:
-    """What the YAML file says."""
+    """Metadata from the YAML file."""
 
     image: Path
     resolution_m: float
@@ -84,7 +84,7 @@ def read_map(path: str | os.PathLike[str]) -> OccupancyMap:
     Parameters
     ----------
     path
-        Of the YAML file.
+        The path of the YAML file.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def write_map(
     thresholds: Thresholds = Thresholds(),
 ) -> tuple[Path, Path]:
     """
-    Write a map, or nothing if that fails.
+    Write a map, or no file at all if that fails.
 
     Parameters
     ----------
@@ -127,8 +127,8 @@ def write_map(
     mode
         'trinary', 'scale' or 'raw'.
     thresholds
-        What is free and what is occupied. In mode 'trinary' they count here and now, and the file
-        gets 0.196 and 0.65, which tell its three shades apart.
+        The thresholds of free and occupied cells. In mode 'trinary' they are applied when writing,
+        and the file gets 0.196 and 0.65, which separate its three shades.
 
     Returns
     -------
@@ -137,7 +137,7 @@ def write_map(
     Raises
     ------
     MapError
-        It cannot be written, or so.
+        It cannot be written with these arguments.
 
     """
     stem = Path(stem).expanduser()
@@ -156,7 +156,7 @@ def write_map(
     done, encoded = cv2.imencode(f'.{kind}', pixels)
     if not done:
         raise MapError(f"OpenCV cannot make an image of format '{kind}'.")
-    # Not with_suffix: a name may have dots.
+    # Not with_suffix: the name may contain dots.
     image, file = stem.parent / f'{stem.name}.{kind}', stem.parent / f'{stem.name}.yaml'
     x, y, yaw = found.origin
     if mode == 'trinary':
@@ -183,7 +183,7 @@ def _check_choice(what: str, given: str, choices: tuple[str, ...]) -> None:
 
 
 def _replace(contents: Mapping[Path, bytes]) -> None:
-    """Write all files, or leave all as they were."""
+    """Replace all files, or restore all if that fails."""
     written: dict[Path, str] = {}
     try:
         for path, content in contents.items():
@@ -248,7 +248,7 @@ def _read_metadata(file: Path) -> _Metadata:
 
 
 class _Reader:
-    """Reads the values of a YAML file, or says what is wrong."""
+    """Validating reader of the values of a YAML file."""
 
     def __init__(self, file: Path, content: dict[Any, Any]) -> None:
         self._file, self._content = file, content
@@ -285,7 +285,7 @@ class _Reader:
 
 
 def _read_image(image: Path, file: Path) -> tuple[Any, Any]:
-    """Return the brightness of pixels, and their opacity if there is an alpha channel."""
+    """Read the brightness of pixels, and their opacity if there is an alpha channel."""
     try:
         content = image.read_bytes()
     except OSError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Maps as messages, and where `map_url`s point."""
+"""Convert maps to messages and back, and resolve `map_url`s."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ def map_from(message: OccupancyGrid) -> OccupancyMap:
     Parameters
     ----------
     message
-        The map in cells of -1 and 0 to 100; of its origin, x, y and yaw count.
+        The map in cells of -1 and 0 to 100; of its origin, x, y and yaw are used.
 
     Raises
     ------
     MapError
-        It has not as many cells as it says.
+        Its number of cells does not match its size.
 
     """
     info = message.info
@@ -62,7 +62,7 @@ def map_from(message: OccupancyGrid) -> OccupancyMap:
     origin = planar_pose(info.origin)
     return OccupancyMap(
         cells.reshape(info.height, info.width),
-        # The message has it in single precision.
+        # The message has single precision.
         round(float(info.resolution), 7),
         (origin.x, origin.y, origin.yaw),
     )
@@ -70,7 +70,7 @@ def map_from(message: OccupancyGrid) -> OccupancyMap:
 
 def path_of(url: str) -> str:
     """
-    Return the path that a `map_url` means.
+    Resolve a `map_url` to a path.
 
     Parameters
     ----------

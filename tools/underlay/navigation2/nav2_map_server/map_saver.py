@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that writes maps from topics to files."""
+"""The node that saves maps from topics to files."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ class MapSaverParameters:
 
 @dataclass(frozen=True)
 class SaveOptions:
-    """Which map is written, and how."""
+    """Options for saving a map."""
 
     topic: str = 'map'
     stem: str = 'map'
-    """The path of the files without the ending."""
+    """The path of the files without the extension."""
     image_format: str = ''
     mode: str = 'trinary'
     thresholds: Thresholds = field(default_factory=Thresholds)
@@ -50,14 +50,14 @@ class SaveOptions:
 
 class MapSaver(LifecycleNode):
     """
-    Writes the map of a topic to files.
+    Node that saves the map of a topic to files.
 
     Parameters
     ----------
     node_name
         Its name.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -66,15 +66,15 @@ class MapSaver(LifecycleNode):
         self._settings: Any = None
 
     def configure(self) -> None:
-        """Offer the service."""
+        """Create the service."""
         self._settings = self.parameters.declare(MapSaverParameters)
         create_async_service(self, SaveMap, '~/save_map', self._serve)
 
     async def save(self, options: SaveOptions) -> None:
         """
-        Wait for a map on a topic, and write it to files.
+        Wait for a map on a topic, and save it to files.
 
-        The parameter `save_map_timeout` is how long to wait, in s.
+        The parameter `save_map_timeout` is the timeout in s.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class MapSaver(LifecycleNode):
         Raises
         ------
         MapError
-            None came in time, or it cannot be written.
+            No map was received in time, or it cannot be written.
 
         """
         values: MapSaverParameters = self.parameters.declare(MapSaverParameters).current
@@ -133,7 +133,7 @@ class MapSaver(LifecycleNode):
 
     def _options(self, request: SaveMap.Request) -> SaveOptions:
         values: MapSaverParameters = self._settings.current
-        # In a request, 0 says that the default counts.
+        # In a request, 0 stands for the default.
         free = request.free_thresh or values.free_thresh_default
         occupied = request.occupied_thresh or values.occupied_thresh_default
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command that writes the map of a topic to files, once."""
+"""The command that saves the map of a topic to files, once."""
 
 from __future__ import annotations
 

@@ -43,14 +43,14 @@ class MapServerParameters:
 
 class MapServer(LifecycleNode):
     """
-    Publishes a map, and loads another one when it is told to.
+    Node that publishes a map, and loads another one on request.
 
     Parameters
     ----------
     node_name
         Its name.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -83,7 +83,7 @@ class MapServer(LifecycleNode):
         self._publish()
 
     def cleanup(self) -> None:
-        """Forget the map."""
+        """Release the map."""
         self._map = None
 
     def _read(self, url: str) -> OccupancyGrid:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the pixels of a map's image mean: how occupied each cell is."""
+"""Convert the pixels of a map's image to cell occupancies and back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 __all__ = ['MODES', 'OccupancyMap', 'Thresholds', 'occupancies_of', 'pixels_of']
 
 MODES = ('trinary', 'scale', 'raw')
-"""How pixels are read: as free, occupied or unknown; as percentages; or as they are."""
+"""Interpretation of pixels: as free, occupied or unknown; as percentages; or as raw values."""
 
 UNKNOWN = -1
 OCCUPIED = 100
@@ -24,19 +24,19 @@ OccupancyArray = npt.NDArray[np.int8]
 
 @dataclass(frozen=True)
 class OccupancyMap:
-    """A map of cells."""
+    """Occupancy grid map."""
 
     occupancies: OccupancyArray
-    """(rows, columns) percentages; -1 is unknown. The first row is that of the lowest y."""
+    """(rows, columns) percentages; -1 is unknown. The first row has the lowest y."""
     resolution_m: float
-    """The side of a cell."""
+    """The side length of a cell."""
     origin: tuple[float, float, float]
     """The pose of the outer corner of the first cell: x and y in m, yaw in rad."""
 
 
 @dataclass(frozen=True)
 class Thresholds:
-    """Beyond which probabilities a cell is free or occupied."""
+    """Thresholds of the occupancy probability for free and occupied cells."""
 
     free: float = 0.25
     occupied: float = 0.65
@@ -67,12 +67,12 @@ def occupancies_of(
     mode
         'trinary', 'scale' or 'raw'.
     thresholds
-        A pixel is occupied, or free, if it is darker, or brighter, than these say.
+        The thresholds beyond which a pixel is occupied if dark, or free if bright.
     negate
-        Whether bright pixels are occupied. It does not count in raw mode.
+        Whether bright pixels are occupied; ignored in raw mode.
     opacity
-        The alpha channel. Pixels that are not opaque are unknown in mode 'scale', and those that
-        are transparent in mode 'trinary'.
+        The alpha channel. Pixels that are not opaque are unknown in mode 'scale', and transparent
+        ones in mode 'trinary'.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def pixels_of(
     occupancies: OccupancyArray, mode: str, thresholds: Thresholds
 ) -> tuple[PixelArray, PixelArray | None]:
     """
-    Convert occupancies to the pixels of an image, from which `occupancies_of` makes them again.
+    Convert occupancies to the pixels of an image, the inverse of `occupancies_of`.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The MPPI controller as a plugin: its critics, its path and what it shows."""
+"""The MPPI controller plugin: its critics, path handling and displays."""
 
 from __future__ import annotations
 
@@ -52,14 +52,14 @@ _USUAL = [
 
 class MPPIController(Controller):
     """
-    Finds controls by a weighted mean of random ones, scored by critics.
+    Controller that computes controls as a weighted mean of random samples, scored by critics.
 
     Parameters
     ----------
     context
         Its name and parameters.
     seed
-        Of the random numbers.
+        The seed of the random numbers.
 
     """
 
@@ -70,18 +70,18 @@ class MPPIController(Controller):
         self.transform_tolerance_s = context.transform_tolerance()
         names = context.value('critics', _USUAL, 'The critics, by their names.')
         made = [_find(name)(context.named(f'{context.name}.{name}')) for name in names]
-        # Those that find collisions first: others need not score what collides.
+        # Critics that detect collisions come first: others can skip colliding trajectories.
         self._optimizer = Optimizer(made, np.random.default_rng(seed))
         self._last_s: float | None = None
 
     def new_plan(self, *, is_new_goal: bool) -> None:
         """
-        Follow another path from now on.
+        Set a new path.
 
         Parameters
         ----------
         is_new_goal
-            Whether the path leads to another goal, so that the optimizer starts anew; otherwise it
+            Whether the path leads to another goal, so that the optimizer is reset; otherwise it
             is a new path to the same goal.
 
         """
@@ -116,7 +116,7 @@ class MPPIController(Controller):
         ratio = self.limit_ratio(p.vx_max)
         velocity = self._optimizer.optimize(state, p, ratio)
         if ratio < 1.0 and velocity.linear > ratio * p.vx_max:
-            # Sideways motion adds to the speed that is limited.
+            # Lateral motion adds to the limited speed.
             factor = ratio * p.vx_max / velocity.linear
             velocity = Velocity(velocity.x * factor, velocity.y * factor, velocity.yaw)
         best = self._optimizer.best[:, None, :]
@@ -144,10 +144,10 @@ def _find(name: str) -> type[Critic]:
 
 
 def _pruned(state: ControlState, p: MppiParameters) -> ControlState:
-    """Return the state with the path only as far as it is regarded."""
+    """Prune the path of the state to the part that is considered."""
     plan, whole = state.plan, state.is_goal_in_plan
     lengths = path_lengths(plan)
-    # As far as a robot at full speed comes, if that is more.
+    # At least the distance covered at full speed.
     limit = max(p.prune_distance, 1.2 * p.vx_max * p.model_dt * p.time_steps)
     end = int(np.searchsorted(lengths, limit, 'right'))
     if p.enforce_path_inversion:
@@ -158,7 +158,7 @@ def _pruned(state: ControlState, p: MppiParameters) -> ControlState:
 
 
 def _inversion(state: ControlState, p: MppiParameters) -> int:
-    """Return the number of poses up to where the path turns back and the robot has yet to be."""
+    """Count the poses up to the next path inversion that the robot has not reached yet."""
     steps = np.diff(state.plan[:, :2], axis=0)
     turns = np.flatnonzero((steps[:-1] * steps[1:]).sum(axis=1) < 0.0) + 1
     for index in turns:

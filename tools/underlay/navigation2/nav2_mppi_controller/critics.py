@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Critics of MPPI that lead along the path to the goal, within what the robot can do."""
+"""Critics of MPPI for the path, the goal and the motion constraints."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ Floats = npt.NDArray[np.float32]
 
 @dataclass(frozen=True)
 class CriticParameters:
-    """The parameters of a critic."""
+    """Parameters that all critics have."""
 
     enabled: bool = parameter(True, 'Whether the critic is asked.')
     cost_power: int = parameter(1, 'The power of its cost.', low=1)
@@ -62,7 +62,7 @@ class GoalAngleParameters(CriticParameters):
 
 @dataclass(frozen=True)
 class PreferForwardParameters(CriticParameters):
-    """The parameters of the critic that prefers forward."""
+    """The parameters of PreferForwardCritic."""
 
     cost_weight: float = parameter(5.0, 'The weight of its cost.')
     threshold_to_consider: float = parameter(
@@ -150,12 +150,12 @@ def powered(cost: Floats, parameters: CriticParameters, weight: float | None = N
     parameters : CriticParameters
         The parameters of the critic.
     weight
-        A weight in place of `cost_weight`.
+        A weight that replaces `cost_weight`.
 
     Returns
     -------
     Floats
-        (K,) what each trajectory costs: (weight * cost) ** `cost_power`.
+        (K,) cost of each trajectory: (weight * cost) ** `cost_power`.
 
     """
     weighted: Floats = cost * np.float32(parameters.cost_weight if weight is None else weight)
@@ -166,15 +166,14 @@ def powered(cost: Floats, parameters: CriticParameters, weight: float | None = N
 
 class Critic:
     """
-    The base of critics: what each trajectory costs.
+    Base class of critics, which compute the cost of each trajectory.
 
     Subclasses override `_costs`, and set `kind` to the dataclass of their parameters.
 
     Parameters
     ----------
     context
-        The name of the critic, such as FollowPath.GoalCritic, and where its parameters are
-        declared.
+        The name of the critic, such as FollowPath.GoalCritic, and the source of its parameters.
 
     """
 
@@ -185,7 +184,7 @@ class Critic:
 
     def costs(self, scene: Scene) -> Floats | None:
         """
-        Score the trajectories of one round of optimization.
+        Score the trajectories of one optimization iteration.
 
         Parameters
         ----------
@@ -206,7 +205,7 @@ class Critic:
 
 
 class ConstraintCritic(Critic):
-    """Scores velocities beyond the limits."""
+    """Critic of velocities beyond the limits."""
 
     def _costs(self, scene: Scene, p: Any) -> Floats | None:
         limits = scene.settings
@@ -228,7 +227,7 @@ class ConstraintCritic(Critic):
 
 
 class GoalCritic(Critic):
-    """Scores the distance to the goal near it."""
+    """Critic of the distance to the goal, near the goal."""
 
     kind = GoalParameters
 
@@ -241,7 +240,7 @@ class GoalCritic(Critic):
 
 
 class GoalAngleCritic(Critic):
-    """Scores the angle to the goal's orientation near it."""
+    """Critic of the heading error to the goal, near the goal."""
 
     kind = GoalAngleParameters
 
@@ -253,7 +252,7 @@ class GoalAngleCritic(Critic):
 
 
 class PreferForwardCritic(Critic):
-    """Scores driving backward."""
+    """Critic that penalises driving backward."""
 
     kind = PreferForwardParameters
 
@@ -265,7 +264,7 @@ class PreferForwardCritic(Critic):
 
 
 class TwirlingCritic(Critic):
-    """Scores turning."""
+    """Critic that penalises rotation."""
 
     kind = TwirlingParameters
 
@@ -276,7 +275,7 @@ class TwirlingCritic(Critic):
 
 
 class VelocityDeadbandCritic(Critic):
-    """Scores velocities that are too low for the robot to move."""
+    """Critic of velocities in the deadband of the robot."""
 
     kind = DeadbandParameters
 
@@ -292,7 +291,7 @@ class VelocityDeadbandCritic(Critic):
 
 
 class PathFollowCritic(Critic):
-    """Scores how far trajectories end from a pose beyond what is reached of the path."""
+    """Critic of the distance from the ends of trajectories to a pose ahead on the path."""
 
     kind = PathFollowParameters
 
@@ -306,7 +305,7 @@ class PathFollowCritic(Critic):
 
 
 class PathAngleCritic(Critic):
-    """Turns the robot to a path that leads elsewhere than where it faces."""
+    """Critic of the angle to the path, which turns the robot towards it."""
 
     kind = PathAngleParameters
 
@@ -335,7 +334,7 @@ class PathAngleCritic(Critic):
 
 
 class PathAlignCritic(Critic):
-    """Scores how far trajectories are from the path, at equal lengths along both."""
+    """Critic of the distance between trajectories and the path, at equal arc lengths."""
 
     kind = PathAlignParameters
 
@@ -363,7 +362,7 @@ class PathAlignCritic(Critic):
 
 
 def _magnitude(angle: Floats) -> Floats:
-    """Return magnitudes of angles in rad, from 0 to pi."""
+    """Compute the magnitudes of angles in rad, from 0 to pi."""
     turns: Floats = angle * np.float32(0.5 / math.pi)
     turns -= np.rint(turns)
     return np.asarray(np.abs(turns) * np.float32(2.0 * math.pi), np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sampled controls, the trajectories to which they lead, and their weighted mean."""
+"""Sampled controls, their simulated trajectories, and their weighted mean."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ['Noise', 'Trajectories', 'limit_controls', 'roll_out', 'smoothed', 'w
 
 Floats = npt.NDArray[np.float32]
 
-# Savitzky-Golay filter: a parabola through 9 points, at their middle.
+# Savitzky-Golay filter: a parabola fitted to 9 points, evaluated at the middle one.
 _FILTER = np.array([-21, 14, 39, 54, 59, 54, 39, 14, -21], np.float32) / np.float32(231)
 
 
@@ -26,7 +26,7 @@ class Trajectories:
     controls: Floats
     """(3, K, T): vx, vy in m/s, wz in rad/s, as commanded."""
     velocities: Floats
-    """(3, K, T): with which the robot drives in each step."""
+    """(3, K, T): the velocities of the robot in each step."""
     x: Floats
     """(K, T)"""
     y: Floats
@@ -35,12 +35,12 @@ class Trajectories:
 
 class Noise:
     """
-    What is added to the controls: drawn once; `regenerate_noises` takes other parts each time.
+    Noise of the controls: drawn once; `regenerate_noises` uses other parts of it each time.
 
     Parameters
     ----------
     rng
-        Where random numbers come from.
+        The random number generator.
 
     """
 
@@ -85,7 +85,7 @@ def limit_controls(
     controls: Floats, start: Velocity, settings: MppiParameters, ratio: float = 1.0
 ) -> Floats:
     """
-    Return controls that a robot with limited velocities and accelerations can follow.
+    Limit controls to the velocity and acceleration limits of the robot.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def limit_controls(
     settings
         The limits.
     ratio
-        The part of the highest velocities that is allowed, from 0 to 1.
+        The allowed fraction of the velocity limits, from 0 to 1.
 
     """
     p, dt = settings, settings.model_dt
@@ -110,7 +110,7 @@ def limit_controls(
             limited[k] = 0.0
             continue
         steps = np.arange(1, controls.shape[-1] + 1, dtype=np.float32)
-        # What can be reached from the start by then; a cheap bound of what the steps allow.
+        # Velocities reachable from the start by then; a cheap bound of the step limits.
         low = np.maximum(lows[k], np.minimum(start[k], highs[k]) - downs[k] * steps)
         high = np.minimum(highs[k], np.maximum(start[k], lows[k]) + ups[k] * steps)
         np.clip(controls[k], np.minimum(low, high), high, out=limited[k])
@@ -124,7 +124,7 @@ def roll_out(
     pose: Pose2D, start: Velocity, controls: Floats, settings: MppiParameters
 ) -> Trajectories:
     """
-    Compute the trajectories of controls.
+    Simulate the trajectories of controls.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def roll_out(
     """
     dt = np.float32(settings.model_dt)
     velocities = np.empty_like(controls)
-    # A command takes effect a step later.
+    # A command takes effect one step later.
     velocities[:, :, 1:] = controls[:, :, :-1]
     velocities[:, :, 0] = np.array(start, np.float32)[:, None]
     yaw = np.cumsum(velocities[2], axis=1)
@@ -163,7 +163,7 @@ def weighted_mean(
     controls: Floats, costs: Floats, best: Floats, settings: MppiParameters
 ) -> Floats:
     """
-    Return the mean of controls, weighted by what they cost.
+    Compute the mean of controls, weighted by their costs.
 
     Parameters
     ----------
@@ -198,9 +198,9 @@ def smoothed(best: Floats, history: Floats) -> Floats:
     Parameters
     ----------
     best
-        (3, T) controls vx, vy in m/s, wz in rad/s; fewer than 9 stay as they are.
+        (3, T) controls vx, vy in m/s, wz in rad/s; fewer than 9 are unchanged.
     history
-        (3, 4) controls that were sent before, the oldest first.
+        (3, 4) previous commands, the oldest first.
 
     Returns
     -------

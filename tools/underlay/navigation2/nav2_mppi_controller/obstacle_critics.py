@@ -72,7 +72,7 @@ class ObstaclesParameters(CriticParameters):
 
 class CostCritic(Critic):
     """
-    Scores the costs of the costmap along trajectories.
+    Critic of the costmap's costs along trajectories.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class CostCritic(Critic):
 
 class ObstaclesCritic(Critic):
     """
-    Scores the distance to obstacles along trajectories, as it follows from costs.
+    Critic of the distance to obstacles along trajectories, derived from the costs.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ class ObstaclesCritic(Critic):
 def _colliding(
     scene: Scene, costs: npt.NDArray[np.uint8], step: int, outline: bool
 ) -> npt.NDArray[np.bool_]:
-    """Return at which points of trajectories the robot hits an obstacle."""
+    """Find the points of trajectories at which the robot is in collision."""
     if not outline:
         hits: npt.NDArray[np.bool_] = (costs >= INSCRIBED_INFLATED_OBSTACLE) & (
             costs != NO_INFORMATION
@@ -151,7 +151,7 @@ def _colliding(
         return hits
     hits = costs == LETHAL_OBSTACLE
     trajectories = scene.trajectories
-    # Only where costs are inflated can an obstacle be within reach of the outline.
+    # The footprint can only touch an obstacle where costs are inflated.
     at = np.nonzero((costs > 0) & (costs != NO_INFORMATION) & ~hits)
     if len(at[0]):
         columns = at[1] * step

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Model predictive path integral control: improve a sequence of controls by random samples."""
+"""MPPI optimizer: improves a control sequence by random samples."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Floats = npt.NDArray[np.float32]
 
 class Optimizer:
     """
-    Keeps the best sequence of controls known, and improves it in each period.
+    Optimizer that improves a control sequence in each period.
 
     Source: G. Williams et al., Information-Theoretic Model Predictive Control, IEEE Transactions
     on Robotics 34 (2018).
@@ -35,9 +35,9 @@ class Optimizer:
     Parameters
     ----------
     critics
-        What trajectories are scored by.
+        The critics that score trajectories.
     rng
-        Where random numbers come from.
+        The random number generator.
 
     """
 
@@ -47,30 +47,30 @@ class Optimizer:
         self._best: Floats = np.zeros((3, 0), np.float32)
         self._history: Floats = np.zeros((3, 4), np.float32)
         self.trajectories: Trajectories | None = None
-        """The candidates of the last round."""
+        """The candidate trajectories of the last iteration."""
 
     def reset(self) -> None:
-        """Forget the controls."""
+        """Reset the control sequence."""
         self._best = np.zeros((3, 0), np.float32)
         self._history[:] = 0.0
 
     @property
     def best(self) -> Floats:
-        """(3, T) the best controls known."""
+        """(3, T) the current control sequence."""
         return self._best
 
     def optimize(self, state: ControlState, settings: MppiParameters, ratio: float) -> Velocity:
         """
-        Return the velocity for the next period.
+        Compute the velocity for the next period.
 
         Parameters
         ----------
         state
-            What is known.
+            The robot, its path and the costmap in this control period.
         settings
-            Limits and sampling.
+            The settings of limits and sampling.
         ratio
-            The part of the highest speeds that is allowed, from 0 to 1.
+            The allowed fraction of the speed limits, from 0 to 1.
 
         Raises
         ------
@@ -96,7 +96,7 @@ class Optimizer:
         return Velocity(*(float(each) for each in control))
 
     def _improve(self, state: ControlState, p: MppiParameters, ratio: float) -> bool:
-        """Improve the controls; return whether any trajectory is free of collisions."""
+        """Run one iteration; return whether any trajectory is collision-free."""
         for _ in range(p.iteration_count):
             noise = self._noise.sample(p)
             sampled = self._best[:, None] + noise
@@ -110,13 +110,13 @@ class Optimizer:
                     total += costs
             if scene.collides.all():
                 return False
-            # The mean of limited samples would stay below the limits.
+            # The mean of limited samples would never reach the limits.
             self._best = weighted_mean(sampled, total, self._best, p)
             self._best = limit_controls(self._best, state.velocity, p, ratio)
         return True
 
     def _shift(self, steps: float) -> None:
-        """Begin the controls where the next period begins."""
+        """Shift the control sequence to the start of the next period."""
         count = self._best.shape[1]
         at = np.minimum(np.arange(count) + min(steps, count), count - 1)
         low = np.floor(at).astype(int)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of MPPI, beside those of its critics."""
+"""The parameters of MPPI, besides those of its critics."""
 
 from __future__ import annotations
 

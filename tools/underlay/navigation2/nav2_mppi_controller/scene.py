@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the critics of MPPI look at: trajectories, the path and the costmap of one period."""
+"""The input of the MPPI critics: trajectories, the path and the costmap of one period."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ Floats = npt.NDArray[np.float32]
 
 class Scene:
     """
-    One round of optimization.
+    Input of the critics in one optimization iteration.
 
     Parameters
     ----------
     state
-        What is known.
+        The robot, its path and the costmap in this control period.
     trajectories
-        All candidates.
+        The candidate trajectories.
     settings
-        Those of the controller.
+        The settings of the controller.
 
     """
 
@@ -44,28 +44,28 @@ class Scene:
         self.path = state.plan.astype(np.float32)
         """(N, 3) poses of the path ahead."""
         self.collides: npt.NDArray[np.bool_] = np.zeros(len(trajectories.x), bool)
-        """(K,) which trajectories hit an obstacle; critics of obstacles fill it."""
+        """(K,) mask of the trajectories in collision; set by the obstacle critics."""
 
     @cached_property
     def goal_distance_m(self) -> float:
-        """How far the robot is from the end of the path that it sees, if that is the goal."""
+        """Compute the distance from the robot to the end of its path, if that is the goal."""
         return self.state.goal_distance_m if self.state.is_goal_in_plan else np.inf
 
     @cached_property
     def path_lengths(self) -> Floats:
-        """(N,) lengths along the path in m."""
+        """(N,) arc lengths along the path in m."""
         return path_lengths(self.state.plan).astype(np.float32)
 
     @cached_property
     def furthest(self) -> int:
-        """Return the pose of the path nearest to the end of the trajectory that comes furthest."""
+        """Find the pose of the path nearest to the end of the trajectory that reaches furthest."""
         x, y = self.trajectories.x[:, -1:], self.trajectories.y[:, -1:]
         squared = (x - self.path[:, 0]) ** 2 + (y - self.path[:, 1]) ** 2
         return int(np.argmin(squared, axis=1).max())
 
     @cached_property
     def path_blocked(self) -> npt.NDArray[np.bool_]:
-        """(N,) where the path leads through obstacles."""
+        """(N,) mask of the poses of the path that are blocked by obstacles."""
         costs = self.state.surroundings.grid.costs_at(self.path[:, :2], outside=NO_INFORMATION)
         blocked: npt.NDArray[np.bool_] = (costs >= INSCRIBED_INFLATED_OBSTACLE) & (
             costs <= LETHAL_OBSTACLE
@@ -74,17 +74,17 @@ class Scene:
 
     def first_free(self, index: int) -> int:
         """
-        Find the first pose of the path, from an index on, that no obstacle covers.
+        Find the first pose of the path, from an index on, that is not blocked.
 
         Parameters
         ----------
         index
-            The pose to begin with; beyond the end of the path, it is the last one.
+            The pose to start with; beyond the end of the path, it is the last one.
 
         Returns
         -------
         int
-            The index in `path`; that of the last pose if obstacles cover all.
+            The index in `path`; that of the last pose if all are blocked.
 
         """
         index = min(index, len(self.path) - 1)
@@ -98,7 +98,7 @@ class Scene:
         Parameters
         ----------
         step
-            One in how many points of a trajectory counts.
+            The stride over the points of a trajectory.
 
         Returns
         -------
@@ -110,7 +110,7 @@ class Scene:
         scale = np.float32(1.0 / grid.resolution)
         u = (self.trajectories.x[:, ::step] - np.float32(grid.origin_x)) * scale
         v = (self.trajectories.y[:, ::step] - np.float32(grid.origin_y)) * scale
-        # A border of unknown cells stands for what is outside.
+        # A border of unknown cells stands for the outside.
         np.clip(u, -1.0, grid.size_x, out=u)
         np.clip(v, -1.0, grid.size_y, out=v)
         u += np.float32(1.0)

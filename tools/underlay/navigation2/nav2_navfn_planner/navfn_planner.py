@@ -41,7 +41,7 @@ class NavfnParameters:
 
 class NavfnPlanner(GlobalPlanner):
     """
-    Plans the cheapest path through the costmap, with rounded corners.
+    Planner of the cheapest path through the costmap, with rounded corners.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class NavfnPlanner(GlobalPlanner):
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
         """
-        Plan the cheapest path, in steps as `GlobalPlanner.create_plan` says.
+        Plan the cheapest path, in steps like `GlobalPlanner.create_plan`.
 
         Parameters
         ----------

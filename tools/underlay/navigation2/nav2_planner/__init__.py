@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The server that plans global paths, and what its planners have in common."""
+"""The planner server, and the shared search algorithms of its planners."""

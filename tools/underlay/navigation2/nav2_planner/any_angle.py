@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Replace a way from cell to cell by straight lines of any direction, at no higher cost."""
+"""Shorten a path from cell to cell to straight lines in any direction, at no higher cost."""
 
 from __future__ import annotations
 
@@ -18,24 +18,23 @@ _TIE = 1e-6
 
 def line_costs(weights: FloatGrid, starts: Points, ends: Points) -> npt.NDArray[np.float64]:
     """
-    Return the costs of straight lines; infinite where one touches a cell of infinite weight.
+    Compute the costs of straight lines; infinite where one touches a cell of infinite weight.
 
     Parameters
     ----------
     weights
         (rows, columns) cost of a cell's length in a cell.
     starts, ends
-        (M, 2) rows and columns of the ends; centres of cells are whole numbers. All within the
-        grid.
+        (M, 2) rows and columns of the ends; centres of cells are integers. All within the grid.
 
     Returns
     -------
-    (M,) lengths in cells times the weights on the way.
+    (M,) lengths in cells times the weights along the line.
 
     Notes
     -----
-    Between two lines of cells across the main direction, the point at their border tells both
-    cells that are touched; where it is a corner of four cells, all four count.
+    Between two lines of cells across the main direction, the point on their border determines the
+    two touched cells; where it is a corner of four cells, all four count as touched.
 
     """
     apart = ends - starts
@@ -49,7 +48,7 @@ def line_costs(weights: FloatGrid, starts: Points, ends: Points) -> npt.NDArray[
 
     line = np.repeat(pick, borders)
     step = np.arange(len(line)) - np.repeat(np.cumsum(borders) - borders, borders)
-    # Cells as indices of the flat grid; a row is as many cells as there are columns.
+    # Cells as indices of the flattened grid; the stride of a row is the number of columns.
     flat, columns = weights.ravel(), weights.shape[1]
     ahead, aside = np.where(along, 1, columns), np.where(along, columns, 1)
     base = (starts[pick, 1 - along] + slope * (first + 0.5 * direction - begin))[line]
@@ -76,14 +75,14 @@ def line_costs(weights: FloatGrid, starts: Points, ends: Points) -> npt.NDArray[
 
 def pull_taut(weights: FloatGrid, way: npt.NDArray[np.int32]) -> Points:
     """
-    Replace stretches of a way by straight lines where that costs no more.
+    Replace stretches of a path by straight lines where that costs no more.
 
     Parameters
     ----------
     weights
         As for `line_costs`.
     way
-        (N, 2) rows and columns of cells, each beside the next.
+        (N, 2) rows and columns of cells, each adjacent to the next.
 
     Returns
     -------
@@ -102,7 +101,7 @@ def pull_taut(weights: FloatGrid, way: npt.NDArray[np.int32]) -> Points:
 def _choose(
     weights: FloatGrid, points: Points, kept: npt.NDArray[np.intp], spans: tuple[int, ...]
 ) -> Points:
-    """Choose the cheapest chain of lines between points that may be kept, in their order."""
+    """Choose the cheapest chain of lines between candidate points, in order."""
     steps = line_costs(weights, points[:-1], points[1:])
     so_far = np.concatenate([[0.0], np.cumsum(steps)])[kept]
     count = len(kept)
@@ -110,7 +109,7 @@ def _choose(
     for row, span in zip(costs, spans):
         if span < count:
             row[span:] = line_costs(weights, points[kept[:-span]], points[kept[span:]])
-    # From one to the next, the old way is always there.
+    # From one to the next, the original path is always available.
     old = np.append(0.0, np.diff(so_far))
     is_old = old < costs[0] - 1e-9
     costs[0] = np.where(is_old, old, costs[0])

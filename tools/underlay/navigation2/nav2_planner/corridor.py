@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the part of a large grid that the cheapest way passes; no door is too narrow."""
+"""Find the corridor of a large grid that contains the cheapest path; no gap is too narrow."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ __all__ = ['BlockGraph', 'block_graph', 'corridor']
 @dataclass(frozen=True)
 class BlockGraph:
     """
-    A grid in square blocks; a node is what hangs together of a block by straight steps.
+    Coarse graph of a grid in square blocks; its nodes are 4-connected components of blocks.
 
-    Two nodes are connected just when cells of them touch, so the graph is connected exactly as
-    the grid is: a gap of one cell stays open, and a wall of one cell stays closed.
+    Two nodes are connected if and only if their cells touch, so the connectivity of the graph is
+    exactly that of the grid: one-cell gaps stay open, and one-cell walls stay closed.
 
     Attributes
     ----------
     side
         Cells along the side of a block.
     nodes
-        (rows, columns) index of each cell's node, 0 where there is none; padded to whole blocks.
+        (rows, columns) index of each cell's node, 0 where there is none; padded to full blocks.
     shape
         Rows and columns of the grid itself.
     blocks
         (2, nodes) row and column of each node's block.
     lengths, neighbours, starts
-        The edges as compressed sparse rows; a length is the cost of a way between centroids.
+        The edges as compressed sparse rows; a length is the cost of the path between centroids.
 
     """
 
@@ -50,7 +50,7 @@ class BlockGraph:
 
     def costs_from(self, cell: Cell) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
         """
-        Compute the costs of the cheapest ways from a cell to all nodes; the newest three are kept.
+        Compute the costs of the cheapest paths from a cell to all nodes; the last three are kept.
 
         Parameters
         ----------
@@ -60,8 +60,8 @@ class BlockGraph:
         Returns
         -------
         tuple
-            (nodes,) cost to each node in cells times weights, infinite where no way leads there;
-            and (nodes,) the node before each on its way, negative at the node of the cell itself.
+            (nodes,) cost to each node in cells times weights, infinite if unreachable; and
+            (nodes,) the predecessor of each node, negative at the node of the cell itself.
 
         """
         node = int(self.nodes[cell])
@@ -74,7 +74,7 @@ class BlockGraph:
 
 def block_graph(weights: FloatGrid, mask: MaskGrid, side: int) -> BlockGraph:
     """
-    Divide a grid into blocks and connect what hangs together in them.
+    Divide a grid into blocks and connect their components.
 
     Parameters
     ----------
@@ -110,17 +110,17 @@ def block_graph(weights: FloatGrid, mask: MaskGrid, side: int) -> BlockGraph:
 
 def corridor(graph: BlockGraph, start: Cell, goal: Cell, room: int) -> MaskGrid:
     """
-    Return the cells among which to look for the cheapest way.
+    Find the cells in which to search for the cheapest path.
 
     Parameters
     ----------
     graph
         The coarse graph.
     start, goal
-        Cells between which there is a way.
+        Connected cells.
     room
-        For how many cells to look at most, roughly. The coarse way and its neighbours are taken
-        in any case; ways that cost up to 5 % more as long as there is room.
+        The approximate maximum number of cells. The coarse path and its neighbours are always
+        included; paths that cost up to 5 % more as long as there is room.
 
     Returns
     -------
@@ -154,7 +154,7 @@ def corridor(graph: BlockGraph, start: Cell, goal: Cell, room: int) -> MaskGrid:
 
 
 def _label_blocks(mask: MaskGrid, side: int) -> npt.NDArray[np.int32]:
-    """Give numbers from 1 to what hangs together in each block, kept apart by lines between."""
+    """Label the connected components of each block from 1, with lines between the blocks."""
     rows, columns = (-(-size // side) for size in mask.shape)
     apart = np.zeros((rows, side + 1, columns, side + 1), np.uint8)
     whole = np.zeros((rows * side, columns * side), np.uint8)
@@ -171,8 +171,8 @@ def _label_blocks(mask: MaskGrid, side: int) -> npt.NDArray[np.int32]:
 def _centroids(
     nodes: npt.NDArray[np.int32], weights: FloatGrid, count: int
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Return the (2, count) rows and columns of centroids, and the mean weight of the nodes."""
-    # Every other row and column will do, except for nodes that have no cell there.
+    """Compute the (2, count) rows and columns of centroids, and the mean weight of the nodes."""
+    # Every other row and column suffices, except for nodes without cells there.
     sparse = nodes[::2, ::2]
     row, column = np.nonzero(sparse)
     row, column = row * 2, column * 2
@@ -188,7 +188,7 @@ def _centroids(
 
 
 def _touching(nodes: npt.NDArray[np.int32], side: int) -> npt.NDArray[np.int32]:
-    """Return the (2, N) pairs of nodes that touch across the lower sides of blocks, each once."""
+    """Find the (2, N) pairs of nodes that touch across the lower sides of blocks, each once."""
     last = slice(side - 1, -1, side)
     above, below = nodes[last], nodes[side::side]
     there = (above > 0) & (below > 0)
@@ -202,7 +202,7 @@ def _touching(nodes: npt.NDArray[np.int32], side: int) -> npt.NDArray[np.int32]:
 
 
 def _corners(nodes: npt.NDArray[np.int32], side: int) -> list[npt.NDArray[np.int32]]:
-    """Return the (2, N) pairs of nodes that touch across corners of blocks, in both directions."""
+    """Find the (2, N) pairs of nodes that touch across corners of blocks, in both directions."""
     last = slice(side - 1, -1, side)
     above, below = nodes[last], nodes[side::side]
     four = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every planner is: a plugin of the planner server that turns two poses into a path."""
+"""The planner interface: a plugin of the planner server that plans a path between two poses."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ PLANNERS = {
         'nav2_theta_star_planner.theta_star_planner:ThetaStarPlanner'
     ),
 }
-"""The places of planners by their official names."""
+"""The import paths of planners by their official names."""
 
 
 class GlobalPlanner:
     """
-    A planner.
+    Base class of planners.
 
     Parameters
     ----------
     node
-        The planner server; parameters are declared with it, when the planner is made.
+        The planner server, with which the constructor declares parameters.
     name
         The planner's name, the prefix of its parameters, such as GridBased.
     costmap
@@ -56,8 +56,8 @@ class GlobalPlanner:
         """
         Plan a path.
 
-        It yields where others may have their turn, every some ten milliseconds, and may be given
-        up there.
+        It yields about every ten milliseconds, so that other callbacks can run, and may be
+        abandoned there.
 
         Parameters
         ----------
@@ -71,7 +71,7 @@ class GlobalPlanner:
         Raises
         ------
         PlanningError
-            There is none.
+            There is no path.
 
         """
         raise NotImplementedError
@@ -79,7 +79,7 @@ class GlobalPlanner:
 
 @dataclass(frozen=True)
 class Rounding:
-    """How corners are rounded: the weights of `path_shape.smoothed`, and how often."""
+    """Parameters of corner rounding: the weights of `path_shape.smoothed`, and the iterations."""
 
     smooth: float
     data: float
@@ -96,7 +96,7 @@ def poses_along(
     use_final_approach_orientation: bool = False,
 ) -> FloatArray:
     """
-    Return the poses of a path.
+    Convert a route to the poses of a path.
 
     Parameters
     ----------
@@ -107,9 +107,9 @@ def poses_along(
     resolution
         The largest distance of neighbours in m.
     rounding
-        How to round corners; None leaves them.
+        How to round corners; None keeps them.
     use_final_approach_orientation
-        Whether the last pose faces where the path leads, and not as the goal.
+        Whether the last pose faces along the path instead of having the goal's yaw.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compute how far it is from every cell to the goal: Dijkstra's search on a part of a grid."""
+"""Compute the cost from every cell to the goal: Dijkstra's search on a part of a grid."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _STEPS = (
     (1, 1, (1, 3)),
 )
 _BEYOND = 1e30
-# If more of a window is searched than that, its other cells do no harm.
+# Above this fraction, the whole window is searched: its other cells do no harm.
 _DENSE_SHARE = 0.3
 _INFINITE: dict[str, Any] = {'constant_values': np.inf}
 
@@ -41,22 +41,22 @@ _INFINITE: dict[str, Any] = {'constant_values': np.inf}
 @dataclass(frozen=True)
 class CostToGo:
     """
-    The cost of the cheapest way to a goal, from each cell of a part of a grid.
+    Cost-to-go: the cost of the cheapest path to a goal, from each cell of a part of a grid.
 
     Attributes
     ----------
     goal
-        The cell to which the ways lead.
+        The cell of the goal.
     ids
         (h, w) index of each cell of a window of the grid in `costs`, -1 where it has none.
     origin
-        The cell of the grid at which the window begins.
+        The cell of the grid at which the window starts.
     places
-        (N,) where each cell is in the window, row by row, in a frame of one cell around it.
+        (N,) flat index of each cell in the window with a border of one cell.
     costs
-        (N,) costs to the goal in cells, infinite where no way leads there.
+        (N,) costs to the goal in cells, infinite if unreachable.
     successors
-        (N,) index of the next cell on the way to the goal, negative at the goal.
+        (N,) index of the next cell on the path to the goal, negative at the goal.
 
     """
 
@@ -90,7 +90,7 @@ class CostToGo:
 
     def cost_from(self, cell: Cell) -> float:
         """
-        Look up the cost of the cheapest way from a cell to the goal.
+        Look up the cost of the cheapest path from a cell to the goal.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class CostToGo:
         Returns
         -------
         float
-            The cost in cells times weights; infinite if no way is known.
+            The cost in cells times weights; infinite if no path is known.
 
         """
         index = self.index_of(cell)
@@ -108,12 +108,12 @@ class CostToGo:
 
     def path_from(self, cell: Cell) -> npt.NDArray[np.int32]:
         """
-        Follow the cheapest way from a cell to the goal.
+        Follow the cheapest path from a cell to the goal.
 
         Parameters
         ----------
         cell
-            Row and column in the grid, of finite cost; without one, the result has no way.
+            Row and column in the grid, of finite cost; otherwise the result is not a path.
 
         Returns
         -------
@@ -140,16 +140,16 @@ def cost_to_go(
     limit: float = math.inf,
 ) -> CostToGo:
     """
-    Search the cheapest ways to a goal from all cells of a mask.
+    Search for the cheapest paths to a goal from all cells of a mask.
 
     A step costs its length times the mean weight of its two cells. A diagonal step is taken only
-    where both cells beside it are free, so that no way cuts the corner of an obstacle, and cells
-    are connected just when they are by straight steps.
+    where both cells beside it are free, so that no path cuts the corner of an obstacle, and cells
+    are connected exactly if they are 4-connected.
 
     Parameters
     ----------
     weights
-        (rows, columns) cost of a metre in a cell relative to free space; infinite: no way.
+        (rows, columns) cost of a metre in a cell relative to free space; infinite: blocked.
     mask
         (rows, columns) cells in which to search, all of finite weight; the goal among them.
     goal
@@ -157,7 +157,7 @@ def cost_to_go(
     diagonal
         Whether to take diagonal steps (8 neighbours), or only straight ones (4).
     limit
-        Ways that cost more are not looked for.
+        The maximum cost of paths to search for.
 
     Notes
     -----
@@ -179,7 +179,7 @@ def cost_to_go(
 
 def way_cost(weights: FloatGrid, way: npt.NDArray[np.int32]) -> float:
     """
-    Compute the cost of a way from cell to cell, as `cost_to_go` counts it.
+    Compute the cost of a path from cell to cell, as in `cost_to_go`.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def way_cost(weights: FloatGrid, way: npt.NDArray[np.int32]) -> float:
     Returns
     -------
     float
-        The cost in cells times weights; infinite if the way passes a cell of infinite weight, or
+        The cost in cells times weights; infinite if the path passes a cell of infinite weight, or
         cuts its corner.
 
     """
@@ -209,20 +209,20 @@ def way_cost(weights: FloatGrid, way: npt.NDArray[np.int32]) -> float:
 
 @functools.lru_cache(maxsize=4)
 def _lattice(rows: int, columns: int, diagonal: bool) -> tuple[Any, Any, Any, Any]:
-    """Return indices of all cells of a window, and what `CostToGo` and edges need beside them."""
+    """Make the indices of all cells of a window, with the other arrays of `CostToGo` and edges."""
     width = columns + 2
     count = (rows + 2) * width
     ids = np.arange(count, dtype=np.int32)
     steps = _STEPS if diagonal else _STEPS[:4]
     shifts = np.array([down * width + right for down, right, _ in steps], np.int32)
-    # The frame has no ways; what it refers to is of no concern.
+    # The border has no edges; its references are never used.
     neighbours = np.clip(ids[:, None] + shifts, 0, count - 1).ravel()
     starts = np.arange(0, count * len(steps) + 1, len(steps), dtype=np.int32)
     return ids.reshape(rows + 2, width)[1:-1, 1:-1], ids, neighbours, starts
 
 
 def _dense_lengths(framed: FloatGrid, diagonal: bool) -> npt.NDArray[np.float64]:
-    """Return the lengths of the steps from all cells of a window with a frame of no way."""
+    """Compute the lengths of the steps from all cells of a window with a blocked border."""
     halves = framed.astype(np.float64) * 0.5
     lengths = np.full((*framed.shape, 8 if diagonal else 4), np.inf)
     inner = lengths[1:-1, 1:-1]
@@ -231,7 +231,7 @@ def _dense_lengths(framed: FloatGrid, diagonal: bool) -> npt.NDArray[np.float64]
     inner[..., 0], inner[..., 1] = down[:-1, 1:-1], down[1:, 1:-1]
     inner[..., 2], inner[..., 3] = right[1:-1, :-1], right[1:-1, 1:]
     if diagonal:
-        # Where four cells meet, all have to be free.
+        # A diagonal step needs all four cells at the corner to be free.
         closed = np.where(down[:, :-1] + down[:, 1:] < np.inf, 0.0, np.inf)
         halves *= math.sqrt(2.0)
         falling = halves[:-1, :-1] + halves[1:, 1:] + closed
@@ -244,9 +244,9 @@ def _dense_lengths(framed: FloatGrid, diagonal: bool) -> npt.NDArray[np.float64]
 def _sparse_edges(
     weights: FloatGrid, inside: MaskGrid, diagonal: bool
 ) -> tuple[Any, Any, Any, Any, Any]:
-    """Return the indices of the cells of a mask, their places, and the steps between them."""
+    """Compute the indices of the cells of a mask, their places, and the steps between them."""
     rows, columns = inside.shape
-    # A frame of one cell lets all neighbours be looked up without a test.
+    # A border of one cell allows for neighbour lookups without bounds checks.
     width = columns + 2
     places = np.flatnonzero(inside)
     places += 2 * (places // columns) + width + 1
@@ -284,16 +284,16 @@ def shortest_paths(
     limit: float = math.inf,
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
     """
-    Return the costs from a node to all nodes, and the node before each on its way.
+    Compute the costs from a node to all nodes, and their predecessors.
 
     Parameters
     ----------
     lengths, neighbours, starts
-        The edges as compressed sparse rows; infinite lengths are no edges.
+        The edges as compressed sparse rows; infinite lengths mean no edge.
     source
         The index of the node.
     limit
-        Nodes that are farther are left at an infinite cost.
+        The maximum cost; nodes beyond it keep an infinite cost.
 
     """
     count = len(starts) - 1
@@ -305,7 +305,7 @@ def shortest_paths(
 
 
 def _bounds(mask: MaskGrid) -> tuple[tuple[slice, slice], Cell]:
-    """Return the window in which a mask is set, and where it begins."""
+    """Find the bounding window of a mask, and its origin."""
     rows = np.flatnonzero(mask.any(axis=1))
     columns = np.flatnonzero(mask.any(axis=0))
     window = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)

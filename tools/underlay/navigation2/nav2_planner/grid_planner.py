@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plan a path in a costmap, or say why there is none."""
+"""Plan a path in a costmap, or report why there is none."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _ADVICE_M = 5.0
 
 class GridPlanner:
     """
-    Plans paths in costmaps for a robot whose centre has to stay off costs from 253 on.
+    Planner in costmaps, for a robot whose centre must avoid costs of 253 and above.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class GridPlanner:
         self, costmap: Costmap2D, start: Pose2D, goal: Pose2D, options: SearchOptions
     ) -> Generator[None, None, Route]:
         """
-        Plan a path, in steps of some ten milliseconds between which others may have their turn.
+        Plan a path in steps of about ten milliseconds, between which other callbacks can run.
 
         Parameters
         ----------
@@ -56,7 +56,7 @@ class GridPlanner:
         start, goal
             Poses in the frame of the costmap.
         options
-            What is wanted.
+            The options of the search.
 
         Raises
         ------
@@ -65,7 +65,7 @@ class GridPlanner:
 
         See Also
         --------
-        nav2_planner.turns.finish : Plans at one go.
+        nav2_planner.turns.finish : Plans in one step.
 
         """
         began = time.monotonic()
@@ -111,7 +111,7 @@ class GridPlanner:
         cell_m: float,
         factor: int,
     ) -> Cell:
-        """Return the start's cell, or the free one next to a robot that stands too near a wall."""
+        """Return the start's cell, or the free one next to a robot that is too close to a wall."""
         cell = _cell(place)
         if grid.free[cell]:
             return cell
@@ -141,7 +141,7 @@ class GridPlanner:
         options: SearchOptions,
         cell_m: float,
     ) -> Cell:
-        """Return the goal's cell, or the nearest one within the tolerance that can be reached."""
+        """Find the goal's cell, or the nearest reachable one within the tolerance."""
         region = grid.region_of(begin)
         if region[target]:
             return target
@@ -191,12 +191,12 @@ def _check_effort(
 def _with_ends(
     grid: SearchGrid, corners: FloatArray, first: FloatArray, last: FloatArray | None
 ) -> FloatArray:
-    """Let a path begin and end at points instead of the centres of their cells."""
+    """Replace the ends of a path by exact points instead of the centres of their cells."""
     if len(corners) == 1 and last is not None:
         both = np.stack([first, last])
         return both if np.hypot(*(last - first)) > 1e-9 else both[1:]
     if not np.array_equal(np.rint(first), corners[0]):
-        # The robot stands too near a wall and goes to a free cell at first.
+        # The robot is too close to a wall and first moves to a free cell.
         corners = np.concatenate([first[None], corners])
     elif len(corners) == 1:
         corners = np.stack([first, corners[0]])
@@ -217,7 +217,7 @@ def _is_free_line(grid: SearchGrid, start: FloatArray, end: FloatArray) -> bool:
 
 
 def _pooled(weights: FloatGrid, factor: int) -> FloatGrid:
-    """Make one cell of several, with the highest of their weights."""
+    """Downsample cells by the maximum of their weights."""
     if factor <= 1:
         return weights
     rows, columns = (-(-size // factor) for size in weights.shape)
@@ -228,7 +228,7 @@ def _pooled(weights: FloatGrid, factor: int) -> FloatGrid:
 
 
 def _place(pose: Pose2D, origin: tuple[float, float], cell_m: float) -> FloatArray:
-    """Return the row and column of a pose; centres of cells are whole numbers."""
+    """Compute the row and column of a pose; centres of cells are integers."""
     return np.array([(pose.y - origin[1]) / cell_m - 0.5, (pose.x - origin[0]) / cell_m - 0.5])
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which cells does the cheapest way to a goal pass? It is kept while goal and costs last."""
+"""Search for the cheapest path to a goal, cached while the goal and the costs are unchanged."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ['GridSearch', 'SearchGrid']
 _EXACT_CELLS = 200_000
 _CORRIDOR_CELLS = 200_000
 _BLOCK_SIDE = 10
-# A way to a near goal is looked for at first that is at most so much longer than a straight line.
+# For a near goal, paths up to this factor longer than a straight line are searched for first.
 _DETOUR = 1.6
 _DETOUR_CELLS = 40.0
 _NEAR_SHARE = 0.3
@@ -35,12 +35,12 @@ _ROUNDING = 1e-6
 @dataclass
 class SearchGrid:
     """
-    Weights of cells, and what follows from them; each is computed when it is first needed.
+    Weights of cells, and quantities derived from them on demand.
 
     Parameters
     ----------
     weights
-        (rows, columns) cost of a cell's length in a cell; infinite: no way.
+        (rows, columns) cost of a cell's length in a cell; infinite: blocked.
 
     """
 
@@ -53,21 +53,21 @@ class SearchGrid:
 
     @property
     def free(self) -> MaskGrid:
-        """(rows, columns) cells that a way may pass."""
+        """(rows, columns) cells that a path may pass."""
         if self._free is None:
             self._free = np.isfinite(self.weights)
         return self._free
 
     @property
     def least(self) -> float:
-        """Return the lowest weight."""
+        """Return the minimum weight."""
         if self._least is None:
             self._least = float(self.weights.min())
         return self._least
 
     @property
     def regions(self) -> npt.NDArray[np.int32]:
-        """(rows, columns) number of what is connected by straight steps, 0 where not free."""
+        """(rows, columns) labels of 4-connected regions, 0 where not free."""
         if self._regions is None:
             _, regions = cv2.connectedComponents(
                 self.free.view(np.uint8), connectivity=4, ltype=cv2.CV_32S
@@ -84,7 +84,7 @@ class SearchGrid:
 
     def region_of(self, cell: Cell) -> MaskGrid:
         """
-        Find the cells that are connected to a free cell.
+        Find the cells connected to a free cell.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ class SearchGrid:
         Returns
         -------
         MaskGrid
-            (rows, columns) mask, which is kept: do not change it.
+            (rows, columns) mask, which is cached: do not modify it.
 
         """
         number = int(self.regions[cell])
@@ -104,7 +104,7 @@ class SearchGrid:
 
     def nearest(self, cell: Cell, among: MaskGrid, radius: float) -> Cell | None:
         """
-        Return the cell of a mask that is nearest to another one.
+        Find the cell of a mask that is nearest to another one.
 
         Parameters
         ----------
@@ -113,11 +113,12 @@ class SearchGrid:
         among
             (rows, columns) mask.
         radius
-            The largest distance of the centres in cells.
+            The maximum distance of the centres in cells.
 
         Returns
         -------
-        The cell, or None if there is none within that distance. Of several the cheapest.
+        The cell, or None if there is none within that distance. Of several equally near ones, the
+        cheapest.
 
         """
         reach = int(min(radius, max(among.shape))) + 1
@@ -137,17 +138,17 @@ class SearchGrid:
 
 class GridSearch:
     """
-    Finds cheapest ways in grids: exactly up to 200 000 connected cells, else in a corridor.
+    Search for cheapest paths in grids: exact up to 200 000 connected cells, else in a corridor.
 
-    For a near goal only an ellipse round start and goal is searched at first. A way found there is
+    For a near goal, only an ellipse around start and goal is searched first. A path found there is
     the cheapest if it is so short that none that leaves the ellipse can be shorter. When only the
-    costs have changed, nothing is searched that is farther from the goal than the way of last time
-    is long.
+    costs have changed, the search is limited to cells no farther from the goal than the previous
+    path.
 
     Parameters
     ----------
     diagonal
-        Whether ways take diagonal steps, too.
+        Whether to allow diagonal steps.
 
     """
 
@@ -163,12 +164,12 @@ class GridSearch:
         Parameters
         ----------
         weights
-            (rows, columns) cost of a cell's length in a cell; infinite: no way.
+            (rows, columns) cost of a cell's length in a cell; infinite: blocked.
 
         Returns
         -------
         SearchGrid
-            The grid of the last call, with what was computed of it, if the weights are the same.
+            The grid; that of the last call with its cached quantities if the weights are the same.
 
         """
         if self._grid is None or not np.array_equal(self._grid.weights, weights):
@@ -179,7 +180,7 @@ class GridSearch:
 
     def way(self, grid: SearchGrid, start: Cell, goal: Cell) -> Generator[None, None, CostToGo]:
         """
-        Return a field of costs to the goal that has the way from the start, in several steps.
+        Search a cost-to-go field that contains the path from the start, in several steps.
 
         Parameters
         ----------
@@ -212,7 +213,7 @@ class GridSearch:
             limit *= 1.0 + _ROUNDING
             found = cost_to_go(grid.weights, mask, goal, diagonal=self.diagonal, limit=limit)
             if math.isinf(found.cost_from(start)):
-                # The way of last time is not in the corridor.
+                # The previous path is not in the corridor.
                 found = cost_to_go(grid.weights, mask, goal, diagonal=self.diagonal)
         if grid is self._grid:
             self._kept = _Kept(found, grid, start, bound)
@@ -221,7 +222,7 @@ class GridSearch:
 
 @dataclass(frozen=True)
 class _Kept:
-    """A field of costs, and where it was looked for: no way below the bound leads outside."""
+    """Cached cost-to-go field and its search area: no path below the bound leaves it."""
 
     field: CostToGo
     grid: SearchGrid
@@ -229,26 +230,26 @@ class _Kept:
     bound: float
 
     def serves(self, start: Cell, goal: Cell) -> bool:
-        """Whether the field has the cheapest way from another start."""
+        """Whether the field contains the cheapest path from another start."""
         cost = self.field.cost_from(start)
         if self.field.goal != goal or math.isinf(cost):
             return False
         return cost + self.grid.least * math.dist(self.start, start) <= self.bound
 
     def cost_in(self, grid: SearchGrid, start: Cell, goal: Cell) -> float:
-        """Return what the way that it has costs in another grid, infinite if it has none."""
+        """Compute the cost of the cached path in another grid; infinite if there is none."""
         if self.field.goal != goal or math.isinf(self.field.cost_from(start)):
             return math.inf
         return way_cost(grid.weights, self.field.path_from(start))
 
 
 def _area(apart: float, length: float) -> float:
-    """Return the cells in an ellipse, by the distance of its foci and the length of its ways."""
+    """Compute the area in cells of an ellipse from its focal distance and its path length."""
     return 0.25 * math.pi * length * math.sqrt(max(length**2 - apart**2, 0.0))
 
 
 def _ellipse(region: MaskGrid, start: Cell, goal: Cell, length: float) -> MaskGrid:
-    """Return the cells of a region that ways of at most some length from start to goal pass."""
+    """Find the cells of a region on paths from start to goal up to a maximum length."""
     room = 0.5 * (length - math.dist(start, goal))
     row, column = (max(int(min(ends) - room), 0) for ends in zip(start, goal))
     down, right = (int(max(ends) + room) + 2 for ends in zip(start, goal))

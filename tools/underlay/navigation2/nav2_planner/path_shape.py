@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the poses of a path stand, and where they face."""
+"""The shape of a path: positions and headings of its poses."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ FloatArray = npt.NDArray[np.float64]
 
 def resample(points: FloatArray, spacing: float) -> FloatArray:
     """
-    Divide the lines between points so that no two neighbours are farther apart than a spacing.
+    Resample lines so that neighbouring points are no farther apart than a spacing.
 
     Parameters
     ----------
     points
         (N, 2) corners, which are kept.
     spacing
-        The largest distance, in the unit of the points.
+        The maximum distance, in the unit of the points.
 
     """
     if len(points) < 2:
@@ -38,19 +38,19 @@ def resample(points: FloatArray, spacing: float) -> FloatArray:
 
 def smoothed(points: FloatArray, smooth: float, data: float) -> FloatArray:
     """
-    Balance straightness against nearness to the points given; the ends stay.
+    Smooth points: balance straightness against the deviation from the input; the ends are fixed.
 
     Parameters
     ----------
     points
         (N, 2) points.
     smooth, data
-        The weights of both. It reaches about sqrt(smooth / data) points far.
+        The weights of both. The range of influence is about sqrt(smooth / data) points.
 
     Notes
     -----
     The limit of the iteration p += data (p0 - p) + smooth (before + after - 2 p), which is the
-    solution of a system of linear equations with three diagonals.
+    solution of a tridiagonal system of linear equations.
 
     """
     count = len(points)
@@ -72,7 +72,7 @@ def round_corners(
     points: FloatArray, weights: FloatGrid, smooth: float, data: float, times: int = 1
 ) -> FloatArray:
     """
-    Smooth a path in a grid where that keeps it off cells of infinite weight.
+    Smooth a path in a grid where it stays off cells of infinite weight.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def round_corners(
 
     Returns
     -------
-    (N, 2) points. Near obstacles that it would touch they are as they were.
+    (N, 2) points. Near obstacles that it would touch, they are unchanged.
 
     """
     wanted = points
@@ -97,7 +97,7 @@ def round_corners(
         blocked = np.isinf(line_costs(weights, tried[:-1], tried[1:]))
         if not blocked.any():
             return tried
-        # Take back what is within a few points of a line that is blocked.
+        # Restore the points near a blocked line.
         near = np.convolve(blocked, np.ones(9), 'full')[slice(3, 3 + len(points))] > 0
         share = np.where(near, share * 0.4, share)
         share[near & (share < 0.1)] = 0.0
@@ -108,7 +108,7 @@ def round_corners(
 
 def headings(points: FloatArray, last: float | None = None) -> FloatArray:
     """
-    Return the (N,) yaws in rad along a path.
+    Compute the (N,) yaws in rad along a path.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def blend_headings(
     points: FloatArray, yaws: FloatArray, first: float, last: float, radius: float
 ) -> FloatArray:
     """
-    Turn from a yaw at the start to that of the path, and to another one at the end.
+    Blend headings from a yaw at the start to that of the path, and to another one at the end.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def blend_headings(
     first, last
         The yaws at the ends in rad.
     radius
-        The way in m that a turn by a radian takes, as long as the path is long enough.
+        The distance in m of a turn by one radian, if the path is long enough.
 
     """
     if len(points) < 2:

@@ -24,18 +24,18 @@ def invalid_poses(
     robot: Pose2D | None,
 ) -> npt.NDArray[np.intp]:
     """
-    Return which poses of a path the robot cannot stand in.
+    Find the poses of a path at which the robot is in collision.
 
     Parameters
     ----------
     costmap
-        The costs. Unknown space is no obstacle; beyond the grid it is one.
+        The costmap. Unknown space is free; space beyond the grid is an obstacle.
     poses
         (N, 3) x and y in m, yaw in rad.
     footprint
-        (M, 2) corners of the robot in m; None for a circular one, whose centre counts.
+        (M, 2) corners of the robot in m; None for a circular one, of which the centre is checked.
     robot
-        Where the robot is: poses before the nearest one are behind it, and do not count.
+        The pose of the robot: poses before the nearest one are behind it, and are ignored.
 
     Returns
     -------

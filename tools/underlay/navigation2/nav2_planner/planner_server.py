@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node `planner_server`: it owns the global costmap and offers the actions that plan."""
+"""The node `planner_server`: owns the global costmap and offers the planning actions."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _DEFAULT_PLUGINS = {'GridBased': 'nav2_navfn_planner::NavfnPlanner'}
 
 @dataclass(frozen=True)
 class PlannerServerParameters:
-    """The parameters of the server itself."""
+    """The parameters of the planner server."""
 
     planner_plugins: list[str] = parameter(
         ['GridBased'], 'The names of the planners; each has a parameter plugin, its type.'
@@ -57,14 +57,14 @@ class PlannerServerParameters:
 
 class PlannerServer(LifecycleNode):
     """
-    Plans global paths.
+    Planner server, which plans global paths.
 
     Parameters
     ----------
     node_name
         Its name.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -75,7 +75,7 @@ class PlannerServer(LifecycleNode):
         self._settings = ParameterSet(PlannerServerParameters())
 
     def configure(self) -> None:
-        """Make the costmap, the planners and the interfaces."""
+        """Create the costmap, the planners and the interfaces."""
         self._settings = self.parameters.declare(PlannerServerParameters)
         for each in self.companions:
             if each.executor is None and self.executor is not None:
@@ -94,7 +94,7 @@ class PlannerServer(LifecycleNode):
             ComputePathThroughPoses, 'compute_path_through_poses', self._plan_through_poses
         )
         self.create_service(IsPathValid, 'is_path_valid', self._check_path)
-        # The first message of a kind loads what it consists of, which is not to delay a goal.
+        # The first message of a type loads its dependencies, which must not delay a goal.
         make_path([Pose2D(0.0, 0.0, 0.0)], '', self.get_clock().now().to_msg())
 
     def activate(self) -> None:
@@ -110,9 +110,9 @@ class PlannerServer(LifecycleNode):
             self.costmap.trigger_deactivate()
 
     def cleanup(self) -> None:
-        """Let go of the planners and of what the costmap has made."""
+        """Release the planners and the resources of the costmap."""
         self._planners.clear()
-        # It may be in any state, for example after a fault in its parameters.
+        # It may be in any state, for example after a parameter error.
         self.deactivate()
         if self.costmap.state == 'inactive':
             self.costmap.trigger_cleanup()
@@ -145,7 +145,7 @@ class PlannerServer(LifecycleNode):
     async def _plan(
         self, server: ActionServer, codes: Any, goal: Any, stops: Sequence[PoseStamped]
     ) -> None:
-        """Plan from where the goal says, or the robot is, through all poses to the last one."""
+        """Plan from the requested start, or the robot's pose, through all poses."""
         began = time.monotonic()
         planner = self._find_planner(goal.planner_id, codes)
         await self._wait_for_costmap(server, codes)
@@ -191,7 +191,7 @@ class PlannerServer(LifecycleNode):
     async def _plan_leg(
         self, server: ActionServer, work: Generator[None, None, FloatArray]
     ) -> FloatArray:
-        """Plan in steps; a goal that is canceled, or has a successor, ends between them."""
+        """Plan in steps; a goal that is canceled or preempted ends between them."""
         while True:
             server.check()
             try:
@@ -231,7 +231,7 @@ class PlannerServer(LifecycleNode):
                     f'The global costmap was not up to date within {timeout_s:g} s. Check that '
                     'its map and sensors are published.',
                 )
-            # A goal can be canceled while the clock of a simulator is at rest, too.
+            # A goal can be canceled even while a simulation is paused.
             await wait_for(self, Future(executor=self.executor), _LOOK_S)
 
     def _check_path(

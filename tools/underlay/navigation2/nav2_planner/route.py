@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a search is asked for, and what it answers: a route, or why there is none."""
+"""Search options and results: a route, or why there is none."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class PlanningError(NavigationError):
     reason
         The name of the error code in the actions' results, such as `NO_VALID_PATH`.
     message
-        Why, as a sentence.
+        The error message, a full sentence.
 
     """
 
@@ -42,23 +42,23 @@ def weight_table(
     traversal: float, *, neutral: float = 1.0, power: float = 1.0, allow_unknown: bool = True
 ) -> npt.NDArray[np.float32]:
     """
-    Return the (256,) weights of the costs of cells: neutral + traversal (cost / 252) ^ power.
+    Compute the (256,) weights of costs: neutral + traversal (cost / 252) ^ power.
 
     Parameters
     ----------
     traversal
-        How much more a metre costs in a cell of the highest cost than in free space.
+        The additional cost of a metre in a cell of the maximum cost, compared to free space.
     neutral
-        What a metre costs in free space.
+        The cost of a metre in free space.
     power
-        Above 1 the weight rises late and steeply.
+        The exponent; above 1 the weight rises late and steeply.
     allow_unknown
-        Whether cells without information may be passed. They count as cells of the highest cost,
-        so that known ways are preferred.
+        Whether unknown cells may be passed. They have the weight of cells of the maximum cost, so
+        that known paths are preferred.
 
     """
     shares = np.arange(256) / MAX_NON_OBSTACLE
-    # A search needs a price on each step.
+    # A search needs a positive cost for each step.
     table = np.maximum(neutral + traversal * shares**power, 1e-3).astype(np.float32)
     table[INSCRIBED_INFLATED_OBSTACLE:] = np.inf
     if allow_unknown:
@@ -69,20 +69,20 @@ def weight_table(
 @dataclass(frozen=True)
 class SearchOptions:
     """
-    What a planner wants of a search.
+    Options of a search.
 
     Attributes
     ----------
     table
         (256,) weights of costs, as of `weight_table`.
     tolerance_m
-        How far from a goal that cannot be reached a path may end.
+        The distance from an unreachable goal at which a path may end.
     factor
-        How many cells become one along each axis, at the highest weight.
+        The downsampling factor along each axis; cells are pooled by their maximum weight.
     max_cells
-        Give up when more cells than that are to be expanded; 0 for no limit.
+        The maximum number of cells to expand; 0 for no limit.
     max_time_s
-        Give up after this time; 0 for no limit.
+        The maximum time; 0 for no limit.
 
     """
 
@@ -96,16 +96,16 @@ class SearchOptions:
 @dataclass(frozen=True)
 class Route:
     """
-    A path of straight lines, in the grid that it was planned in.
+    Route: a path of straight lines in its grid.
 
     Attributes
     ----------
     corners
-        (N, 2) rows and columns; the centres of cells are whole numbers.
+        (N, 2) rows and columns; the centres of cells are integers.
     weights
         (rows, columns) weights of the cells.
     cost
-        Length in m times weights, of the cheapest way from cell to cell.
+        Length in m times weights, of the cheapest path from cell to cell.
     cell_m
         The side of a cell in m.
     origin
@@ -129,7 +129,7 @@ class Route:
         Parameters
         ----------
         points
-            (N, 2) rows and columns of the grid; the centres of cells are whole numbers.
+            (N, 2) rows and columns of the grid; the centres of cells are integers.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work that is done in steps, so that others have their turn between them."""
+"""Work in steps, between which other callbacks can run."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ ResultT = TypeVar('ResultT')
 
 def finish(work: Generator[None, None, ResultT]) -> ResultT:
     """
-    Run a generator to its end at one go.
+    Run a generator to its end in one step.
 
     Parameters
     ----------
     work
-        Such as `GlobalPlanner.create_plan` makes.
+        The generator, such as that of `GlobalPlanner.create_plan`.
 
     Returns
     -------
     ResultT
-        What the generator returns.
+        The return value of the generator.
 
     """
     while True:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The point on the path to steer to, and where the path turns back."""
+"""The lookahead point on the path, and the cusps of the path."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ def lookahead_point(
     beyond_end: bool = False,
 ) -> tuple[float, float]:
     """
-    Return the point of a path at a distance from the robot.
+    Find the point of a path at a distance from the robot.
 
     Parameters
     ----------
     plan
-        (N, 2 or more) positions in the base frame, from the nearest on.
+        (N, 2 or more) positions in the base frame, from the nearest one on.
     distance_m
-        How far from the robot.
+        The lookahead distance from the robot.
     interpolate
-        Whether it may be between two poses; otherwise it is the first one beyond.
+        Whether to interpolate between two poses; otherwise it is the first one beyond.
     beyond_end
-        Whether it may be beyond the end of the path, straight on; otherwise it is the end.
+        Whether to extrapolate straight beyond the end of the path; otherwise it is the end.
 
     """
     distances = np.hypot(plan[:, 0], plan[:, 1])
@@ -54,7 +54,7 @@ def lookahead_point(
 
 
 def _on_circle(inner: FloatArray, outer: FloatArray, radius: float) -> tuple[float, float]:
-    """Return where the way from a point in a circle around the origin to one outside leaves it."""
+    """Compute the exit point from a circle around the origin of a line from inside to outside."""
     step = outer - inner
     a = float(step @ step)
     b, c = float(inner @ step), float(inner @ inner) - radius * radius
@@ -65,7 +65,7 @@ def _on_circle(inner: FloatArray, outer: FloatArray, radius: float) -> tuple[flo
 
 def cusp_distance(plan: FloatArray) -> float:
     """
-    Return how far the first point at which the path turns back is from the robot in m.
+    Compute the distance from the robot to the first cusp of the path in m.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def cusp_distance(plan: FloatArray) -> float:
 
     Returns
     -------
-    The distance; infinite if the path does not turn back.
+    The distance; infinite if the path has no cusp.
 
     """
     steps = np.diff(plan[:, :2], axis=0)

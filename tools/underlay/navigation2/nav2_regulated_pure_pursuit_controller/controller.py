@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Regulated pure pursuit: steer along an arc to a point on the path ahead."""
+"""Regulated pure pursuit: steer along an arc to a lookahead point on the path."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _STANDING = 1e-3
 
 class RegulatedPurePursuitController(Controller):
     """
-    Steers to a point ahead on the path; slows down in curves, near obstacles and at the goal.
+    Pure pursuit controller that slows down in curves, near obstacles and at the goal.
 
     Source: S. Macenski, S. Singh, F. Martin, J. Gines, Regulated Pure Pursuit for Robot Path
     Tracking, Autonomous Robots 47 (2023).
@@ -67,12 +67,12 @@ class RegulatedPurePursuitController(Controller):
 
     def new_plan(self, *, is_new_goal: bool) -> None:
         """
-        Follow another path from now on.
+        Set a new path.
 
         Parameters
         ----------
         is_new_goal
-            Whether the path leads to another goal, which has yet to be reached; otherwise it is a
+            Whether the path leads to another goal, which is not reached yet; otherwise it is a
             new path to the same goal.
 
         """
@@ -82,7 +82,7 @@ class RegulatedPurePursuitController(Controller):
 
     def compute(self, state: ControlState) -> Command:
         """
-        Compute the velocity command along an arc to the lookahead point, or for turning in place.
+        Compute the velocity command along an arc to the lookahead point, or for rotating in place.
 
         Parameters
         ----------
@@ -97,7 +97,7 @@ class RegulatedPurePursuitController(Controller):
         Raises
         ------
         NoValidControl
-            The robot would hit an obstacle, or stands in one.
+            The robot would hit an obstacle, or is in collision.
 
         """
         parameters = self._parameters.current
@@ -138,7 +138,7 @@ class RegulatedPurePursuitController(Controller):
 
     def cancel(self, state: ControlState) -> Command | None:
         """
-        Compute the velocity command for slowing down after the goal was canceled.
+        Compute the decelerating command after the goal was canceled.
 
         Parameters
         ----------
@@ -185,7 +185,7 @@ class RegulatedPurePursuitController(Controller):
                 parameters.max_lookahead_dist,
             )
         if parameters.allow_reversing:
-            # The robot goes to where the path turns back before it follows it back.
+            # The robot drives to the cusp of the path before it reverses.
             distance = min(distance, max(cusp_distance(plan), 1e-3))
         return self._point(plan, distance, parameters)
 
@@ -202,7 +202,7 @@ class RegulatedPurePursuitController(Controller):
     def _turn_in_place(
         self, state: ControlState, carrot: tuple[float, float], parameters: RppParameters
     ) -> float | None:
-        """Return by which angle to turn in place; None to drive."""
+        """Compute the angle to rotate in place by; None to drive."""
         if not parameters.use_rotate_to_heading:
             return None
         if self._is_at_goal:
@@ -214,7 +214,7 @@ class RegulatedPurePursuitController(Controller):
 def _arc(
     state: ControlState, velocity: Velocity, carrot_m: float, parameters: RppParameters
 ) -> FloatArray:
-    """Return the (N, 3) poses that the robot passes with a velocity, up to its carrot."""
+    """Compute the (N, 3) poses of the arc at a velocity, up to the carrot."""
     horizon = parameters.max_allowed_time_to_collision_up_to_carrot
     resolution = state.surroundings.grid.resolution
     speed = abs(velocity.x)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-How fast to drive: curves, obstacles and the goal slow the robot down.
+Speed regulation in curves, near obstacles and at the goal.
 
 Source: S. Macenski, S. Singh, F. Martin, J. Gines, Regulated Pure Pursuit for Robot Path Tracking,
 Autonomous Robots 47 (2023).
@@ -23,11 +23,11 @@ def curvature_speed(speed: float, curvature: float, min_radius_m: float) -> floa
     Parameters
     ----------
     speed
-        The speed elsewhere in m/s.
+        The unregulated speed in m/s.
     curvature
-        That of the arc to drive in 1/m; its sign does not count.
+        The curvature of the arc in 1/m; its sign is ignored.
     min_radius_m
-        The radius in m below which the speed shrinks in proportion to the radius.
+        The radius in m below which the speed is scaled in proportion to the radius.
 
     Returns
     -------
@@ -43,18 +43,18 @@ def cost_speed(
     speed: float, cost: int, inscribed_radius_m: float, settings: RppParameters
 ) -> float:
     """
-    Return the speed in m/s near obstacles.
+    Limit the speed in m/s near obstacles.
 
     Parameters
     ----------
     speed
-        The speed elsewhere.
+        The unregulated speed.
     cost
-        The cost at the robot's place, from which its distance to obstacles follows.
+        The cost at the robot's position, from which the distance to obstacles is derived.
     inscribed_radius_m
         The radius of the robot in the inflation of the costmap.
     settings
-        The scaling.
+        The parameters of the scaling.
 
     """
     factor = settings.inflation_cost_scaling_factor
@@ -70,21 +70,21 @@ def cost_speed(
 
 def approach_speed(speed: float, remaining_m: float, settings: RppParameters) -> float:
     """
-    Limit the speed on the last stretch before the goal.
+    Limit the speed when approaching the goal.
 
     Parameters
     ----------
     speed
-        The speed elsewhere in m/s.
+        The unregulated speed in m/s.
     remaining_m
-        The length of path before the goal in m.
+        The remaining length of the path in m.
     settings
-        Where the robot begins to slow down, and its lowest speed there.
+        The distance at which the robot starts to slow down, and its minimum speed.
 
     Returns
     -------
     float
-        The speed in m/s: in proportion to what remains, but no lower than that.
+        The speed in m/s: in proportion to the remaining length, but at least the minimum.
 
     """
     distance = settings.approach_velocity_scaling_dist
@@ -102,20 +102,20 @@ def regulated_speed(
     settings: RppParameters,
 ) -> float:
     """
-    Return the speed in m/s that curves, obstacles and the goal allow.
+    Compute the speed in m/s allowed by curves, obstacles and the goal.
 
     Parameters
     ----------
     fastest
-        The speed where nothing slows the robot down.
+        The unregulated speed.
     curvature
-        That of the arc to drive in 1/m.
+        The curvature of the arc in 1/m.
     cost, inscribed_radius_m
         See `cost_speed`.
     remaining_m
-        The length of path before the goal.
+        The remaining length of the path.
     settings
-        What to regard.
+        The parameters of the regulation.
 
     """
     speed = fastest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rotation shim: turn in place to a new path, then let another controller follow it."""
+"""The rotation shim: rotates in place towards a new path, then uses another controller."""
 
 from __future__ import annotations
 
@@ -68,9 +68,9 @@ class ShimParameters:
 
 class RotationShimController(Controller):
     """
-    Turns the robot in place to a new path, and leaves the rest to its primary controller.
+    Controller that rotates in place towards a new path, then uses its primary controller.
 
-    The parameters of the primary controller stand beside those of the shim.
+    The parameters of the primary controller have the same prefix as those of the shim.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ class RotationShimController(Controller):
 
     @property
     def speed_limit(self) -> SpeedLimit | None:
-        """Return the limit of the primary controller."""
+        """Return the speed limit of the primary controller."""
         return self._primary.speed_limit
 
     @speed_limit.setter
@@ -112,20 +112,20 @@ class RotationShimController(Controller):
         Parameters
         ----------
         limit
-            The limit that holds from now on; None: what is configured.
+            The new limit; None: no limit besides the configured speeds.
 
         """
         self._primary.speed_limit = limit
 
     def new_plan(self, *, is_new_goal: bool) -> None:
         """
-        Follow another path from now on; the robot may turn in place to it first.
+        Set a new path, towards which the robot may first rotate in place.
 
         Parameters
         ----------
         is_new_goal
-            Whether the path leads to another goal; a new path to the same goal is not turned to if
-            `rotate_to_heading_once` is true.
+            Whether the path leads to another goal; a new path to the same goal triggers no
+            rotation if `rotate_to_heading_once` is true.
 
         """
         if is_new_goal or not self._parameters.current.rotate_to_heading_once:
@@ -136,7 +136,7 @@ class RotationShimController(Controller):
 
     def compute(self, state: ControlState) -> Command:
         """
-        Compute the velocity command for turning in place, or that of the primary controller.
+        Compute the velocity command for rotating in place, or that of the primary controller.
 
         Parameters
         ----------
@@ -151,8 +151,8 @@ class RotationShimController(Controller):
         Raises
         ------
         NoValidControl
-            The robot would hit an obstacle when it turns in place, or the primary controller finds
-            no velocity.
+            The robot would hit an obstacle when it rotates in place, or the primary controller
+            finds no velocity.
 
         """
         command = self._turn(state) or self._primary.compute(state)
@@ -161,7 +161,7 @@ class RotationShimController(Controller):
 
     def cancel(self, state: ControlState) -> Command | None:
         """
-        Compute the velocity command for slowing down after the goal was canceled.
+        Compute the decelerating command after the goal was canceled.
 
         Parameters
         ----------
@@ -177,7 +177,7 @@ class RotationShimController(Controller):
         return self._primary.cancel(state)
 
     def _turn(self, state: ControlState) -> Command | None:
-        """Return how to turn in place; None to follow the path."""
+        """Compute the command for rotating in place; None to follow the path."""
         p = self._parameters.current
         self._is_at_goal |= state.is_goal_in_plan and (
             state.goal_distance_m <= state.xy_tolerance_m

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What users of Nav2 have in RViz: particles, the goal tool, and the panel of navigation."""
+"""RViz plugins of Nav2: particle cloud display, goal tool, and navigation panel."""

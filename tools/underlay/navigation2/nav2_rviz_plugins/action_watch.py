@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-One action, with the goals of whoever sent them.
+Monitor of one action, with goals from any client.
 
-A client of rclpy hears only of the goals that it sent itself. Goals of navigation come from
+An rclpy client only receives updates on its own goals. Goals of navigation come from
 scripts, other pages and `goal_pose` as well; the topics and services below `<action>/_action`
-(design.ros2.org/articles/actions.html) tell of all of them.
+(design.ros2.org/articles/actions.html) report all of them.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ TIMEOUT_S = 5.0
 
 class ActionWatch:
     """
-    The newest goal of an action: sends, follows and cancels it.
+    Monitor of the newest goal of an action, which it can send and cancel.
 
-    `goal` is the one that is followed: the newest that is being worked on, else the last one.
+    `goal` is the monitored goal: the newest active one, else the last one.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class ActionWatch:
     def __init__(self, node: Node, calls: ServiceCalls, kind: Any, action: str, name: str) -> None:
         self.goal: Goal | None = None
         self.changed = 0
-        """Counts beginnings of goals, so that the newest of several actions is known."""
+        """A counter of goal starts, to find the newest of several actions."""
         self._node, self._calls, self._impl = node, calls, kind.Impl
         self._kind, self._action, self._name = kind, action, name
         self._statuses: dict[bytes, int] = {}
@@ -71,25 +71,25 @@ class ActionWatch:
 
     @property
     def is_there(self) -> bool:
-        """Whether there is a server."""
+        """Whether the server is available."""
         service = self._node.resolve_service_name(f'{self._name}/_action/send_goal')
         return bool(self._node.count_services(service))
 
     def send(self, poses: int, /, **fields: Any) -> Goal:
         """
-        Send a goal, and follow it.
+        Send a goal, and monitor it.
 
         Parameters
         ----------
         poses
-            How many poses it has.
+            The number of its poses.
         **fields
-            The values of the goal's fields, by their names.
+            The values of the goal's fields by name.
 
         Returns
         -------
         Goal
-            The goal, whose phase changes as its server answers.
+            The goal, whose phase is updated by the responses of the server.
 
         """
         request = self._impl.SendGoalService.Request()
@@ -119,12 +119,12 @@ class ActionWatch:
 
     def cancel(self, on_problem: Callable[[str], None]) -> None:
         """
-        Cancel all goals of the action, whoever sent them.
+        Cancel all goals of the action, from any client.
 
         Parameters
         ----------
         on_problem
-            Called with a sentence if they cannot be canceled, perhaps later.
+            Called with an error message if they cannot be canceled, possibly later.
 
         """
         if self.goal is not None and self.goal.phase is Phase.SENDING:
@@ -142,21 +142,21 @@ class ActionWatch:
         self._calls.call(kind, service, kind.Request(), answer, TIMEOUT_S)
 
     def update(self) -> None:
-        """Take the feedback on the goal that has come."""
+        """Process the received feedback on the goal."""
         for message, _ in self._feedback.take():
             goal = self.goal
             if goal is not None and bytes(message.goal_id.uuid) == goal.goal_id:
                 goal.take_feedback(message.feedback)
 
     def look(self) -> None:
-        """End a goal whose server is gone; call this now and then."""
+        """Fail a goal whose server is gone; call this periodically."""
         goal = self.goal
         if goal is None or goal.phase.is_over or goal.phase is Phase.SENDING or self.is_there:
             return
         self._fail(goal, f'{self._full_name()} is gone: nobody works on the goal any longer.')
 
     def close(self) -> None:
-        """Follow it no longer."""
+        """Stop monitoring the action."""
         self._feedback.close()
         self._node.destroy_subscription(self._status)
 
@@ -165,7 +165,7 @@ class ActionWatch:
         self.changed += 1
 
     def _take_status(self, message: Any) -> None:
-        """Take how all goals of the server are; follow the newest that is worked on."""
+        """Process the status of all goals of the server; monitor the newest active one."""
         self._statuses, stamps = {}, {}
         for each in message.status_list:
             identity = bytes(each.goal_info.goal_id.uuid)
@@ -179,7 +179,7 @@ class ActionWatch:
             self._apply(self.goal)
 
     def _is_news(self, newest: bytes, stamps: Mapping[bytes, tuple[int, int]]) -> bool:
-        """Whether a goal is to be followed instead of the one that is."""
+        """Whether a goal should replace the monitored one."""
         goal = self.goal
         if goal is None:
             return True
@@ -188,7 +188,7 @@ class ActionWatch:
         return goal.phase.is_over or stamps[newest] > stamps.get(goal.goal_id, (0, 0))
 
     def _apply(self, goal: Goal) -> None:
-        """Bring a goal to what the server says of it."""
+        """Update a goal to its status on the server."""
         phase = PHASES.get(self._statuses.get(goal.goal_id, 0))
         if phase is None or goal.phase.is_over:
             return
@@ -218,7 +218,7 @@ class ActionWatch:
         return str(self._node.resolve_service_name(self._name))
 
     def _explained(self, problem: str) -> str:
-        """Say of the action what was said of its hidden service."""
+        """Rephrase an error message about the hidden service to be about the action."""
         if self.is_there:
             return problem
         return f'there is no server of the action {self._full_name()}. Is navigation running?'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where the robot is to go, to the panel of navigation."""
+"""Goal tool: set a navigation goal, shared with the navigation panel."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class GoalTool(Tool):
     Parameters
     ----------
     context
-        The node, the frames and the scene.
+        The context: node, frames and scene.
     root
-        The path of the scene below which the tool draws.
+        The scene path below which the tool draws.
     given
-        The properties that the file of the page gives, such as `Namespace`.
+        The properties from the configuration file, such as `Namespace`.
 
     """
 
@@ -44,12 +44,12 @@ class GoalTool(Tool):
         self._arrow = PoseArrow(context, root)
 
     def lay_down(self) -> None:
-        """Be in use no longer."""
+        """Deactivate the tool."""
         self._arrow.hide()
 
     def click(self, point: Point) -> bool:
         """
-        Take a click as a goal pose that faces along x.
+        Handle a click as a goal pose that faces along x.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class GoalTool(Tool):
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
         """
-        Draw the goal pose while it is dragged, and take it at the end.
+        Draw the goal pose while it is dragged, and use it on release.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class GoalTool(Tool):
         return self._give(start, yaw)
 
     def _give(self, point: Point, yaw: float) -> bool:
-        """Hand over a pose; return whether the tool is done: not while waypoints are collected."""
+        """Submit a pose; return whether the tool is done: not while waypoints are collected."""
         try:
             session = self._session()
         except ImportError as error:
@@ -107,7 +107,7 @@ class GoalTool(Tool):
         return session_of(self.context.node, self.values['Namespace'] or None)
 
     def _say(self, sentence: str) -> None:
-        """Tell people why nothing happens."""
+        """Show why the tool has no effect."""
         if self.context.visualizer is not None:
             self.context.visualizer.notify(self.NAME, sentence)
         else:

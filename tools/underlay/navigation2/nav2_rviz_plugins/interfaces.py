@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the message package of Nav2 is there: it is optional, and built by `make setup`."""
+"""Check whether the Nav2 messages are available: they are optional, and built by `make setup`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MISSING = (
 
 
 def is_built() -> bool:
-    """Whether nav2_msgs can be used."""
+    """Whether nav2_msgs is available."""
     try:
         interface('msg', 'ParticleCloud')
     except ImportError:
@@ -25,19 +25,19 @@ def is_built() -> bool:
 
 def interface(kind: str, name: str) -> Any:
     """
-    Return a class of nav2_msgs.
+    Get a class of nav2_msgs.
 
     Parameters
     ----------
     kind
         `msg`, `srv` or `action`.
     name
-        Of the class, such as `NavigateToPose`.
+        The name of the class, such as `NavigateToPose`.
 
     Raises
     ------
     ImportError
-        with a sentence, if the package is not built.
+        The package is not built; the text is a full sentence.
 
     """
     try:

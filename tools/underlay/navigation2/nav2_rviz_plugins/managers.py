@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The lifecycle managers of navigation and localization: whether active, and commands for them."""
+"""The lifecycle managers of navigation and localization: their state, and commands to them."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ if TYPE_CHECKING:
 __all__ = ['COMMANDS', 'ManagerWatch', 'command_all']
 
 COMMANDS = {'startup': 0, 'pause': 1, 'resume': 2, 'reset': 3, 'shutdown': 4}
-"""What `nav2_msgs/srv/ManageLifecycleNodes` calls them."""
+"""The commands of `nav2_msgs/srv/ManageLifecycleNodes`."""
 ASK_S = 1.0
 PATIENCE_S = 3.0
 COMMAND_S = 60.0
-"""Bringing up a map and costmaps takes a while."""
+"""Timeout of commands: bringing up a map and costmaps takes a while."""
 ACTIVE, INACTIVE, UNKNOWN = 'active', 'inactive', 'unknown'
 
 
 class ManagerWatch:
     """
-    What a lifecycle manager says of itself; it is asked once a second.
+    Monitor of the state of a lifecycle manager, which is polled at 1 Hz.
 
     Parameters
     ----------
     node
-        The node that asks.
+        The node that owns the client.
     name
         The name of the manager, with its namespace.
 
@@ -48,12 +48,12 @@ class ManagerWatch:
 
     @property
     def is_there(self) -> bool:
-        """Whether there is such a manager."""
+        """Whether the manager is available."""
         return bool(self._node.count_services(self._client.srv_name))
 
     def update(self, now_s: float) -> None:
         """
-        Take the answer of the manager, or ask again once a second; call this often.
+        Process the response of the manager, or poll it again after a second; call this often.
 
         Parameters
         ----------
@@ -68,15 +68,15 @@ class ManagerWatch:
             self._ask()
 
     def hurry(self) -> None:
-        """Ask anew after an answer that is awaited, since something has been changed."""
+        """Poll again after the pending response, as something has changed."""
         self._is_due = True
 
     def close(self) -> None:
-        """Ask no longer."""
+        """Stop polling."""
         self._node.destroy_client(self._client)
 
     def told(self) -> dict[str, str]:
-        """Return what the page shows."""
+        """Return the state to show on the page."""
         return {'state': self.state, 'note': self.note}
 
     def _ask(self) -> None:
@@ -111,20 +111,20 @@ def command_all(
     say: Callable[[str], None],
 ) -> None:
     """
-    Give a command to one manager after the other, as long as they succeed.
+    Send a command to the managers in order, until one fails.
 
     Parameters
     ----------
     calls
-        Calls services, and sees to it that each call ends.
+        The service caller, which ends each call.
     kind
         The class ManageLifecycleNodes.
     command
         A name in `COMMANDS`.
     managers
-        In order: who localizes first, where something is started.
+        The managers in order: localization first, for commands that start nodes.
     say
-        Takes a sentence on how it goes.
+        Called with a message on the progress.
 
     """
     if not managers:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The panel of navigation: how it is, where the robot goes, and waypoints."""
+"""The navigation panel: state of navigation, goals and waypoints."""
 
 from __future__ import annotations
 
@@ -40,23 +40,23 @@ class NavigationPanel(LivePanel):
     @classmethod
     def is_wanted(cls, node: Node) -> bool:
         """
-        Whether there is a server that navigates, of the action `navigate_to_pose`.
+        Whether the action server of `navigate_to_pose` is available.
 
         Parameters
         ----------
         node
-            The node that looks for it, in whose namespace it is.
+            The node that looks it up, in the same namespace.
 
         """
         name = node.resolve_service_name('navigate_to_pose/_action/send_goal')
         return bool(node.count_services(name))
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {'missing': '' if is_built() else MISSING}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may call."""
         return {
             'tool': self._use,
             'cancel': lambda viewer, message: self._do('cancel'),
@@ -69,7 +69,7 @@ class NavigationPanel(LivePanel):
         }
 
     def begin(self) -> None:
-        """Follow the goals of the robot."""
+        """Start monitoring the goals of the robot."""
         self._session: NavigationSession | None = None
         if is_built():
             self._session = session_of(self.context.node, self.values['Namespace'])
@@ -93,7 +93,7 @@ class NavigationPanel(LivePanel):
         viewer.tell(**self._state())
 
     def update(self) -> None:
-        """Draw the goals, unless a display does, and tell what is new."""
+        """Draw the goals, unless a display does, and send what has changed."""
         session = self._session
         if session is not None:
             session.is_watched = bool(self.channel.viewers)
@@ -101,7 +101,7 @@ class NavigationPanel(LivePanel):
         super().update()
 
     def refresh(self) -> None:
-        """Tell what has changed."""
+        """Send what has changed."""
         if not self.channel.viewers:
             return
         state = self._state()
@@ -110,7 +110,7 @@ class NavigationPanel(LivePanel):
             self.channel.tell(**state)
 
     def end(self) -> None:
-        """Draw no longer, and lay down the tools; goals that are worked on go on."""
+        """Stop drawing, and deactivate the tools; active goals continue."""
         for tool in self._own_tools.values():
             if self._in_use() is tool:
                 self.context.visualizer.tools.use(None)
@@ -131,7 +131,7 @@ class NavigationPanel(LivePanel):
         return None if visualizer is None else visualizer.tools.in_use
 
     def _draw(self, session: NavigationSession) -> None:
-        """Draw the markers of goals where no display of the page does so."""
+        """Draw the markers of goals, unless a display of the page does."""
         if self._look.is_due():
             is_drawing = not self._is_displayed(session)
             if is_drawing != self._is_drawing:
@@ -166,7 +166,7 @@ class NavigationPanel(LivePanel):
         getattr(self._needed(), what)()
 
     def _use(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
-        """Take up a tool, or lay it down."""
+        """Activate or deactivate a tool."""
         name = str(message.get('name', ''))
         kind, visualizer = TOOLS.get(name), self.context.visualizer
         if visualizer is None:
@@ -175,7 +175,7 @@ class NavigationPanel(LivePanel):
         visualizer.tools.use(None if kind is None or is_again else self._tool(name))
 
     def _tool(self, name: str) -> Tool:
-        """Return the tool that the file has, or one of the panel's own."""
+        """Return the tool from the configuration file, or one of the panel's own."""
         kind = TOOLS[name]
         namespace = self.values['Namespace']
         for each in self.context.visualizer.tools.tools:
@@ -196,7 +196,7 @@ class NavigationPanel(LivePanel):
         self._needed().command(command)
 
     def _collect(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
-        """Collect waypoints with the tool at hand, or goals again."""
+        """Start or stop collecting waypoints with the current tool."""
         session, visualizer = self._needed(), self.context.visualizer
         session.collect(message.get('on') is True)
         if visualizer is not None and session.collects:

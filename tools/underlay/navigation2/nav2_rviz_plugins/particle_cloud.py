@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The particles of a localization: where the robot may be, and how likely that is."""
+"""The particles of AMCL: possible poses of the robot and their weights."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ['ParticleCloud', 'lengths_of']
 FLAT, SOLID, AXES = 'Arrow (Flat)', 'Arrow (3D)', 'Axes'
 MOST = 20000
 HEAD = 0.2
-"""The head of an arrow, as a part of its length."""
+"""The length of an arrow's head, as a fraction of the arrow's length."""
 
 
 class ParticleCloud(MessageDisplay):
@@ -45,7 +45,7 @@ class ParticleCloud(MessageDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic, if its type is there."""
+        """Subscribe to the topic, if its type is available."""
         self._canvas = Canvas(self.context.scene, self.root)
         try:
             super().start()
@@ -64,7 +64,7 @@ class ParticleCloud(MessageDisplay):
         Raises
         ------
         ImportError
-            nav2_msgs is not built; the text is a sentence.
+            nav2_msgs is not built; the text is a full sentence.
 
         """
         kind: type = interface('msg', 'ParticleCloud')
@@ -93,12 +93,12 @@ class ParticleCloud(MessageDisplay):
 
     def take(self, message: Any) -> None:
         """
-        Read a serialized message, and keep it for the next frame.
+        Deserialize a message, and keep it for the next frame.
 
         Parameters
         ----------
         message
-            The bytes of the message in CDR; those that cannot be read show up in the status.
+            The bytes of the message in CDR; invalid ones are reported in the status.
 
         """
         try:
@@ -125,7 +125,7 @@ class ParticleCloud(MessageDisplay):
             self._draw(positions, wxyzs, self._lengths(weights))
 
     def _usable(self, message: ParticleMessage) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return poses and weights that can be shown, and say how many cannot."""
+        """Return the poses and weights that can be shown, and report the number of others."""
         poses, weights = message.poses, message.weights
         norms = np.linalg.norm(poses[:, 3:], axis=1)
         valid = np.isfinite(poses).all(axis=1) & np.isfinite(weights) & (norms > 1e-6)
@@ -170,7 +170,7 @@ class ParticleCloud(MessageDisplay):
             )
 
     def _add_flat(self, positions: Points, wxyzs: Points, lengths: NDArray[np.float32]) -> None:
-        """Add arrows of lines: a shaft and two for the head."""
+        """Add flat arrows made of lines: a shaft and two for the head."""
         tip, back, side = (1.0, 0.0, 0.0), 1.0 - HEAD, HEAD / 2.0
         lines = [((0, 0, 0), tip), (tip, (back, side, 0)), (tip, (back, -side, 0))]
         ends = np.array(lines, np.float32).reshape(-1, 3)
@@ -186,17 +186,17 @@ class ParticleCloud(MessageDisplay):
 
 def lengths_of(weights: NDArray[Any], shortest_m: float, longest_m: float) -> NDArray[np.float32]:
     """
-    Compute the lengths of the arrows of particles.
+    Compute the arrow lengths of particles.
 
-    The length is proportional to the weight, as a part of the greatest one; particles of equal
-    weight, as there are after they were drawn anew, have the longest arrow.
+    The length is proportional to the weight, relative to the maximum; particles of equal weight,
+    as after resampling, have the longest arrow.
 
     Parameters
     ----------
     weights
         (N,) weights of the particles.
     shortest_m, longest_m
-        The limits of the length in m; the greatest weight has the longest.
+        The limits of the length in m; the maximum weight has the longest.
 
     Returns
     -------

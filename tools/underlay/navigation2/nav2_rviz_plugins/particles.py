@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Read a `nav2_msgs/msg/ParticleCloud` as it came.
+Deserialize a `nav2_msgs/msg/ParticleCloud`.
 
-Thousands of particles are four objects of Python each; the bytes of the message hold them as rows
-of eight numbers of 64 bits, which numpy takes at once.
+rclpy would create four Python objects for each of thousands of particles; the serialized message
+has them as rows of eight doubles, which numpy reads at once.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from numpy.typing import NDArray
 __all__ = ['ParticleMessage', 'read_particles']
 
 HEADER = 4
-"""Bytes of the encapsulation (CDR) before the data, from which alignment counts."""
+"""The size in bytes of the CDR encapsulation before the data, from which alignment counts."""
 ROW = 8
-"""Position, orientation x, y, z, w, and the weight."""
+"""Row layout: position, orientation x, y, z, w, and the weight."""
 
 Floats = NDArray[np.float64]
 
 
 class ParticleMessage(NamedTuple):
     """
-    A cloud of particles.
+    Particle cloud.
 
     `poses` has a row for each: x, y, z in metres, and the quaternion x, y, z, w.
     """
@@ -39,12 +39,12 @@ class ParticleMessage(NamedTuple):
 
 def read_particles(data: bytes) -> ParticleMessage:
     """
-    Read a serialized message.
+    Deserialize a message.
 
     Parameters
     ----------
     data
-        The message in CDR, as a raw subscription gives it.
+        The message in CDR, as from a raw subscription.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def read_particles(data: bytes) -> ParticleMessage:
     Raises
     ------
     ValueError
-        If the bytes are no such message.
+        The bytes are not such a message.
 
     """
     order = '<' if len(data) > 1 and data[1] & 1 else '>'
@@ -74,5 +74,5 @@ def read_particles(data: bytes) -> ParticleMessage:
 
 
 def _aligned(offset: int, size: int) -> int:
-    """Return the next multiple of a size, counted from behind the encapsulation."""
+    """Align an offset to a multiple of a size, counted after the encapsulation."""
     return HEADER + -(-(offset - HEADER) // size) * size

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of a goal, and how that is said; without ROS."""
+"""Progress of a goal, and its description; independent of ROS."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ ACTIONS = {
     'navigate_through_poses': 'Navigate through poses',
     'follow_waypoints': 'Follow waypoints',
 }
-"""The actions that are watched, with their titles."""
+"""The monitored actions, with their titles."""
 
 
 class Phase(Enum):
-    """How far a goal is."""
+    """Phase of a goal."""
 
     SENDING = 'sending'
     ACCEPTED = 'accepted'
@@ -28,11 +28,11 @@ class Phase(Enum):
     CANCELED = 'canceled'
     ABORTED = 'aborted'
     FAILED = 'failed'
-    """It never got to the server, was refused there, or the server is gone."""
+    """The goal was not delivered or was rejected, or the server is gone."""
 
     @property
     def is_over(self) -> bool:
-        """Whether nothing more is to come."""
+        """Whether the phase is final."""
         return self in (Phase.SUCCEEDED, Phase.CANCELED, Phase.ABORTED, Phase.FAILED)
 
 
@@ -44,29 +44,29 @@ PHASES = {
     5: Phase.CANCELED,
     6: Phase.ABORTED,
 }
-"""By the numbers of `action_msgs/msg/GoalStatus`."""
+"""The phases by the values of `action_msgs/msg/GoalStatus`."""
 
 
 @dataclass
 class Goal:
-    """A goal of one of the actions, whoever sent it."""
+    """Goal of one of the actions, from any client."""
 
     action: str
     goal_id: bytes = b''
     phase: Phase = Phase.SENDING
     text: str = ''
-    """Why it ended, or what there is to know."""
+    """The reason for its end, or other information."""
     poses: int = 0
-    """How many it has, if it is from this page."""
+    """The number of its poses, if it was sent from this page."""
     numbers: dict[str, float] = field(default_factory=dict)
-    """The numbers of the newest feedback: metres, seconds, counts."""
+    """The values of the newest feedback: metres, seconds, counts."""
     missed: list[int] = field(default_factory=list)
-    """Waypoints that were not reached, from 0."""
+    """The indices of missed waypoints, from 0."""
     is_own: bool = False
 
     def take_feedback(self, feedback: Any) -> None:
         """
-        Keep the numbers of a feedback, in m, s or as counts.
+        Store the values of a feedback message, in m, s or as counts.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class Goal:
 
     def take_result(self, result: Any) -> None:
         """
-        Keep how the goal ended; `phase` has to be set before.
+        Store the result of the goal; `phase` has to be set before.
 
         Parameters
         ----------
@@ -102,7 +102,7 @@ class Goal:
         self.text = outcome(self.phase, code, reason, self.missed)
 
     def told(self) -> dict[str, Any]:
-        """Return what the page shows."""
+        """Return the progress to show on the page."""
         return {
             'title': ACTIONS[self.action],
             'action': self.action,
@@ -118,16 +118,16 @@ class Goal:
 
 def outcome(phase: Phase, code: int, reason: str, missed: list[int]) -> str:
     """
-    Say how a goal ended.
+    Describe the outcome of a goal.
 
     Parameters
     ----------
     phase
-        In which it ended.
+        The final phase.
     code, reason
         The `error_code` and `error_msg` of the result; 0 is no error.
     missed
-        The waypoints that were not reached, from 0; they are numbered from 1 on the screen.
+        The indices of missed waypoints, from 0; the text numbers them from 1.
 
     """
     reason = reason.strip()

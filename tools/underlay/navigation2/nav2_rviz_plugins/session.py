@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the goal tool and the panel of navigation share: the goals of one robot."""
+"""Session that the goal tool and the navigation panel share: the goals of one robot."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ TO_POSE, THROUGH, WAYPOINTS = ACTIONS
 PERIOD_S = 0.1
 LOOK_S = 1.0
 MOST = 200
-"""How many waypoints may be collected."""
+"""The maximum number of waypoints."""
 
 
 class NavigationSession:
     """
-    The goals of one robot: collects, sends and follows them.
+    Navigation session of one robot: collects, sends and monitors its goals.
 
-    It works in the thread of its node, and stays as long as that does, so that a goal is followed
-    also while another file is loaded.
+    It runs in the thread of its node and has the same lifetime, so that a goal is monitored even
+    while another configuration file is loaded.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class NavigationSession:
     Raises
     ------
     ImportError
-        nav2_msgs is not built; the text is a sentence.
+        nav2_msgs is not built; the text is a full sentence.
 
     """
 
@@ -63,9 +63,9 @@ class NavigationSession:
         self.node, self.namespace = node, namespace
         self.waypoints: list[PoseStamped] = []
         self.collects = False
-        """Whether poses that are given become waypoints, and not goals."""
+        """Whether poses are collected as waypoints instead of sent as goals."""
         self.is_watched = False
-        """Whether somebody wants to know how the lifecycle managers are."""
+        """Whether the state of the lifecycle managers is needed."""
         self.note = ''
         self.markers = MarkerArray()
         self._calls = ServiceCalls(node)
@@ -115,7 +115,7 @@ class NavigationSession:
         Parameters
         ----------
         is_wanted
-            Whether poses become waypoints from now on, and not goals.
+            Whether poses become waypoints from now on, instead of goals.
 
         """
         self.collects = is_wanted
@@ -127,7 +127,7 @@ class NavigationSession:
         Parameters
         ----------
         index
-            Which one, from 0; one that does not exist is ignored.
+            Its index, from 0; an invalid one is ignored.
 
         """
         if 0 <= index < len(self.waypoints):
@@ -139,24 +139,24 @@ class NavigationSession:
 
     def follow(self, loops: int = 0) -> None:
         """
-        Send the robot to one waypoint after the other.
+        Send the robot through the waypoints one after another.
 
         Parameters
         ----------
         loops
-            How often to repeat the round after the first time.
+            The number of repetitions after the first round.
 
         """
         poses = list(self.waypoints)
         self._send(WAYPOINTS, poses, poses=poses, number_of_loops=loops)
 
     def go_through(self) -> None:
-        """Have the robot drive to the last waypoint on a way through the others."""
+        """Send the robot to the last waypoint through the others, without stopping."""
         poses = list(self.waypoints)
         self._send(THROUGH, poses, poses=poses)
 
     def cancel(self) -> None:
-        """Cancel what is being worked on, whoever wanted it."""
+        """Cancel all active goals, from any client."""
         watches = [
             watch
             for action, watch in self._actions.items()
@@ -183,12 +183,12 @@ class NavigationSession:
             self.note = f'There is no lifecycle manager: nobody offers services of {names}.'
             return
         if command not in ('startup', 'resume'):
-            managers.reverse()  # what navigates rests before what it relies on
+            managers.reverse()  # navigation stops before the localization that it depends on
         command_all(self._calls, self._manage, command, managers, self.say)
 
     def say(self, sentence: str) -> None:
         """
-        Show a message on the page, in place of the last one.
+        Show a message on the page, which replaces the previous one.
 
         Parameters
         ----------
@@ -199,7 +199,7 @@ class NavigationSession:
         self.note = sentence
 
     def update(self) -> None:
-        """Go on with calls, take what has come, and show it."""
+        """Process calls and received messages, and show the changes."""
         now_s = time.monotonic()
         self._calls.update()
         is_look = now_s - self._looked_s >= LOOK_S
@@ -219,7 +219,7 @@ class NavigationSession:
         self._mark()
 
     def told(self) -> dict[str, Any]:
-        """Return what the page shows."""
+        """Return the state to show on the page."""
         localization, navigation = self._managers
         return {
             'localization': localization.told(),
@@ -232,7 +232,7 @@ class NavigationSession:
         }
 
     def close(self) -> None:
-        """End all of it; goals that are worked on go on."""
+        """Close the session; active goals continue."""
         self.node.destroy_timer(self._timer)
         for watch in self._actions.values():
             watch.close()
@@ -242,13 +242,13 @@ class NavigationSession:
         self.node.destroy_publisher(self._publisher)
 
     def _is_part(self, action: str) -> bool:
-        """Whether the goal of an action is only a part of the waypoints that are followed."""
+        """Whether the goal of an action is only a part of the waypoint goal in progress."""
         goal = self._actions[action].goal
         follows = action != WAYPOINTS and _is_active(self._actions[WAYPOINTS].goal)
         return follows and goal is not None and not goal.is_own
 
     def _goal_told(self) -> dict[str, Any] | None:
-        """Return what the page shows of the goal, with how it is on the way to a waypoint."""
+        """Return the goal to show on the page, with its progress to the current waypoint."""
         goal, part = self.goal, self._actions[TO_POSE].goal
         if goal is None:
             return None
@@ -269,7 +269,7 @@ class NavigationSession:
         self._actions[action].send(len(poses), **fields)
 
     def _mark(self) -> None:
-        """Publish markers of the goals, if they are others than before."""
+        """Publish the markers of the goals if they have changed."""
         goal = self.goal
         current: int | None = None
         missed: list[int] = []
@@ -294,19 +294,19 @@ _sessions: WeakKeyDictionary[Node, dict[str, NavigationSession]] = WeakKeyDictio
 
 def session_of(node: Node, namespace: str | None = None) -> NavigationSession:
     """
-    Return the session of a robot, which stays as long as the node.
+    Get the session of a robot, which lasts as long as the node.
 
     Parameters
     ----------
     node
         The node of the page.
     namespace
-        That of the robot; None is the one robot whose session there is, else that without.
+        The namespace of the robot; None for the only robot with a session, else for the empty one.
 
     Raises
     ------
     ImportError
-        with a sentence, if nav2_msgs is not built.
+        nav2_msgs is not built; the text is a full sentence.
 
     """
     sessions = _sessions.setdefault(node, {})
@@ -319,12 +319,12 @@ def session_of(node: Node, namespace: str | None = None) -> NavigationSession:
 
 def close_sessions(node: Node) -> None:
     """
-    End the sessions of a node before it is destroyed while its process goes on.
+    Close the sessions of a node before it is destroyed while its process continues.
 
     Parameters
     ----------
     node
-        The node that `session_of` was given.
+        The node that was passed to `session_of`.
 
     """
     for session in _sessions.pop(node, {}).values():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The markers of goals: an arrow each, and a number where there are several."""
+"""The markers of goals: an arrow for each, and a number if there are several."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ def waypoint_markers(
     missed: Collection[int] = (),
 ) -> MarkerArray:
     """
-    Make the markers of goals, which replace those from before.
+    Make the markers of goals, which replace the previous ones.
 
     Parameters
     ----------
     poses
         The goals, each in its own frame.
     is_numbered
-        Whether each has its number, from 1.
+        Whether each has a number, from 1.
     current, missed
-        Which one the robot drives to, and which it has not reached, from 0.
+        The index of the current goal, and the indices of the missed ones, from 0.
 
     """
     markers = [Marker(ns=NAMESPACE, action=Marker.DELETEALL)]
@@ -63,7 +63,7 @@ def _marker(
     number: int, kind: int, scale: Any, pose: PoseStamped, color: Any, text: str
 ) -> Marker:
     marker = Marker(ns=NAMESPACE, id=number, type=kind, action=Marker.ADD)
-    marker.header.frame_id = pose.header.frame_id  # without a stamp: where the frame is now
+    marker.header.frame_id = pose.header.frame_id  # zero stamp: the newest transform
     at, turn = marker.pose.position, marker.pose.orientation
     at.x, at.y, at.z = pose.pose.position.x, pose.pose.position.y, pose.pose.position.z
     given = pose.pose.orientation

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the parts of the navigator share: waiting for others, and the task that runs."""
+"""Base of the navigator: waiting for servers, and the current task."""
 
 # ruff: noqa: N802
 from __future__ import annotations
@@ -19,7 +19,7 @@ _LOOK_S = 0.1
 
 
 class TaskResult(Enum):
-    """How a task has ended."""
+    """The outcome of a task."""
 
     UNKNOWN = 0
     SUCCEEDED = 1
@@ -36,14 +36,14 @@ _RESULTS = {
 
 class Base(Node):
     """
-    A node that runs one task of an action at a time.
+    Node that runs one action task at a time.
 
     Parameters
     ----------
     node_name, namespace
         The name of the node.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -71,19 +71,19 @@ class Base(Node):
         super().destroy_node()
 
     def cancelTask(self) -> None:
-        """Cancel the task that runs, and wait until its server has heard it."""
+        """Cancel the running task, and wait for the response of its server."""
         self.info('Canceling current task.')
         if self.result_future is not None and self.goal_handle is not None:
             self._wait(self.goal_handle.cancel_goal_async())
 
     def isTaskComplete(self, task: Any = None) -> bool:
         """
-        Whether the task has ended; waits for that up to 0.1 s.
+        Whether the task has ended; waits up to 0.1 s for that.
 
         Parameters
         ----------
         task
-            No effect: there is but one task.
+            No effect: there is only one task.
 
         """
         if self.result_future is None:
@@ -99,38 +99,38 @@ class Base(Node):
 
     def getFeedback(self, task: Any = None) -> Any:
         """
-        Return the newest feedback of the task, None before the first.
+        Return the newest feedback of the task; None before the first.
 
         Parameters
         ----------
         task
-            No effect: there is but one task.
+            No effect: there is only one task.
 
         """
         return self.feedback
 
     def getResult(self) -> TaskResult:
-        """Return how the task has ended."""
+        """Return the outcome of the task."""
         return _RESULTS.get(self.status, TaskResult.UNKNOWN)
 
     def getTaskError(self) -> tuple[int, str]:
-        """Return the error code and the message of the last task; (0, '') if it had none."""
+        """Return the error code and the message of the last task; (0, '') without an error."""
         return self.last_action_error_code, self.last_action_error_msg
 
     def setTaskError(self, error_code: int, error_msg: str) -> None:
         """
-        Set what `getTaskError` returns.
+        Set the return value of `getTaskError`.
 
         Parameters
         ----------
         error_code, error_msg
-            As in the result of the action; 0 and '' if there is no error.
+            As in the result of the action; 0 and '' without an error.
 
         """
         self.last_action_error_code, self.last_action_error_msg = error_code, error_msg
 
     def clearTaskError(self) -> None:
-        """Forget the error of the last task."""
+        """Clear the error of the last task."""
         self.setTaskError(0, '')
 
     def _keep_error(self, result: Any) -> None:
@@ -144,7 +144,7 @@ class Base(Node):
         return client
 
     def _wait(self, future: Any, timeout_s: float | None = None) -> None:
-        """Run callbacks until a future is done."""
+        """Spin until a future is done."""
         rclpy.spin_until_future_complete(self, future, self._spinner, timeout_s)
 
     def _wait_for_server(self, client: ActionClient, name: str) -> None:
@@ -160,7 +160,7 @@ class Base(Node):
         return handle if handle is not None and handle.accepted else None
 
     def _start(self, client: ActionClient, name: str, goal: Any, what: str) -> bool:
-        """Start a task; return whether its server has accepted it."""
+        """Start a task; return whether its server has accepted the goal."""
         self.clearTaskError()
         self._wait_for_server(client, name)
         self.info(f'{what}...')
@@ -176,7 +176,7 @@ class Base(Node):
         return True
 
     def _ask_action(self, client: ActionClient, name: str, goal: Any) -> Any:
-        """Return the result of a short action, or None if it has failed."""
+        """Run a short action; return its result, or None if it has failed."""
         self.clearTaskError()
         self._wait_for_server(client, name)
         handle = self._send(client, goal)
@@ -195,7 +195,7 @@ class Base(Node):
         return None
 
     def _ask_service(self, client: Any, request: Any) -> Any:
-        """Return the response of a service; waits until it is there."""
+        """Call a service; wait for its response."""
         while not client.wait_for_service(timeout_sec=1.0):
             self.info(f"'{client.srv_name}' service not available, waiting...")
         future = client.call_async(request)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a program can ask: paths, costmaps, maps; these wait for the answer."""
+"""Synchronous requests: paths, costmaps and maps."""
 
 # ruff: noqa: N802
 from __future__ import annotations
@@ -16,14 +16,14 @@ __all__ = ['Services']
 
 class Services(Tasks):
     """
-    Plans, smooths, looks at costmaps and clears them, changes the map.
+    Node that plans and smooths paths, gets and clears costmaps, and changes the map.
 
     Parameters
     ----------
     node_name, namespace
         The name of the node.
     **options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -67,18 +67,18 @@ class Services(Tasks):
         Parameters
         ----------
         start
-            Where it begins, if `use_start` is true; otherwise where the robot is.
+            The start pose, if `use_start` is true; otherwise the path starts at the robot.
         goal
-            Where to.
+            The goal pose.
         planner_id
-            The planner; empty where there is but one.
+            The planner; empty if there is only one.
         use_start
-            Whether the start counts.
+            Whether to use the start pose.
 
         Returns
         -------
         nav_msgs.msg.Path or None
-            The path; None if there is none: see `getTaskError`.
+            The path; None if planning fails: see `getTaskError`.
 
         """
         found = self._getPathImpl(start, goal, planner_id, use_start)
@@ -106,18 +106,18 @@ class Services(Tasks):
         Parameters
         ----------
         start
-            Where it begins, if `use_start` is true; otherwise it begins where the robot is.
+            The start pose, if `use_start` is true; otherwise the path starts at the robot.
         goals
-            The poses to pass, the last of which is the end of the path.
+            The poses to pass, the last of which is the goal.
         planner_id
-            The planner; empty where there is but one.
+            The planner; empty if there is only one.
         use_start
-            Whether the start counts.
+            Whether to use the start pose.
 
         Returns
         -------
         nav_msgs.msg.Path or None
-            The path; None if there is none: see `getTaskError`.
+            The path; None if planning fails: see `getTaskError`.
 
         """
         found = self._getPathThroughPosesImpl(start, goals, planner_id, use_start)
@@ -153,16 +153,16 @@ class Services(Tasks):
         path
             The `nav_msgs/Path`.
         smoother_id
-            The smoother; empty where there is but one.
+            The smoother; empty if there is only one.
         max_duration
-            How long it may take, in s.
+            The maximum duration of smoothing in s.
         check_for_collision
-            Whether a smooth path that hits an obstacle is a failure.
+            Whether a collision on the smoothed path is a failure.
 
         Returns
         -------
         nav_msgs.msg.Path or None
-            The smooth path; None if that fails: see `getTaskError`.
+            The smoothed path; None if smoothing fails: see `getTaskError`.
 
         """
         found = self._smoothPathImpl(path, smoother_id, max_duration, check_for_collision)
@@ -215,16 +215,16 @@ class Services(Tasks):
         return False
 
     def clearAllCostmaps(self) -> None:
-        """Forget the obstacles of both costmaps."""
+        """Clear the global and the local costmap."""
         self.clearLocalCostmap()
         self.clearGlobalCostmap()
 
     def clearLocalCostmap(self) -> None:
-        """Forget the obstacles of the local costmap."""
+        """Clear the local costmap."""
         self._ask_service(self.clear_costmap_local_srv, srv.ClearEntireCostmap.Request())
 
     def clearGlobalCostmap(self) -> None:
-        """Forget the obstacles of the global costmap."""
+        """Clear the global costmap."""
         self._ask_service(self.clear_costmap_global_srv, srv.ClearEntireCostmap.Request())
 
     def clearCostmapExceptRegion(self, reset_distance: float) -> None:
@@ -254,9 +254,9 @@ class Services(Tasks):
         self._ask_service(self.clear_costmap_around_robot_srv, request)
 
     def getGlobalCostmap(self) -> Any:
-        """Return the global costmap, a `nav2_msgs/Costmap`."""
+        """Get the global costmap, a `nav2_msgs/Costmap`."""
         return self._ask_service(self.get_costmap_global_srv, srv.GetCostmap.Request()).map
 
     def getLocalCostmap(self) -> Any:
-        """Return the local costmap, a `nav2_msgs/Costmap`."""
+        """Get the local costmap, a `nav2_msgs/Costmap`."""
         return self._ask_service(self.get_costmap_local_srv, srv.GetCostmap.Request()).map

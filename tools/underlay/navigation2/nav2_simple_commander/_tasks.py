@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tasks that a program can give to the robot."""
+"""The asynchronous tasks of the navigator."""
 
 # ruff: noqa: N802
 from __future__ import annotations
@@ -16,14 +16,14 @@ __all__ = ['Tasks']
 
 class Tasks(Base):
     """
-    Goals, waypoints, paths, behaviors and docks; each task is started, and does not block.
+    Node that starts tasks without blocking: goals, waypoints, paths, behaviors and docking.
 
     Parameters
     ----------
     node_name, namespace
         The name of the node.
     **options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -52,9 +52,9 @@ class Tasks(Base):
         Parameters
         ----------
         pose
-            Where to.
+            The goal pose.
         behavior_tree
-            The file of the tree that says how; empty: the navigator's own.
+            The file of the behavior tree; empty for the navigator's default.
 
         Returns
         -------
@@ -77,7 +77,7 @@ class Tasks(Base):
         poses
             The poses to pass.
         behavior_tree
-            The file of the behavior tree; empty: the navigator's own.
+            The file of the behavior tree; empty for the navigator's default.
 
         Returns
         -------
@@ -147,14 +147,14 @@ class Tasks(Base):
         progress_checker_id: str = '',
     ) -> bool:
         """
-        Drive along a path with a controller, without planning.
+        Follow a path with a controller, without planning.
 
         Parameters
         ----------
         path
             The `nav_msgs/Path`.
         controller_id, goal_checker_id, progress_checker_id
-            The plugins of the controller server; each is empty where there is but one.
+            The plugins of the controller server; empty if there is only one.
 
         Returns
         -------
@@ -177,16 +177,16 @@ class Tasks(Base):
         disable_collision_checks: bool = False,
     ) -> bool:
         """
-        Turn in place.
+        Rotate in place.
 
         Parameters
         ----------
         spin_dist
-            By which angle in rad, positive to the left.
+            The angle in rad, positive counter-clockwise.
         time_allowance
-            How long it may take, in s; 0 for any time.
+            The time limit in s; 0 for no limit.
         disable_collision_checks
-            Whether to turn in spite of obstacles; no effect if the action has no such field.
+            Whether to rotate without collision checks; no effect if the action has no such field.
 
         Returns
         -------
@@ -208,16 +208,16 @@ class Tasks(Base):
         disable_collision_checks: bool = False,
     ) -> bool:
         """
-        Drive straight back.
+        Drive straight backward.
 
         Parameters
         ----------
         backup_dist, backup_speed
-            How far in m, and how fast in m/s; the signs do not matter.
+            The distance in m and the speed in m/s; the signs are ignored.
         time_allowance
-            How long it may take, in s; 0 for any time.
+            The time limit in s; 0 for no limit.
         disable_collision_checks
-            Whether to drive in spite of obstacles; no effect if the action has no such field.
+            Whether to drive without collision checks; no effect if the action has no such field.
 
         Returns
         -------
@@ -242,16 +242,16 @@ class Tasks(Base):
         disable_collision_checks: bool = False,
     ) -> bool:
         """
-        Drive straight ahead.
+        Drive straight forward.
 
         Parameters
         ----------
         dist, speed
-            How far in m, and how fast in m/s; both negative: straight back.
+            The distance in m and the speed in m/s; both negative to drive backward.
         time_allowance
-            How long it may take, in s; 0 for any time.
+            The time limit in s; 0 for no limit.
         disable_collision_checks
-            Whether to drive in spite of obstacles; no effect if the action has no such field.
+            Whether to drive without collision checks; no effect if the action has no such field.
 
         Returns
         -------
@@ -270,12 +270,12 @@ class Tasks(Base):
 
     def assistedTeleop(self, time_allowance: float = 30) -> bool:
         """
-        Let a person drive, with the robot kept from collisions.
+        Start assisted teleoperation: an operator drives the robot, with collision avoidance.
 
         Parameters
         ----------
         time_allowance
-            After which time in s the task fails; 0 for never.
+            The time in s after which the task fails; 0 for no limit.
 
         Returns
         -------
@@ -292,14 +292,14 @@ class Tasks(Base):
         self, dock_pose: PoseStamped, dock_type: str = '', nav_to_dock: bool = True
     ) -> bool:
         """
-        Dock at a dock that is given by its pose.
+        Dock at the pose of a dock.
 
         Parameters
         ----------
         dock_pose, dock_type
-            Where the dock is, and the name of its type.
+            The pose of the dock, and the name of its type.
         nav_to_dock
-            Whether to navigate to the staging pose first; otherwise docking begins at once.
+            Whether to navigate to the staging pose first; otherwise docking starts immediately.
 
         Returns
         -------
@@ -317,14 +317,14 @@ class Tasks(Base):
 
     def dockRobotByID(self, dock_id: str, nav_to_dock: bool = True) -> bool:
         """
-        Dock at a dock that the docking server knows.
+        Dock at a dock from the database of the docking server.
 
         Parameters
         ----------
         dock_id
             The name of the dock.
         nav_to_dock
-            Whether to navigate to the staging pose first; otherwise docking begins at once.
+            Whether to navigate to the staging pose first; otherwise docking starts immediately.
 
         Returns
         -------
@@ -339,12 +339,12 @@ class Tasks(Base):
 
     def undockRobot(self, dock_type: str = '') -> bool:
         """
-        Leave the dock.
+        Undock the robot.
 
         Parameters
         ----------
         dock_type
-            The name of the dock's type; empty: that of the dock that the robot was brought to.
+            The name of the dock's type; empty for that of the current dock.
 
         Returns
         -------
@@ -361,6 +361,6 @@ def _duration(seconds: float) -> Any:
 
 
 def _set_checks(goal: Any, disable: bool) -> None:
-    """Say that collisions do not matter, where the action knows that."""
+    """Set `disable_collision_checks` of a goal, if the action has that field."""
     if hasattr(goal, 'disable_collision_checks'):
         goal.disable_collision_checks = disable

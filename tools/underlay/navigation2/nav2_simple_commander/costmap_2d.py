@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A costmap to look into from Python."""
+"""A costmap for lookups from Python."""
 
 # ruff: noqa: N802
 from __future__ import annotations
@@ -14,7 +14,7 @@ __all__ = ['PyCostmap2D']
 
 class PyCostmap2D:
     """
-    A costmap, as `BasicNavigator.getGlobalCostmap` returns it.
+    Costmap, as returned by `BasicNavigator.getGlobalCostmap`.
 
     Parameters
     ----------
@@ -39,44 +39,44 @@ class PyCostmap2D:
         self.costmap = np.asarray(occupancy_map.data).astype(np.uint8)
 
     def getSizeInCellsX(self) -> int:
-        """Return how many cells it has along x."""
+        """Return the number of cells along x."""
         return int(self.size_x)
 
     def getSizeInCellsY(self) -> int:
-        """Return how many cells it has along y."""
+        """Return the number of cells along y."""
         return int(self.size_y)
 
     def getSizeInMetersX(self) -> float:
-        """Return the length along x in m, from the origin to the centre of the last cell."""
+        """Return the extent along x in m, from the origin to the centre of the last cell."""
         return float((self.size_x - 1 + 0.5) * self.resolution)
 
     def getSizeInMetersY(self) -> float:
-        """Return the length along y in m, from the origin to the centre of the last cell."""
+        """Return the extent along y in m, from the origin to the centre of the last cell."""
         return float((self.size_y - 1 + 0.5) * self.resolution)
 
     def getOriginX(self) -> float:
-        """Return x of its corner in m."""
+        """Return the x coordinate of the origin in m."""
         return float(self.origin_x)
 
     def getOriginY(self) -> float:
-        """Return y of its corner in m."""
+        """Return the y coordinate of the origin in m."""
         return float(self.origin_y)
 
     def getResolution(self) -> float:
-        """Return the size of a cell in m."""
+        """Return the side length of a cell in m."""
         return float(self.resolution)
 
     def getGlobalFrameID(self) -> str:
-        """Return its frame."""
+        """Return the name of the frame."""
         return str(self.global_frame_id)
 
     def getCostmapTimestamp(self) -> Any:
-        """Return when it was made."""
+        """Return the stamp of the costmap."""
         return self.costmap_timestamp
 
     def getCostXY(self, mx: int, my: int) -> Any:
         """
-        Return the value of a cell by its column and row.
+        Look up the value of a cell by its column and row.
 
         Parameters
         ----------
@@ -94,12 +94,12 @@ class PyCostmap2D:
 
     def getCostIdx(self, index: int) -> Any:
         """
-        Return the value of a cell by its index.
+        Look up the value of a cell by its index.
 
         Parameters
         ----------
         index
-            As of `getIndex`.
+            The index, as from `getIndex`.
 
         Returns
         -------
@@ -118,7 +118,7 @@ class PyCostmap2D:
         mx, my
             Column (along x) and row (along y).
         cost
-            From 0 to 255.
+            The cost, from 0 to 255.
 
         """
         self.costmap[self.getIndex(mx, my)] = np.uint8(cost)
@@ -168,7 +168,7 @@ class PyCostmap2D:
 
     def getIndex(self, mx: int, my: int) -> int:
         """
-        Return the index of a cell in the data, which are row by row.
+        Compute the index of a cell in the row-major data.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What it costs the robot to stand somewhere, by its outline."""
+"""Collision checker for the robot's footprint in a costmap."""
 
 # ruff: noqa: N802
 from __future__ import annotations
@@ -28,7 +28,7 @@ FREE_SPACE = 0
 
 
 class FootprintCollisionChecker:
-    """Finds the highest cost on the outline of a robot; give it a costmap first."""
+    """Checker that finds the maximum cost on the outline of a footprint; set a costmap first."""
 
     def __init__(self) -> None:
         self.costmap_: PyCostmap2D | None = None
@@ -47,14 +47,14 @@ class FootprintCollisionChecker:
 
     def footprintCostAtPose(self, x: float, y: float, theta: float, footprint: Polygon) -> Any:
         """
-        Return the highest cost on the outline of a robot that stands somewhere.
+        Compute the maximum cost on the outline of a footprint at a pose.
 
         Parameters
         ----------
         x, y, theta
-            Where: m and rad in the frame of the costmap.
+            The pose in m and rad, in the frame of the costmap.
         footprint
-            The corners of the outline in the robot's frame.
+            The corners of the footprint in the robot's frame.
 
         """
         cos, sin = math.cos(theta), math.sin(theta)
@@ -69,12 +69,12 @@ class FootprintCollisionChecker:
 
     def footprintCost(self, footprint: Polygon) -> Any:
         """
-        Find the highest cost on an outline.
+        Find the maximum cost on the outline of a footprint.
 
         Parameters
         ----------
         footprint
-            The corners of the outline in m, in the frame of the costmap.
+            The corners of the footprint in m, in the frame of the costmap.
 
         Returns
         -------
@@ -99,16 +99,16 @@ class FootprintCollisionChecker:
 
     def lineCost(self, x0: Any, x1: Any, y0: Any, y1: Any, step_size: float = 0.5) -> Any:
         """
-        Find the highest cost on a line between two cells.
+        Find the maximum cost on a line between two cells.
 
-        It ends at the first cell of LETHAL_OBSTACLE, but NO_INFORMATION before it is higher.
+        The search ends at the first cell of LETHAL_OBSTACLE; NO_INFORMATION before it is higher.
 
         Parameters
         ----------
         x0, x1, y0, y1
             The columns of both cells, then their rows.
         step_size
-            How far it is from one point of the line to the next, as for `LineIterator`.
+            The step between points of the line, as for `LineIterator`.
 
         Returns
         -------
@@ -154,7 +154,7 @@ class FootprintCollisionChecker:
 
     def pointCost(self, x: int, y: int) -> Any:
         """
-        Return the cost of a cell by its column and row.
+        Look up the cost of a cell by its column and row.
 
         Parameters
         ----------

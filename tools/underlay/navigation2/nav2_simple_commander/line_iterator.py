@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walk along a line in steps."""
+"""Iterate over the points of a line in steps."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ __all__ = ['LineIterator']
 
 class LineIterator:
     """
-    The points of a line, one after another.
+    Iterator over the points of a line.
 
     Parameters
     ----------
     x0, y0, x1, y1
-        Its ends.
+        The ends of the line.
     step_size
-        How far x changes from one point to the next, or y where the line is upright.
+        The change of x from one point to the next, or of y if the line is vertical.
 
     Raises
     ------
     TypeError
-        The step is no number.
+        The step is not a number.
     ValueError
         The step is not greater than 0.
 
@@ -36,11 +36,11 @@ class LineIterator:
         self._is_valid = True
 
     def isValid(self) -> bool:  # noqa: N802
-        """Whether there is a point here, or the end was passed."""
+        """Whether the current point is on the line, not past its end."""
         return self._is_valid
 
     def advance(self) -> None:
-        """Go to the next point; the last one is the end of the line."""
+        """Advance to the next point; the last one is the end of the line."""
         x0, y0, x1, y1 = self._x0, self._y0, self._x1, self._y1
         if (self._x, self._y) == (x1, y1):
             self._is_valid = False
@@ -51,19 +51,19 @@ class LineIterator:
             self._y = y1 if self._x == x1 else y0 + (y1 - y0) / (x1 - x0) * (self._x - x0)
 
     def getX(self) -> float:  # noqa: N802
-        """Return x of the point."""
+        """Return x of the current point."""
         return self._x
 
     def getY(self) -> float:  # noqa: N802
-        """Return y of the point."""
+        """Return y of the current point."""
         return self._y
 
     def getX0(self) -> float:  # noqa: N802
-        """Return x of the beginning."""
+        """Return x of the start."""
         return self._x0
 
     def getY0(self) -> float:  # noqa: N802
-        """Return y of the beginning."""
+        """Return y of the start."""
         return self._y0
 
     def getX1(self) -> float:  # noqa: N802
@@ -80,5 +80,5 @@ class LineIterator:
 
 
 def _toward(value: float, end: float, step: float) -> float:
-    """Return a value a step nearer to an end, not beyond it."""
+    """Step a value towards an end, without overshoot."""
     return min(value + step, end) if end > value else max(value - step, end)

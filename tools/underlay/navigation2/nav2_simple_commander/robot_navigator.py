@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Navigation as a library, for Python programs.
+Navigation library for Python programs.
 
-A program makes a `BasicNavigator`, starts a task, and asks `isTaskComplete` until it has ended::
+A program makes a `BasicNavigator`, starts a task, and polls `isTaskComplete` until it has ended::
 
     rclpy.init()
     navigator = BasicNavigator()
@@ -35,14 +35,14 @@ _MANAGE = 'nav2_msgs/srv/ManageLifecycleNodes'
 
 class BasicNavigator(Services):
     """
-    A node that navigates for a program.
+    Node with the navigation API for programs.
 
     Parameters
     ----------
     node_name, namespace
         The name of the node.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -60,12 +60,12 @@ class BasicNavigator(Services):
 
     def setInitialPose(self, initial_pose: PoseStamped) -> None:
         """
-        Publish the initial pose of the robot, from which the localization starts.
+        Publish the initial pose of the robot for the localization.
 
         Parameters
         ----------
         initial_pose
-            The robot, in the frame of the header, such as map.
+            The pose of the robot, in the frame of its header, such as map.
 
         """
         self.initial_pose_received = False
@@ -76,15 +76,15 @@ class BasicNavigator(Services):
         self, navigator: str = 'bt_navigator', localizer: str = 'amcl'
     ) -> None:
         """
-        Wait until navigation can begin.
+        Wait until navigation is active.
 
         Parameters
         ----------
         navigator
-            The node that navigates.
+            The name of the navigator node.
         localizer
-            The node that knows where the robot is. amcl is told the initial pose until it knows;
-            robot_localization has no lifecycle to wait for.
+            The name of the localization node. For amcl, the initial pose is published until it is
+            received; robot_localization has no lifecycle to wait for.
 
         """
         if localizer != 'robot_localization':
@@ -95,13 +95,13 @@ class BasicNavigator(Services):
         self.info('Nav2 is ready for use!')
 
     def lifecycleStartup(self) -> None:
-        """Activate all nodes of all lifecycle managers."""
+        """Start up all nodes of all lifecycle managers."""
         self.info('Starting up lifecycle nodes based on lifecycle_manager.')
         self._manage(ManageLifecycleNodes.Request.STARTUP)
         self.info('Nav2 is ready for use!')
 
     def lifecycleShutdown(self) -> None:
-        """Shut all nodes of all lifecycle managers down."""
+        """Shut down all nodes of all lifecycle managers."""
         self.info('Shutting down lifecycle nodes based on lifecycle_manager.')
         self._manage(ManageLifecycleNodes.Request.SHUTDOWN)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Smac planners: a search in the plane that minds costs, with smooth paths."""
+"""The Smac planners: cost-aware search in the plane, with smoothed paths."""
 
 from nav2_smac_planner.smac_planner_2d import SmacPlanner2D
 from nav2_smac_planner.smac_planner_hybrid import SmacPlannerHybrid

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plan for a robot that goes in any direction where a planner for cars was asked for."""
+"""Plan for an omnidirectional robot in place of a kinematically constrained planner."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ['PlanarPlanner', 'PlanarSettings']
 @dataclass(frozen=True)
 class PlanarSettings:
     """
-    What the parameters of a planner for cars mean for a search in the plane.
+    Settings of a planar search, from the parameters of a kinematically constrained planner.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class PlanarSettings:
     allow_unknown, traversal, power
         As for `weight_table`.
     turning_radius_m
-        The way in m on which the robot turns by a radian.
+        The distance in m over which the robot turns by a radian.
     smooth_path
         Whether to smooth the path.
 
@@ -51,10 +51,10 @@ class PlanarSettings:
 
 class PlanarPlanner(GlobalPlanner):
     """
-    Plans a path in the plane whose poses have the yaws of start and goal at its ends.
+    Planner of planar paths whose ends have the yaws of start and goal.
 
-    The search knows no turning circle and no reversing: a robot that has to steer like a car
-    cannot follow every such path.
+    The search ignores the turning radius and does not reverse: an Ackermann robot cannot follow
+    every such path.
 
     Parameters
     ----------
@@ -81,14 +81,14 @@ class PlanarPlanner(GlobalPlanner):
 
     @property
     def settings(self) -> PlanarSettings:
-        """Return what the parameters say now."""
+        """Return the settings from the current parameters."""
         raise NotImplementedError
 
     def create_plan(
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
         """
-        Plan a path in the plane, in steps as `GlobalPlanner.create_plan` says.
+        Plan a path in the plane, in steps like `GlobalPlanner.create_plan`.
 
         Parameters
         ----------
@@ -98,7 +98,7 @@ class PlanarPlanner(GlobalPlanner):
         Returns
         -------
         numpy.ndarray
-            (N, 3) poses: x and y in m, yaw in rad, which turns from that of the start to the
+            (N, 3) poses: x and y in m, yaw in rad, which blends from that of the start to the
             direction of the path and to that of the goal.
 
         Raises

@@ -24,7 +24,7 @@ _MODELS = ('MOORE', 'VON_NEUMANN', '2D')
 
 @dataclass(frozen=True)
 class Smac2DParameters:
-    """The parameters of the search in the plane."""
+    """The parameters of the planar search."""
 
     tolerance: float = parameter(
         0.125, 'How far from a goal that cannot be reached the path may end, in m.', low=0.0
@@ -61,7 +61,7 @@ class Smac2DParameters:
 
 class SmacPlanner2D(GlobalPlanner):
     """
-    Plans a smooth path for a robot that goes in any direction.
+    Planner of smoothed paths for an omnidirectional robot.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ class SmacPlanner2D(GlobalPlanner):
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
         """
-        Plan a smooth path, in steps as `GlobalPlanner.create_plan` says.
+        Plan a smoothed path, in steps like `GlobalPlanner.create_plan`.
 
         Parameters
         ----------

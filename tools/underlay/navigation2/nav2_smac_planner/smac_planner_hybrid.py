@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The planner `nav2_smac_planner::SmacPlannerHybrid`, as far as an omnidirectional robot goes."""
+"""The planner `nav2_smac_planner::SmacPlannerHybrid`, for an omnidirectional robot only."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SEARCH = 'the search is in the plane and not in poses, as this robot goes in an
 
 @dataclass(frozen=True)
 class HybridParameters:
-    """The parameters of Hybrid-A* that have a meaning for a robot that goes in any direction."""
+    """The parameters of Hybrid-A* that apply to an omnidirectional robot."""
 
     tolerance: float = parameter(
         0.25, 'How far from a goal that cannot be reached the path may end, in m.', low=0.0
@@ -47,7 +47,7 @@ class HybridParameters:
 
 class SmacPlannerHybrid(PlanarPlanner):
     """
-    Plans a smooth path whose poses turn from the start's yaw to the path's and the goal's.
+    Planner of smoothed paths that blend from the start's yaw to the path's and the goal's.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class SmacPlannerHybrid(PlanarPlanner):
 
     @property
     def settings(self) -> PlanarSettings:
-        """Return what the parameters say now."""
+        """Return the settings from the current parameters."""
         values = self._parameters.current
         return PlanarSettings(
             tolerance_m=values.tolerance,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The planner `nav2_smac_planner::SmacPlannerLattice`, as far as an omnidirectional robot goes."""
+"""The planner `nav2_smac_planner::SmacPlannerLattice`, for an omnidirectional robot only."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TURNING_RADIUS_M = 0.4
 
 @dataclass(frozen=True)
 class LatticeParameters:
-    """The parameters of the state lattice that mean something for such a robot."""
+    """The parameters of the state lattice that apply to an omnidirectional robot."""
 
     allow_unknown: bool = parameter(True, 'Whether to plan through unknown space.')
     tolerance: float = parameter(
@@ -39,7 +39,7 @@ class LatticeParameters:
 
 class SmacPlannerLattice(PlanarPlanner):
     """
-    Plans a smooth path whose poses turn from the start's yaw to the path's and the goal's.
+    Planner of smoothed paths that blend from the start's yaw to the path's and the goal's.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class SmacPlannerLattice(PlanarPlanner):
 
     @property
     def settings(self) -> PlanarSettings:
-        """Return what the parameters say now."""
+        """Return the settings from the current parameters."""
         values = self._parameters.current
         return PlanarSettings(
             tolerance_m=values.tolerance,

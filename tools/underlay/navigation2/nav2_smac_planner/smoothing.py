@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the Smac planners share: the parameters of their smoother, and the path before it."""
+"""Shared by the Smac planners: the smoother's parameters, and the unsmoothed plan."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class SmootherParameters:
 
 class Smoothing:
     """
-    How paths are smoothed, as the parameters say.
+    Path smoothing as configured by the parameters.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Smoothing:
 
     @property
     def rounding(self) -> Rounding | None:
-        """How corners are rounded now."""
+        """The current parameters of corner rounding."""
         values = self._parameters.current
         if not values.max_iterations:
             return None
@@ -61,7 +61,7 @@ class Smoothing:
 
 class UnsmoothedPlan:
     """
-    Publishes the path before it is smoothed, on `unsmoothed_plan`, if somebody listens.
+    Publisher of the unsmoothed path on `unsmoothed_plan`, if it has subscribers.
 
     Parameters
     ----------

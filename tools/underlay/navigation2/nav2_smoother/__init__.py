@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The server that smooths paths, and its smoothers."""
+"""The smoother server and its smoothers."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Smooth paths without going where obstacles are."""
+"""Smooth paths without moving them into obstacles."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ def smooth_path(
     poses
         (N, 3) x and y in m, yaw in rad.
     smooth
-        Smooths (M, 2) points.
+        Function that smooths (M, 2) points.
     costmap
-        Costs in the frame of the path, if they are known.
+        The costmap in the frame of the path, if available.
     enforce_path_inversion
-        Whether points where the direction reverses stay, or where it turns on the spot.
+        Whether to keep cusps, and poses with a rotation in place.
     shortest
-        Stretches of fewer points stay as they are.
+        Segments of fewer points are unchanged.
 
     Returns
     -------
-    (N, 3) poses, which face along the path, or against it on stretches driven backwards. The
-    last one stays.
+    (N, 3) poses, which face along the path, or against it on segments driven backwards. The last
+    one is unchanged.
 
     """
     result = np.array(poses, float)
@@ -81,7 +81,7 @@ def segments(poses: FloatArray) -> list[tuple[int, int]]:
 
     Returns
     -------
-    The first pose of each stretch, and the one after its last. A cusp belongs to both.
+    The first pose of each segment, and the one after its last. A cusp belongs to both.
 
     """
     if len(poses) < 3:
@@ -97,16 +97,16 @@ def segments(poses: FloatArray) -> list[tuple[int, int]]:
 
 def savitzky_golay(points: FloatArray, window_size: int, poly_order: int) -> FloatArray:
     """
-    Filter points with the polynomial that fits those around each of them; the ends stay.
+    Apply a Savitzky-Golay filter to points; the ends are fixed.
 
     Parameters
     ----------
     points
         (N, 2) points.
     window_size
-        How many points are fitted, an odd number.
+        The number of points to fit, odd.
     poly_order
-        The order of the polynomial, less than that.
+        The order of the polynomial, less than the window size.
 
     Notes
     -----
@@ -129,19 +129,19 @@ def keep_off_obstacles(
     points: FloatArray, wanted: FloatArray, costmap: Costmap2D | None
 ) -> FloatArray:
     """
-    Move points only as far as they do not come into obstacles.
+    Move points only as far as they do not enter obstacles.
 
     Parameters
     ----------
     points, wanted
-        (N, 2) x and y in m as they are, and as they should be.
+        (N, 2) original and desired x and y in m.
     costmap
-        Costs in the same frame; None if they are not known.
+        The costmap in the same frame; None if unavailable.
 
     Returns
     -------
-    (N, 2) points between both. Unknown space, what is outside of the grid, and points that were
-    in an obstacle before hold nothing up.
+    (N, 2) points between both. Unknown space, space off the grid, and points that were already in
+    an obstacle do not block.
 
     """
     if costmap is None or not costmap.cells.size:

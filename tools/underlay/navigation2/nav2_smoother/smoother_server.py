@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node `smoother_server`, which offers the action that smooths paths."""
+"""The node `smoother_server`, which offers the action `smooth_path`."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _DEFAULT_PLUGINS = {'simple_smoother': 'nav2_smoother::SimpleSmoother'}
 
 @dataclass(frozen=True)
 class SmootherServerParameters:
-    """The parameters of the server itself."""
+    """The parameters of the smoother server."""
 
     costmap_topic: str = parameter(
         'global_costmap/costmap_raw', 'Where the costmap comes from that paths are checked with.'
@@ -49,14 +49,14 @@ class SmootherServerParameters:
 
 class SmootherServer(LifecycleNode):
     """
-    Smooths paths.
+    Smoother server, which smooths paths.
 
     Parameters
     ----------
     node_name
         Its name.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -66,7 +66,7 @@ class SmootherServer(LifecycleNode):
         self._settings = ParameterSet(SmootherServerParameters())
 
     def configure(self) -> None:
-        """Make the smoothers and the interfaces."""
+        """Create the smoothers and the interfaces."""
         self._settings = self.parameters.declare(SmootherServerParameters)
         values = self._settings.current
         for name in values.smoother_plugins:
@@ -76,11 +76,11 @@ class SmootherServer(LifecycleNode):
         )
         self._publisher = self.create_lifecycle_publisher(Path, 'plan_smoothed', 1)
         self._server = self.offer_action(SmoothPath, 'smooth_path', self._smooth)
-        # The buffer of transforms begins to fill now, and not with the first path.
+        # Start filling the transform buffer now, not with the first path.
         assert self.transforms
 
     def cleanup(self) -> None:
-        """Let go of the smoothers."""
+        """Release the smoothers."""
         self._smoothers.clear()
 
     def _make_smoother(self, name: str) -> Smoother:
@@ -169,7 +169,7 @@ class SmootherServer(LifecycleNode):
         return poses
 
     def _base_of(self, frame: str) -> Pose2D | None:
-        """Return where the frame of a path is in that of the costmap; None if nobody knows."""
+        """Look up the frame of a path in that of the costmap; None if unavailable."""
         target = self._surroundings.frame
         if not frame or not target or frame == target:
             return Pose2D(0.0, 0.0, 0.0)

@@ -25,12 +25,12 @@ SMOOTHERS = {
         'nav2_constrained_smoother.constrained_smoother:ConstrainedSmoother'
     ),
 }
-"""The places of smoothers by their official names."""
+"""The import paths of smoothers by their official names."""
 
 
 class Smoother:
     """
-    A smoother.
+    Base class of smoothers.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Smoother:
         poses
             (N, 3) x and y in m, yaw in rad.
         costmap
-            Costs in the frame of the path; None if they are not known.
+            The costmap in the frame of the path; None if unavailable.
 
         """
         raise NotImplementedError
@@ -80,7 +80,7 @@ class SimpleSmootherParameters:
 
 class SimpleSmoother(Smoother):
     """
-    Balances straightness against nearness to the path given.
+    Smoother that balances straightness against the deviation from the original path.
 
     Parameters
     ----------
@@ -95,19 +95,19 @@ class SimpleSmoother(Smoother):
 
     def smooth(self, poses: FloatArray, costmap: Costmap2D | None) -> FloatArray:
         """
-        Smooth a path, as straight as the weights say.
+        Smooth a path according to the weights.
 
         Parameters
         ----------
         poses
             (N, 3) x and y in m, yaw in rad.
         costmap
-            Costs in the frame of the path; None if they are not known.
+            The costmap in the frame of the path; None if unavailable.
 
         Returns
         -------
         FloatArray
-            (N, 3) poses, kept off obstacles as `smooth_path` says.
+            (N, 3) poses, kept off obstacles as in `smooth_path`.
 
         """
         values = self._parameters.current
@@ -126,7 +126,7 @@ class SimpleSmoother(Smoother):
 
 @dataclass(frozen=True)
 class SavitzkyGolayParameters:
-    """The parameters of the filter of Savitzky and Golay."""
+    """The parameters of the Savitzky-Golay smoother."""
 
     window_size: int = parameter(7, 'How many points are fitted, an odd number.', low=3, high=1001)
     poly_order: int = parameter(3, 'The order of the polynomial that is fitted.', low=1, high=20)
@@ -139,7 +139,7 @@ class SavitzkyGolayParameters:
 
 class SavitzkyGolaySmoother(Smoother):
     """
-    Fits polynomials to the points around each point.
+    Smoother that applies a Savitzky-Golay filter.
 
     Parameters
     ----------
@@ -171,12 +171,12 @@ class SavitzkyGolaySmoother(Smoother):
         poses
             (N, 3) x and y in m, yaw in rad.
         costmap
-            Costs in the frame of the path; None if they are not known.
+            The costmap in the frame of the path; None if unavailable.
 
         Returns
         -------
         FloatArray
-            (N, 3) poses, kept off obstacles as `smooth_path` says.
+            (N, 3) poses, kept off obstacles as in `smooth_path`.
 
         """
         values = self._parameters.current

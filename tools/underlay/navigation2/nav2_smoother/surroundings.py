@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the smoother server knows of obstacles and of the robot's shape, from topics."""
+"""Costmap and footprint from topics, for the collision checks of the smoother server."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ FloatArray = npt.NDArray[np.float64]
 
 class Surroundings:
     """
-    Keeps the newest costmap and footprint, and reads them when they are needed.
+    Newest costmap and footprint, converted on demand.
 
     Parameters
     ----------
     node
         The smoother server.
     costmap_topic
-        Where nav2_msgs/Costmap is published; changes come on the same name with _updates.
+        The topic of nav2_msgs/Costmap; its updates have the same name with _updates.
     footprint_topic
-        Where the footprint is published, in the frame of the costmap or of the robot.
+        The topic of the footprint, in the frame of the costmap or of the robot.
     base_frame
         The frame of the robot.
 
@@ -54,11 +54,11 @@ class Surroundings:
 
     @property
     def frame(self) -> str:
-        """Return the frame of the costmap; empty while there is none."""
+        """Return the frame of the costmap; empty before the first."""
         return '' if self._message is None else str(self._message.header.frame_id)
 
     def grid(self) -> Costmap2D | None:
-        """Return the newest costmap, or None while there is none."""
+        """Return the newest costmap; None before the first."""
         try:
             if self._grid is None and self._message is not None:
                 self._grid = costmap_from(self._message).copy()
@@ -73,7 +73,7 @@ class Surroundings:
 
     def colliding(self, poses: FloatArray) -> npt.NDArray[np.intp] | None:
         """
-        Return at which poses the robot hits an obstacle.
+        Find the poses at which the robot is in collision.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class Surroundings:
 
         Returns
         -------
-        Their indices, or None if costmap or footprint are not known.
+        Their indices, or None if costmap or footprint are unavailable.
 
         """
         grid, corners = self.grid(), self._corners_of_robot()
@@ -92,7 +92,7 @@ class Surroundings:
         return np.flatnonzero((costs >= LETHAL_OBSTACLE) & (costs != NO_INFORMATION))
 
     def _corners_of_robot(self) -> FloatArray | None:
-        """Return the corners of the footprint in the robot's frame."""
+        """Transform the corners of the footprint to the robot's frame."""
         message = self._footprint
         if message is not None:
             points = corners_of(message.polygon)

@@ -44,7 +44,7 @@ class ThetaStarParameters:
 
 class ThetaStarPlanner(GlobalPlanner):
     """
-    Plans a path of straight lines.
+    Planner of any-angle paths of straight lines.
 
     Parameters
     ----------
@@ -55,7 +55,8 @@ class ThetaStarPlanner(GlobalPlanner):
     -----
     The lines come from a search on the grid that is pulled taut afterwards, where Theta* (Nash et
     al., 2007) does both at once: the path is as straight, and its cost is no higher than that of
-    the cheapest way from cell to cell. A goal has to be reachable itself: there is no tolerance.
+    the cheapest path from cell to cell. The goal itself has to be reachable: there is no
+    tolerance.
 
     """
 
@@ -68,7 +69,7 @@ class ThetaStarPlanner(GlobalPlanner):
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
         """
-        Plan a path of straight lines, in steps as `GlobalPlanner.create_plan` says.
+        Plan a path of straight lines, in steps like `GlobalPlanner.create_plan`.
 
         Parameters
         ----------

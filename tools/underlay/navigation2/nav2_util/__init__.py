@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the servers of navigation have in common."""
+"""Utilities that the navigation servers share."""
 
 from nav2_util.actions import ActionServer, GoalCanceled
 from nav2_util.errors import ActionAborted, ConfigurationError, NavigationError

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An action server that works on one goal at a time, in a coroutine."""
+"""Action server that executes one goal at a time, in a coroutine."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class GoalCanceled(Exception):
 
 class ActionServer:
     """
-    Works on one goal at a time; a newer goal takes the place of the one that runs.
+    Action server that executes one goal at a time; a newer goal preempts the running one.
 
     Parameters
     ----------
@@ -37,16 +37,17 @@ class ActionServer:
     kind, name
         The type of the action and its name.
     work
-        A coroutine function that reaches a goal, and returns then. It fills `result`,
-        calls `check` at least every 50 ms, and takes over a newer goal with `accept_pending`
-        when `is_preempt_requested`, or returns by `check`, which then ends the old goal.
+        A coroutine function that executes a goal, and returns on success. It fills in `result`,
+        calls `check` at least every 50 ms, and takes over a newer goal with `accept_pending` when
+        `is_preempt_requested`, or leaves through `check`, which then ends the old goal.
     takes_over
         Whether `work` takes over newer goals; otherwise `check` ends the old one, and `work` is
-        called anew.
+        called again.
     check_goal
-        Called with a goal before it is accepted; a text that it returns is why it is rejected.
+        Called with a goal before it is accepted; a non-empty return value is the reason for its
+        rejection.
     result_timeout_s
-        How long the result of a goal is kept for clients that ask later; for ever if negative.
+        The time for which the result of a goal is kept for later requests; forever if negative.
 
     """
 
@@ -69,7 +70,7 @@ class ActionServer:
         self._ends: dict[bytes, Future[Any]] = {}
         self._is_active = self._has_to_end = False
         self.result: Any = kind.Result()
-        """The result of the goal that runs, for `work` to fill; codes of errors are added."""
+        """The result of the running goal, for `work` to fill in; error codes are added."""
         self._server = rclpy.action.ActionServer(
             node,
             kind,
@@ -89,7 +90,7 @@ class ActionServer:
         check_goal: Callable[[Any], str | None] | None = None,
     ) -> None:
         """
-        Change what reaches goals, from the next goal on.
+        Set the execution function, from the next goal on.
 
         Parameters
         ----------
@@ -104,51 +105,52 @@ class ActionServer:
         self._is_active = True
 
     def deactivate(self) -> None:
-        """Reject goals from now on, and end the one that runs at its next `check`."""
+        """Reject goals from now on, and end the running one at its next `check`."""
         self._is_active, self._has_to_end = False, self._current is not None
         self.reject_pending(self._unknown(), self._deactivated)
 
     def destroy(self) -> None:
-        """End the action; clients get no result of a goal that runs still."""
+        """Destroy the action server; clients receive no result of a goal that is still active."""
         self._is_active, self._has_to_end, self._pending = False, True, None
         for result in self._server._result_futures.values():
-            result._callbacks = []  # which would send it by the handle that ends here
+            result._callbacks = []  # which would be sent through the handle that is destroyed here
         self._server.destroy()
 
     @property
     def is_running(self) -> bool:
-        """Whether a goal is being worked on."""
+        """Whether a goal is being executed."""
         return self._current is not None
 
     @property
     def is_busy(self) -> bool:
-        """Whether there are goals whose clients have not been told the end."""
+        """Whether there are goals whose results were not sent to their clients yet."""
         return bool(self._ends)
 
     @property
     def is_cancel_requested(self) -> bool:
-        """Whether the client wants the goal that runs to end, and no newer one has come."""
+        """Whether cancellation of the running goal is requested, and no newer goal is pending."""
         return self._current is not None and self._current.is_cancel_requested
 
     @property
     def is_preempt_requested(self) -> bool:
-        """Whether a newer goal waits."""
+        """Whether a newer goal is pending."""
         return self._pending is not None
 
     def pending_goal(self) -> Any:
-        """Return the newer goal that waits, without accepting it; None if there is none."""
+        """Return the pending newer goal without accepting it; None if there is none."""
         return None if self._pending is None else self._pending.request
 
     def check(self) -> None:
         """
-        Leave `work` if the goal is to end now.
+        Raise an exception to leave `work` if the goal has to end now.
 
         Raises
         ------
         GoalCanceled
             The client has canceled it.
         ActionAborted
-            The node is no longer active, or a newer goal is there that `work` does not take over.
+            The node is no longer active, or a newer goal is pending that `work` does not take
+            over.
 
         """
         if self._has_to_end:
@@ -159,7 +161,7 @@ class ActionServer:
             raise GoalCanceled
 
     def accept_pending(self) -> Any:
-        """End the goal that runs, as one whose place was taken; return the newer one."""
+        """End the running goal as preempted; return the newer one."""
         handle, self._pending = self._pending, None
         if handle is None:
             raise RuntimeError('There is no newer goal.')
@@ -169,12 +171,12 @@ class ActionServer:
 
     def reject_pending(self, code: int, message: str) -> None:
         """
-        Abort the newer goal that waits, because it cannot be reached; the old one goes on.
+        Abort the pending newer goal, because it cannot be reached; the old one continues.
 
         Parameters
         ----------
         code, message
-            The `error_code` and the `error_msg` of its result: why, as a sentence.
+            The `error_code` and the `error_msg`, a full sentence, of its result.
 
         """
         handle, self._pending = self._pending, None
@@ -183,7 +185,7 @@ class ActionServer:
 
     def publish_feedback(self, feedback: Any) -> None:
         """
-        Publish feedback on the goal that runs, if there is one.
+        Publish feedback on the running goal, if there is one.
 
         Parameters
         ----------
@@ -220,7 +222,7 @@ class ActionServer:
             self._node.executor.create_task(self._run)
 
     async def _run(self) -> None:
-        """Work on goals until none is left."""
+        """Execute goals until none is pending."""
         while self._pending is not None and self._current is None:
             self._current, self._pending = self._pending, None
             self._has_to_end = False
@@ -248,14 +250,14 @@ class ActionServer:
     ) -> None:
         if code and hasattr(result, 'error_code'):
             result.error_code, result.error_msg = code, message
-        # Paths are replaced once a second: that is no news.
+        # Paths are replaced once a second: not worth a log message.
         if status == GoalStatus.STATUS_ABORTED and message != _REPLACED:
             self._node.get_logger().warning(f"Aborted a goal of '{self.name}'. {message}")
         self._ends[bytes(handle.goal_id.uuid)].set_result((status, result))
 
     async def _finish(self, handle: ServerGoalHandle) -> Any:
-        """Wait for the end of a goal, and tell its client."""
-        goal_id = bytes(handle.goal_id.uuid)  # it may have ended before this begins
+        """End a goal, and send its result to the client."""
+        goal_id = bytes(handle.goal_id.uuid)  # it may have ended before this starts
         status, result = await self._ends[goal_id]
         del self._ends[goal_id]
         if status == GoalStatus.STATUS_SUCCEEDED:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The errors of navigation: sentences, and the code with which an action tells them."""
+"""Errors of navigation: messages, and the error codes of actions."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ __all__ = ['ActionAborted', 'ConfigurationError', 'NavigationError']
 
 
 class NavigationError(Exception):
-    """The base of what navigation raises; its text is a sentence for a person."""
+    """The base class of navigation errors; the text is a full sentence for users."""
 
 
 class ConfigurationError(NavigationError):
-    """A node cannot be configured with its parameters, or activated."""
+    """A node cannot be configured or activated with its parameters."""
 
 
 class ActionAborted(NavigationError):
     """
-    A goal of an action cannot be reached.
+    An action goal is aborted.
 
     Parameters
     ----------
     code
         The error code of the action's result, such as `ComputePathToPose.Result.NO_VALID_PATH`.
     message
-        Why, as a sentence: the `error_msg` of the result. It must not be empty.
+        The reason in a full sentence: the `error_msg` of the result. It must not be empty.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Poses in the plane, and the messages that carry them; metres and radians (REP-103)."""
+"""Poses in the plane, and their messages; metres and radians (REP-103)."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ FloatArray = npt.NDArray[np.float64]
 
 
 class Pose2D(NamedTuple):
-    """A pose in the plane: x and y in m, yaw in rad, counter-clockwise from the x axis."""
+    """Pose in the plane: x and y in m, yaw in rad, counter-clockwise from the x axis."""
 
     x: float
     y: float
     yaw: float
 
     def __matmul__(self, other: Pose2D) -> Pose2D:
-        """Return a pose that is given in this frame, in the frame in which this one is given."""
+        """Transform a pose from this frame to the parent of this frame."""
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return Pose2D(
             self.x + cos * other.x - sin * other.y,
@@ -46,7 +46,7 @@ class Pose2D(NamedTuple):
         )
 
     def inverse(self) -> Pose2D:
-        """Return the pose of the outer frame in this one."""
+        """Invert the pose: that of the parent frame in this one."""
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return Pose2D(
             -cos * self.x - sin * self.y, sin * self.x - cos * self.y, wrap_angle(-self.yaw)
@@ -90,7 +90,7 @@ def wrap_angle(angle_rad: float) -> float:
 
 def angle_between(start_rad: float, end_rad: float) -> float:
     """
-    Compute the shortest turn from one angle to another.
+    Compute the shortest rotation from one angle to another.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def angle_between(start_rad: float, end_rad: float) -> float:
     Returns
     -------
     float
-        The turn in rad, from -pi, exclusive, to pi; positive counter-clockwise.
+        The rotation in rad, from -pi, exclusive, to pi; positive counter-clockwise.
 
     """
     return wrap_angle(end_rad - start_rad)
@@ -190,7 +190,7 @@ def make_pose_stamped(pose: Pose2D, frame: str, stamp: object) -> PoseStamped:
 
 def make_path(poses: FloatArray | Iterable[Pose2D], frame: str, stamp: object) -> Path:
     """
-    Return the message of a path.
+    Make the message of a path.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def make_path(poses: FloatArray | Iterable[Pose2D], frame: str, stamp: object) -
 def _stamped_in_plane(
     x: float, y: float, sine: float, cosine: float, frame: str, stamp: object
 ) -> PoseStamped:
-    # The constructors of messages take ten times as long, which counts for whole paths.
+    # Message constructors take ten times as long, which matters for whole paths.
     make = object.__new__
     message = make(PoseStamped)
     header, pose = message._header, message._pose = make(Header), make(Pose)
@@ -236,7 +236,7 @@ def path_poses(path: Path) -> FloatArray:
     Parameters
     ----------
     path
-        The path; the headers of its poses do not count.
+        The path; the headers of its poses are ignored.
 
     Returns
     -------

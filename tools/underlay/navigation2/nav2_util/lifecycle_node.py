@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base of the servers: a node with a lifecycle, which says why it cannot be configured."""
+"""The base class of the servers: a lifecycle node that reports configuration errors."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ _KINDS = ('publisher', 'subscription', 'client', 'service', 'timer')
 
 class LifecycleNode(RclpyLifecycleNode):
     """
-    A node that is configured, activated, deactivated and cleaned up.
+    Lifecycle node that can be configured, activated, deactivated and cleaned up.
 
-    Subclasses override `configure`, `activate`, `deactivate` and `cleanup`. What they create with
-    the node in `configure` or `activate` is destroyed by the base in cleaning up: publishers,
-    subscriptions, clients, services and timers.
+    Subclasses override `configure`, `activate`, `deactivate` and `cleanup`. Publishers,
+    subscriptions, clients, services and timers that they create in `configure` or `activate` are
+    destroyed by the base class on cleanup.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     options
-        The further keyword arguments of `rclpy.node.Node`, such as `namespace`, `context`,
+        Further keyword arguments of `rclpy.node.Node`, such as `namespace`, `context`,
         `cli_args` and `parameter_overrides`.
 
     """
@@ -58,40 +58,40 @@ class LifecycleNode(RclpyLifecycleNode):
         self._answer_change = self._service_change_state.callback
         self._service_change_state.callback = self._change_if_possible
         self.node_options = options
-        """What the node was made with, for nodes that it makes."""
+        """The arguments of this node, for nodes that it creates."""
         self.parameters = ParameterServer(self)
         self.parameters.declare_unsupported(_UNSUPPORTED)
         self.companions: list[Node] = []
-        """Further nodes that whoever runs this one runs with it, such as its costmap."""
+        """Further nodes to spin together with this one, such as its costmap."""
         self.share_clock: Callable[[Node], Any] | None = None
-        """Lets a further node have its time from where this one has it; set by a container."""
+        """Function that shares the clock of this node with another one; set by a container."""
         self.owner: LifecycleNode | None = None
-        """The node that has made this one for itself; it shares its transforms."""
+        """The node that owns this one, and shares its transforms."""
         self.action_servers: list[ActionServer] = []
         self.is_active = False
         self._transforms: Transforms | None = None
         self._kept: dict[str, set[int]] = {}
 
     def configure(self) -> None:
-        """Read parameters, create what the node needs; NavigationError says why not."""
+        """Read parameters and create resources; raise NavigationError if that is impossible."""
 
     def activate(self) -> None:
-        """Begin to work."""
+        """Start operation."""
 
     def deactivate(self) -> None:
-        """Stop to work."""
+        """Stop operation."""
 
     def cleanup(self) -> None:
-        """Let go of what `configure` has made, beside what the base destroys."""
+        """Release the resources of `configure`, besides those that the base class destroys."""
 
     @property
     def state(self) -> str:
-        """Return the state: unconfigured, inactive, active, or one on the way there."""
+        """Return the state: unconfigured, inactive, active, or a transition state."""
         return str(self._state_machine.current_state[1])
 
     @property
     def transforms(self) -> Transforms:
-        """Return the transforms of this process."""
+        """Return the transforms shared by this process."""
         if self.owner is not None:
             return self.owner.transforms
         if self._transforms is None:
@@ -101,12 +101,12 @@ class LifecycleNode(RclpyLifecycleNode):
 
     def add_companion(self, node: Node) -> None:
         """
-        Run a further node together with this one, which destroys it at its end.
+        Spin another node together with this one, which destroys it at its end.
 
         Parameters
         ----------
         node
-            The node; it is added to the executor of this one, unless it has an executor.
+            The node; it is added to the executor of this one, unless it already has an executor.
 
         """
         self.companions.append(node)
@@ -119,26 +119,26 @@ class LifecycleNode(RclpyLifecycleNode):
         self, kind: Any, name: str, work: Callable[..., Any], **options: Any
     ) -> ActionServer:
         """
-        Offer an action, which accepts goals while the node is active; see `ActionServer`.
+        Create an action server that accepts goals while the node is active; see `ActionServer`.
 
-        The parameter `action_server_result_timeout` says how long in s results are kept.
+        The parameter `action_server_result_timeout` is the time in s for which results are kept.
 
-        An action that was offered before the node was cleaned up goes on: rclpy's executor of
-        events does not survive the end of an action server.
+        An action server from before a cleanup is reused: rclpy's events executor crashes when an
+        action server is destroyed.
 
         Parameters
         ----------
         kind, name
             The type of the action and its name.
         work
-            The coroutine function that reaches a goal.
+            The coroutine function that executes a goal.
         **options
             `takes_over` and `check_goal` of `ActionServer`.
 
         Returns
         -------
         ActionServer
-            The server, the one of before if an action of this name was offered already.
+            The server; the previous one if an action of this name already existed.
 
         """
         for server in self.action_servers:
@@ -158,7 +158,7 @@ class LifecycleNode(RclpyLifecycleNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """
-        Configure the node; what was created is destroyed if that fails.
+        Configure the node; destroy what was created if that fails.
 
         Parameters
         ----------
@@ -227,7 +227,7 @@ class LifecycleNode(RclpyLifecycleNode):
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """
-        Destroy what `configure` and `activate` have created.
+        Destroy the resources of `configure` and `activate`.
 
         Parameters
         ----------
@@ -280,10 +280,10 @@ class LifecycleNode(RclpyLifecycleNode):
 
     async def wind_up(self) -> None:
         """
-        Deactivate the node and let its goals end, so that their clients hear of it.
+        Deactivate the node and let its goals end, so that their clients receive the results.
 
-        It is what comes before the node is destroyed while others go on. A goal that has not
-        ended after a second, since it waits for something, gets no end.
+        Call this before the node is destroyed while others continue. A goal that has not ended
+        after a second, since it is waiting, gets no result.
         """
         if self.is_active:
             self.trigger_deactivate()
@@ -293,11 +293,11 @@ class LifecycleNode(RclpyLifecycleNode):
             left_s -= _LOOK_S
         for _ in range(3):  # the result is sent after the end of the goal
             for timer in filter(is_of_coroutine, self.timers):
-                timer.cancel()  # rclpy's executor of events survives no timer that goes on now
+                timer.cancel()  # rclpy's events executor crashes if a timer continues now
             await give_way(self)
 
     def destroy_node(self) -> None:
-        """Destroy the node, what it offers, and its companions."""
+        """Destroy the node, its interfaces, and its companions."""
         if self.is_active:
             self.is_active = False
             self._try('deactivated', self.deactivate)
@@ -314,10 +314,10 @@ class LifecycleNode(RclpyLifecycleNode):
             if each is not shared:
                 each.destroy_node()
         super().destroy_node()
-        self._state_machine.destroy_when_not_in_use()  # else its services stay in the graph
+        self._state_machine.destroy_when_not_in_use()  # otherwise its services stay in the graph
 
     def _change_if_possible(self, request: Any, response: Any) -> Any:
-        """Refuse a transition that does not begin in this state; rclpy ends the process for it."""
+        """Reject a transition that is invalid in this state; rclpy would end the process."""
         try:
             return self._answer_change(request, response)
         except RCLError:

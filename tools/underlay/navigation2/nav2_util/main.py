@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The body of the servers' executables: one node, with its companions, until a signal."""
+"""The main function of the servers' executables: spin one node until a signal."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ __all__ = ['main']
 
 def main(kind: Callable[..., Any]) -> int:
     """
-    Run a node of a class until SIGINT or SIGTERM; return the exit status.
+    Spin a node of a class until SIGINT or SIGTERM; return the exit status.
 
     Parameters
     ----------
     kind
-        The class, which is made without arguments.
+        The class, whose constructor is called without arguments.
 
     """
 
@@ -28,7 +28,7 @@ def main(kind: Callable[..., Any]) -> int:
         try:
             node: Node = kind()
         except NavigationError as error:
-            raise ValueError(str(error)) from error  # one message, and no traceback
+            raise ValueError(str(error)) from error  # one message without a traceback
         return node
 
     return run_node(make_node)

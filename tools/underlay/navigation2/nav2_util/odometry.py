@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Velocities out of the bytes of odometry, without the messages."""
+"""Read velocities from serialized odometry, without deserializing the messages."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ def subscribe_velocity(
     node: Any, topic: str, take: Callable[[float, Velocity], None], qos: Any = 10
 ) -> None:
     """
-    Subscribe to how fast the robot is.
+    Subscribe to the velocity of the robot.
 
-    To make the message with its two covariances takes rclpy 0.2 ms, which is much for what comes
-    50 to 100 times a second.
+    rclpy takes 0.2 ms to deserialize a message with its two covariances, which is expensive at 50
+    to 100 Hz.
 
     Parameters
     ----------
     node
         The node that subscribes.
     topic
-        Where `nav_msgs/Odometry` comes from.
+        The topic of `nav_msgs/Odometry`.
     take
-        Called with the time in s of each velocity, and the velocity.
+        Called with the stamp in s and the velocity of each message.
     qos
         The quality of service, or the depth.
 
@@ -45,15 +45,15 @@ def subscribe_velocity(
 
 def velocity_in(data: bytes) -> tuple[float, Velocity]:
     """
-    Read the time and the velocity in a serialized `nav_msgs/Odometry`.
+    Read the stamp and the velocity of a serialized `nav_msgs/Odometry`.
 
-    In CDR a number stands at a multiple of its size, counted from the fifth byte: a stamp, two
-    names with their lengths, the pose and the twist with a covariance each.
+    In CDR, numbers are aligned to their size, counted from the fifth byte: a stamp, two strings
+    with their lengths, the pose and the twist with a covariance each.
 
     Parameters
     ----------
     data
-        The message in CDR, as a raw subscription gives it.
+        The message in CDR, as from a raw subscription.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values of parameters: which types and limits they have, and how they are converted."""
+"""Parameter values: their types, limits and conversion."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ['Spec', 'check_limits', 'coerced', 'typed_parameter']
 
 @dataclass(frozen=True)
 class Spec:
-    """What is known of a parameter beside its name, type and default."""
+    """Specification of a parameter besides its name, type and default."""
 
     description: str
     low: float | None
@@ -27,12 +27,12 @@ class Spec:
 
 def typed_parameter(name: str, value: Any, like: Any) -> Parameter:
     """
-    Make a parameter of the type that its default has, also for an empty list.
+    Make a parameter with the type of its default, even for an empty list.
 
     Parameters
     ----------
     name, value
-        Those of the parameter.
+        The name and value of the parameter.
     like
         The default; its first element has the type of the elements of an empty list.
 
@@ -50,24 +50,24 @@ def typed_parameter(name: str, value: Any, like: Any) -> Parameter:
 
 def coerced(value: Any, like: Any) -> Any:
     """
-    Convert a value to the type of another one: integers to floats, and whole floats to integers.
+    Coerce a value to the type of another one: integers to floats, and whole floats to integers.
 
     Parameters
     ----------
     value
-        The value given.
+        The value to convert.
     like
-        A value of the type that is wanted, such as the default.
+        A value of the target type, such as the default.
 
     Returns
     -------
     Any
-        The value, in a list each element.
+        The converted value; for a list, each element is converted.
 
     Raises
     ------
     ValueError
-        It has another type; the text is the rest of a sentence that begins with its name.
+        It has another type; the text is the end of a sentence that starts with its name.
 
     """
     if isinstance(like, list):
@@ -100,14 +100,14 @@ def check_limits(value: Any, spec: Spec) -> None:
     Parameters
     ----------
     value
-        The value; of a list, each element counts.
+        The value; for a list, each element is checked.
     spec
-        What is known of the parameter.
+        The specification of the parameter.
 
     Raises
     ------
     ValueError
-        It is not allowed; the text is the rest of a sentence that begins with its name.
+        It is not allowed; the text is the end of a sentence that starts with its name.
 
     """
     for each in value if isinstance(value, list) else [value]:

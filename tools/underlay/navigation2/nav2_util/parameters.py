@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters as data: a frozen dataclass names, describes and limits what a node is told."""
+"""Parameters as data: a frozen dataclass declares, describes and limits them."""
 
 from __future__ import annotations
 
@@ -39,23 +39,24 @@ def parameter(
     read_only: bool = False,
 ) -> Any:
     """
-    Return the field of a dataclass of parameters.
+    Make the field of a parameter dataclass.
 
     Parameters
     ----------
     default
-        Its value when nobody sets it. Its type is that of the parameter: bool, int, float, str, or
-        a list of one of them; an empty list is one of strings.
+        Its value if it is not set. Its type is that of the parameter: bool, int, float, str, or a
+        list of one of them; an empty list is one of strings.
     description
-        What it does, with the unit.
+        Its purpose, with the unit.
     low, high
         The limits of a number, both inclusive.
     choices
-        All values that it may have.
+        All allowed values.
     name
-        Its name where that is no name of Python; by default that of the field. It may have dots.
+        Its name if that is not a Python identifier; by default that of the field. It may contain
+        dots.
     read_only
-        Whether it may only be set when the node starts.
+        Whether it can only be set when the node starts.
 
     """
     spec = Spec(description, low, high, tuple(choices), name, read_only)
@@ -66,29 +67,29 @@ def parameter(
 
 class ParameterSet(Generic[ParametersT]):
     """
-    The values of a dataclass of parameters in a node: `current`, a new one after each change.
+    Parameters of a node as snapshots of a dataclass: `current` is replaced after each change.
 
-    Objects keep the set and read `current` when they work, so that `ros2 param set` has effect.
+    Objects keep the set and read `current` whenever needed, so that `ros2 param set` takes effect.
 
     Parameters
     ----------
     current
-        The values at first.
+        The initial values.
 
     """
 
     def __init__(self, current: ParametersT) -> None:
         self.current = current
         self.on_change: Callable[[ParametersT], None] | None = None
-        """Called with the new snapshot after a change; may raise ValueError to refuse it."""
+        """Called with the new snapshot after a change; may raise ValueError to reject it."""
 
 
 class ParameterServer:
     """
-    Declares the parameters of a node and keeps their snapshots.
+    Parameter server of a node: declares parameters and updates their snapshots.
 
-    A value of another type, or beyond its limits, is a ConfigurationError with a sentence when the
-    node is configured, and refused with it later.
+    A value of another type, or beyond its limits, raises a ConfigurationError when the node is
+    configured, and is rejected with its message later.
 
     Parameters
     ----------
@@ -107,19 +108,19 @@ class ParameterServer:
 
     def declare(self, kind: type[ParametersT], prefix: str = '') -> ParameterSet[ParametersT]:
         """
-        Declare all parameters of a dataclass, or return the set if that was done before.
+        Declare all parameters of a dataclass, or return the existing set.
 
         Parameters
         ----------
         kind
             A frozen dataclass with fields made by `parameter`.
         prefix
-            What stands before their names and a dot, such as the name of a plugin.
+            The prefix of their names without the dot, such as the name of a plugin.
 
         Raises
         ------
         ConfigurationError
-            A value that was given at the start has another type or is not allowed.
+            An initial value has another type or is not allowed.
 
         """
         known = self._by_prefix.get((prefix, kind))
@@ -143,26 +144,26 @@ class ParameterServer:
 
     def declare_value(self, name: str, default: Any, description: str) -> Any:
         """
-        Declare a single parameter whose name is only known now.
+        Declare a single parameter whose name is only known at run time.
 
         Parameters
         ----------
         name
             The full name, with its prefix.
         default
-            Its value when nobody sets it, of the type of the parameter.
+            Its value if it is not set, of the type of the parameter.
         description
-            What it does, with the unit.
+            Its purpose, with the unit.
 
         Returns
         -------
         Any
-            Its value; also if it was declared before.
+            Its value, even if it was declared before.
 
         Raises
         ------
         ConfigurationError
-            The value that was given at the start has another type.
+            The initial value has another type.
 
         """
         if self._node.has_parameter(name):
@@ -171,21 +172,21 @@ class ParameterServer:
 
     def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
         """
-        Say, once for each that is set, that a parameter of Nav2 has no effect here.
+        Warn about each given parameter of Nav2 that is not supported, once.
 
         Parameters
         ----------
         names
-            The names of parameters and what happens instead, as the rest of a sentence.
+            The names of parameters and what happens instead, as the end of a sentence.
         prefix
-            What stands before the names and a dot.
+            The prefix of the names, without the dot.
 
         """
         for name, instead in names.items():
             self._unsupported[_full(prefix, name)] = instead
 
     def report(self) -> None:
-        """Log which parameters were given that have no effect, and what was probably meant."""
+        """Log given parameters without effect, and suggest similar names."""
         given = self._node._parameter_overrides
         unknown = [
             name
@@ -214,7 +215,7 @@ class ParameterServer:
                 check_limits(value, spec)
             except ValueError as error:
                 raise ConfigurationError(f"The parameter '{name}' {error}.") from error
-            # rclpy takes an integer for no floating-point number; parameter files mix them.
+            # rclpy does not accept integers for floating-point numbers; parameter files mix them.
             self._node._parameter_overrides[name] = typed_parameter(name, value, default)
         descriptor = ParameterDescriptor(
             name=name, description=spec.description, read_only=spec.read_only, dynamic_typing=True
@@ -238,7 +239,7 @@ class ParameterServer:
         return default if value is None else coerced(value, default)
 
     def _check(self, parameters: Sequence[Parameter]) -> SetParametersResult:
-        """Refuse values that are not allowed; swap the snapshots of the others."""
+        """Reject invalid values; replace the snapshots of the others."""
         changed: dict[int, tuple[ParameterSet[Any], dict[str, Any]]] = {}
         for each in parameters:
             for found, name in self._sets.get(each.name, ()):

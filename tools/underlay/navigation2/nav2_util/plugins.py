@@ -15,17 +15,17 @@ __all__ = ['did_you_mean', 'find_plugin']
 
 def find_plugin(known: Mapping[str, str], name: str, what: str) -> Any:
     """
-    Return the class of a plugin.
+    Import the class of a plugin.
 
     Parameters
     ----------
     known
-        The places of classes, as `module:Class`, by official names such as
+        The import paths of classes, as `module:Class`, by official names such as
         `nav2_navfn_planner::NavfnPlanner`.
     name
-        The official name; older parameter files write `/` in place of `::`.
+        The official name; older parameter files use `/` instead of `::`.
     what
-        What it is a plugin for, such as 'planner'.
+        The kind of the plugin, such as 'planner'.
 
     Raises
     ------
@@ -45,16 +45,16 @@ def find_plugin(known: Mapping[str, str], name: str, what: str) -> Any:
 
 def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.5) -> str:
     """
-    Return a sentence, after a space, with the known name that is most like another one, or ''.
+    Suggest the most similar known name, as a sentence after a space, or ''.
 
     Parameters
     ----------
     name
-        What was given; upper and lower case count as the same.
+        The given name; case is ignored.
     known
-        What there is.
+        The known names.
     cutoff
-        How like a name has to be, from 0 to 1, as difflib has it.
+        The minimum similarity, from 0 to 1, as in difflib.
 
     """
     lower = {each.lower(): each for each in known}

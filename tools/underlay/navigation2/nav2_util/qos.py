@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The quality of service of what is kept for those who come later."""
+"""Quality of service of latched topics, for late joiners."""
 
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 __all__ = ['LATCHED']
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-"""The newest message, for all who subscribe: maps, costmaps, what changes rarely."""
+"""Transient local: the newest message for all subscribers, such as maps and costmaps."""

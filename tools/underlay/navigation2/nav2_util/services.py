@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Services that answer later, and calls that do not wait for ever; both in coroutines."""
+"""Asynchronous services, and service calls with a timeout; both in coroutines."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LOOK_S = 0.05
 
 
 class ServiceError(NavigationError):
-    """A service is not there, or has not answered."""
+    """A service is not available, or has not responded."""
 
 
 def create_async_service(
@@ -35,7 +35,7 @@ def create_async_service(
     node, kind, name
         As for `Node.create_service`.
     callback
-        Takes request and response, and returns the response when it is there.
+        Accepts request and response, and returns the response when it is ready.
 
     """
     headers: list[Any] = []
@@ -58,16 +58,16 @@ def create_async_service(
 
 async def wait_for(node: Node, future: Future[Any], timeout_s: float) -> bool:
     """
-    Wait until a future is done, or a timeout of a steady clock is over.
+    Wait until a future is done, or until a timeout on a steady clock.
 
     Parameters
     ----------
     node
-        The node whose executor goes on with the coroutine.
+        The node whose executor resumes the coroutine.
     future
-        What to wait for.
+        The future.
     timeout_s
-        How long at most, in s, also while simulated time stands.
+        The timeout in s, even while simulated time is paused.
 
     Returns
     -------
@@ -99,16 +99,16 @@ async def call(node: Node, client: Client, request: Any, timeout_s: float) -> An
     Parameters
     ----------
     node, client
-        The node whose executor goes on with the coroutine, and its client.
+        The node whose executor resumes the coroutine, and its client.
     request
-        What is sent.
+        The request to send.
     timeout_s
-        How long the service and its answer may take to come, together, in s.
+        The total timeout in s for the service to become available and to respond.
 
     Raises
     ------
     ServiceError
-        The service is not there, or does not answer, in this time.
+        The service is not available, or does not respond, within the timeout.
 
     """
     left_s = timeout_s

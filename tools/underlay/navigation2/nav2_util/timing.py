@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 __all__ = ['STEADY', 'Rate', 'clock_of', 'give_way', 'now_s', 'sleep', 'steady_clock']
 
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
-"""A clock that nobody sets, and that runs while a simulation stands; to be read."""
+"""A steady clock, which is independent of a simulation; for reading only."""
 
 _of_coroutines: WeakSet[Any] = WeakSet()
 
 
 def is_of_coroutine(timer: Any) -> bool:
     """
-    Whether a coroutine waits for a timer, which it destroys itself.
+    Whether a timer belongs to a coroutine, which destroys it itself.
 
     Parameters
     ----------
@@ -35,17 +35,17 @@ def is_of_coroutine(timer: Any) -> bool:
 
 def steady_clock() -> Clock:
     """
-    Return a clock like `STEADY` for a single timer.
+    Make a clock like `STEADY` for a single timer.
 
-    rclpy's executor of events prints a warning for each timer that is created on a clock with
-    seven others, and in a container all nodes share their clocks.
+    rclpy's events executor prints a warning for each timer on a clock that already has seven, and
+    in a container all nodes share their clocks.
     """
     return Clock(clock_type=ClockType.STEADY_TIME)
 
 
 def clock_of(node: Node) -> Clock:
     """
-    Return, for a timer, the clock of a node if it is simulated, else a steady one.
+    Return the clock for a timer: that of the node if simulated, else a steady one.
 
     Parameters
     ----------
@@ -59,12 +59,12 @@ def clock_of(node: Node) -> Clock:
 
 def now_s(node: Node) -> float:
     """
-    Return the time of a node's clock in s, for differences; it may jump back at a reset.
+    Read the node's clock in s, for differences; it may jump back at a reset.
 
     Parameters
     ----------
     node
-        The node; without simulated time, a steady clock counts.
+        The node; without simulated time, a steady clock is used.
 
     """
     clock = node.get_clock()
@@ -73,14 +73,14 @@ def now_s(node: Node) -> float:
 
 async def sleep(node: Node, duration_s: float) -> None:
     """
-    Sleep in a coroutine; other callbacks run meanwhile.
+    Sleep in a coroutine, while other callbacks run.
 
     Parameters
     ----------
     node
-        The node whose clock counts, and whose executor goes on with the coroutine.
+        The node, whose clock is used and whose executor resumes the coroutine.
     duration_s
-        How long, in s of that clock.
+        The duration, in s of that clock.
 
     """
     done: Future[None] = Future(executor=node.executor)
@@ -96,7 +96,7 @@ async def sleep(node: Node, duration_s: float) -> None:
 
 async def give_way(node: Node) -> None:
     """
-    Let other callbacks that are due have their turn, whatever any clock says.
+    Yield to other pending callbacks, independently of any clock.
 
     Parameters
     ----------
@@ -113,18 +113,18 @@ async def give_way(node: Node) -> None:
 
 class Rate:
     """
-    The rhythm of a coroutine: `await rate.tick()` once each period.
+    Rate of a loop in a coroutine: `await rate.tick()` once per period.
 
-    Ticks that nobody waited for are dropped. Use it as a context manager, which ends the timer.
+    Missed ticks are dropped. Use it as a context manager, which destroys the timer.
 
     Parameters
     ----------
     node
-        Its clock counts, and its executor goes on with the coroutine.
+        The node, whose clock is used and whose executor resumes the coroutine.
     rate_hz
-        Ticks in a second of that clock.
+        The rate in Hz of that clock.
     clock
-        Another clock that counts.
+        A clock to use instead.
 
     """
 

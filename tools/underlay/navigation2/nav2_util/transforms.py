@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where frames are: one buffer of transforms for all nodes of a process."""
+"""Transforms: one tf2 buffer for all nodes of a process."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ __all__ = ['TransformError', 'Transforms']
 
 
 class TransformError(NavigationError):
-    """A frame is not known, or not at that time."""
+    """A transform is not available, or not at that time."""
 
 
 class _Shared:
-    """The buffer of a process, and the node that fills it."""
+    """Shared tf2 buffer of a process, and the node that fills it."""
 
     def __init__(self, node: Node) -> None:
         self.users = 0
@@ -30,7 +30,7 @@ class _Shared:
             'transform_listener',
             namespace=node.get_namespace(),
             context=node.context,
-            # The rules of the process are meant for others, such as the name of its main node.
+            # The remappings of the process are for other nodes, such as its main node's name.
             use_global_arguments=False,
             cli_args=[
                 '--ros-args',
@@ -55,12 +55,12 @@ _shared: dict[tuple[Context, str], _Shared] = {}
 
 class Transforms:
     """
-    What a node knows of frames; all nodes of a process that listen to the same topics share it.
+    Transforms of a node; shared by all nodes of a process that use the same topics.
 
     Parameters
     ----------
     node
-        A node; its topics `tf` and `tf_static` count.
+        The node, whose topics `tf` and `tf_static` are used.
 
     """
 
@@ -73,10 +73,10 @@ class Transforms:
         self._is_open = True
         self.buffer: Buffer = self._entry.buffer
         self.node: Node = self._entry.node
-        """The node that listens, which has to be run."""
+        """The node with the listener, which has to be spun."""
 
     def close(self) -> None:
-        """Let go of the buffer; the last user ends its listener."""
+        """Release the buffer; the last user destroys its listener."""
         if not self._is_open:
             return
         self._is_open = False
@@ -90,21 +90,21 @@ class Transforms:
         self, frame: str, in_frame: str, time: Time | None = None, not_older_s: float | None = None
     ) -> Pose2D:
         """
-        Return where a frame is in another one.
+        Look up the pose of a frame in another one.
 
         Parameters
         ----------
         frame, in_frame
             Names of frames.
         time
-            When; by default the newest time for which it is known.
+            The time; by default the newest available one.
         not_older_s
-            Refuse a newest transform that is older than this, in s.
+            The maximum age of the newest transform, in s; an older one is rejected.
 
         Raises
         ------
         TransformError
-            It is not known.
+            It is not available.
 
         """
         try:
@@ -127,7 +127,7 @@ class Transforms:
 
     def pose_in(self, pose: Any, in_frame: str) -> Pose2D:
         """
-        Transform a `PoseStamped` to another frame by the newest transform, whatever its stamp.
+        Transform a `PoseStamped` to another frame by the newest transform, ignoring its stamp.
 
         Parameters
         ----------
@@ -144,7 +144,7 @@ class Transforms:
         Raises
         ------
         TransformError
-            The frame of the pose is empty, or not known there.
+            The frame of the pose is empty, or the transform is not available.
 
         """
         frame = pose.header.frame_id

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Velocity commands on topics, as `Twist` or, where `enable_stamped_cmd_vel` is on, stamped."""
+"""Velocity commands on topics, as `Twist` or, with `enable_stamped_cmd_vel`, as `TwistStamped`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ['TwistPublisher', 'Velocity', 'subscribe_twist', 'velocity_of']
 
 
 class Velocity(NamedTuple):
-    """A velocity in the plane, in the robot's base frame: x and y in m/s, yaw rate in rad/s."""
+    """Velocity in the plane, in the robot's base frame: x and y in m/s, yaw rate in rad/s."""
 
     x: float = 0.0
     y: float = 0.0
@@ -27,34 +27,34 @@ class Velocity(NamedTuple):
 
     @property
     def is_finite(self) -> bool:
-        """Whether it is neither infinite nor not a number."""
+        """Whether all components are finite."""
         return math.isfinite(self.x) and math.isfinite(self.y) and math.isfinite(self.yaw)
 
     @property
     def is_zero(self) -> bool:
-        """Whether the robot is to stand still."""
+        """Whether all components are zero."""
         return not (self.x or self.y or self.yaw)
 
     @property
     def linear(self) -> float:
-        """Return the speed without regard to turning, in m/s."""
+        """Return the linear speed in m/s."""
         return math.hypot(self.x, self.y)
 
     def scaled(self, factor: float) -> Velocity:
         """
-        Scale the velocity: the same curve at another speed.
+        Scale the velocity, which preserves the curvature.
 
         Parameters
         ----------
         factor
-            What x, y and yaw rate are multiplied by.
+            The factor of x, y and yaw rate.
 
         """
         return Velocity(self.x * factor, self.y * factor, self.yaw * factor)
 
     def poses_after(self, times_s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """
-        Return where a robot is that keeps this velocity.
+        Compute the poses of a robot at this constant velocity.
 
         Parameters
         ----------
@@ -64,11 +64,11 @@ class Velocity(NamedTuple):
         Returns
         -------
         numpy.ndarray
-            (K, 3) poses x, y (m), yaw (rad) in the base frame of now: arcs, or straight lines.
+            (K, 3) poses x, y (m), yaw (rad) in the current base frame: arcs, or straight lines.
 
         """
         yaw = self.yaw * times_s
-        # sin(yaw) / rate and (1 - cos(yaw)) / rate, which also hold without a turn.
+        # sin(yaw) / rate and (1 - cos(yaw)) / rate, which are also valid without rotation.
         along = times_s * np.sinc(yaw / math.pi)
         across = times_s * np.sinc(0.5 * yaw / math.pi) * np.sin(0.5 * yaw)
         return np.column_stack(
@@ -83,7 +83,7 @@ def velocity_of(twist: Twist) -> Velocity:
     Parameters
     ----------
     twist
-        The message, of which x, y (m/s) and the yaw rate (rad/s) count.
+        The message, of which x, y (m/s) and the yaw rate (rad/s) are used.
 
     """
     return Velocity(twist.linear.x, twist.linear.y, twist.angular.z)
@@ -91,18 +91,18 @@ def velocity_of(twist: Twist) -> Velocity:
 
 class TwistPublisher:
     """
-    Publishes velocities, as messages with or without a header.
+    Publisher of velocities, as messages with or without a header.
 
     Parameters
     ----------
     node
         The node that publishes.
     topic
-        Such as `cmd_vel`.
+        The topic, such as `cmd_vel`.
     is_stamped
         Whether to publish `TwistStamped` instead of `Twist`.
     frame
-        The frame of the header where `publish` is given none.
+        The frame of the default header.
 
     """
 
@@ -119,7 +119,7 @@ class TwistPublisher:
         velocity
             The velocity in the base frame (m/s, rad/s).
         header
-            The header of a `TwistStamped`; by default the frame of the class, now.
+            The header of a `TwistStamped`; by default the frame of the class and the current time.
 
         """
         twist = Twist()
@@ -142,16 +142,16 @@ def subscribe_twist(
     """
     Subscribe to the velocities of a topic.
 
-    Velocities that are infinite or not a number are ignored with an error, at most one a second.
+    Non-finite velocities are ignored with an error, logged at most once a second.
 
     Parameters
     ----------
     node, topic
         The node that subscribes, and a topic such as `cmd_vel`.
     is_stamped
-        Whether it is one of `TwistStamped` instead of `Twist`.
+        Whether its type is `TwistStamped` instead of `Twist`.
     callback
-        Called with each velocity, and its header if it has one.
+        Called with each velocity, and its header if any.
 
     """
 

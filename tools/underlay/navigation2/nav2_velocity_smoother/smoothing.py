@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a velocity follows its command within limits of speed and acceleration."""
+"""Smooth a velocity towards its command within limits of speed and acceleration."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _AXES = 'x, y and theta'
 @dataclass(frozen=True)
 class Limits:
     """
-    What a velocity must keep to; each an array of x, y (m/s, m/s^2) and theta (rad/s, rad/s^2).
+    Velocity limits, each an array of x, y (m/s, m/s^2) and theta (rad/s, rad/s^2).
 
-    Use `Limits.checked`, which says what is wrong with values of a person.
+    Use `Limits.checked`, which validates user input.
     """
 
     max_velocity: FloatArray
@@ -42,23 +42,23 @@ class Limits:
         scale_velocities: bool = False,
     ) -> Limits:
         """
-        Make limits of lists of three numbers.
+        Validate and make limits from lists of three numbers.
 
         Parameters
         ----------
         max_velocity, min_velocity
-            The greatest velocities forwards and, negative, backwards.
+            The maximum velocities forwards and, negative, backwards.
         max_accel, max_decel
-            How fast the speed may grow and, negative, shrink.
+            The maximum acceleration and, negative, deceleration.
         deadband_velocity
-            Below these speeds the robot's hardware does not move; they become zero.
+            The speeds below which the robot's hardware does not move; they are set to zero.
         scale_velocities
-            Whether the limit of one axis slows the others down with it.
+            Whether the limit of one axis scales the others with it.
 
         Raises
         ------
         ValueError
-            A list has not three finite numbers, or one of the wrong sign.
+            A list does not have three finite numbers, or one has the wrong sign.
 
         """
         return cls(
@@ -75,23 +75,23 @@ def smooth(
     command: FloatArray, current: FloatArray, limits: Limits, period_s: float
 ) -> FloatArray:
     """
-    Return the velocity that is nearest to a command within the limits, one period on.
+    Compute the velocity nearest to a command within the limits, after one period.
 
     Parameters
     ----------
     command, current
-        The commanded velocity and the one of now: arrays of x, y (m/s) and theta (rad/s).
+        The commanded velocity and the current one: arrays of x, y (m/s) and theta (rad/s).
     limits
-        An axis whose speed grows in its direction keeps to `max_accel`, every other one to
-        `max_decel`. With `scale_velocities` the axis that falls behind most scales the whole
-        command, so that the robot stays on the commanded curve as far as the limits allow.
+        An axis that speeds up in its direction is limited by `max_accel`, every other one by
+        `max_decel`. With `scale_velocities`, the most limited axis scales the whole command, so
+        that the robot stays on the commanded curve as far as the limits allow.
     period_s
-        The time between two velocities.
+        The control period.
 
     Returns
     -------
     numpy.ndarray
-        The velocity of x, y and theta, not yet with the deadband.
+        The velocity of x, y and theta, before the deadband.
 
     """
     command = np.clip(command, limits.min_velocity, limits.max_velocity)
@@ -110,14 +110,14 @@ def smooth(
 
 def apply_deadband(velocity: FloatArray, limits: Limits) -> FloatArray:
     """
-    Zero the axes of a velocity that are too slow to move the robot.
+    Set the axes of a velocity within the deadband to zero.
 
     Parameters
     ----------
     velocity
         (3,) x, y (m/s) and theta (rad/s).
     limits
-        Those whose `deadband_velocity` counts.
+        The limits, of which `deadband_velocity` is used.
 
     Returns
     -------
@@ -130,12 +130,12 @@ def apply_deadband(velocity: FloatArray, limits: Limits) -> FloatArray:
 
 class OdometryAverage:
     """
-    The average velocity of the odometry of the last moments.
+    Moving average of the velocity from odometry.
 
     Parameters
     ----------
     duration_s
-        How far back it looks.
+        The length of the window.
 
     """
 
@@ -145,12 +145,12 @@ class OdometryAverage:
 
     def add(self, now_s: float, velocity: Sequence[float]) -> None:
         """
-        Add a measured velocity; one that is not finite is ignored.
+        Add a measured velocity; a non-finite one is ignored.
 
         Parameters
         ----------
         now_s
-            The time in s; if it has jumped back, what was added before is forgotten.
+            The time in s; if it has jumped back, earlier velocities are dropped.
         velocity
             (3,) x, y (m/s) and theta (rad/s).
 
@@ -162,14 +162,14 @@ class OdometryAverage:
 
     def velocity(self, now_s: float, not_older_s: float) -> FloatArray | None:
         """
-        Compute the average velocity over the duration; the newest one counts in any case.
+        Compute the average velocity over the window, always including the newest one.
 
         Parameters
         ----------
         now_s
             The time in s.
         not_older_s
-            How old the newest velocity may be, in s.
+            The maximum age of the newest velocity, in s.
 
         Returns
         -------

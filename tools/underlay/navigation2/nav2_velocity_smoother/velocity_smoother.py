@@ -66,10 +66,10 @@ class VelocitySmootherParameters:
 
 class VelocitySmoother(LifecycleNode):
     """
-    Publishes velocities that follow the commands of `cmd_vel` within limits.
+    Node that publishes velocities that follow the commands of `cmd_vel` within limits.
 
-    It publishes at `smoothing_frequency` while commands come, slows down to rest once none has
-    come for `velocity_timeout`, and is silent then.
+    It publishes at `smoothing_frequency` while commands are received, decelerates to rest after
+    none was received for `velocity_timeout`, and then stops publishing.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ class VelocitySmoother(LifecycleNode):
         self._is_configured = False
 
     def configure(self) -> None:
-        """Read and check the parameters; subscribe to commands and odometry."""
+        """Read and validate the parameters; subscribe to commands and odometry."""
         self.parameters.declare_unsupported(
             {'use_realtime_priority': 'Python has no threads of real-time priority'}
         )
@@ -112,20 +112,20 @@ class VelocitySmoother(LifecycleNode):
             subscribe_velocity(self, current.odom_topic, self._on_odometry)
 
     def activate(self) -> None:
-        """Begin to publish, as soon as a command comes."""
+        """Start publishing, as soon as a command is received."""
         self._command = self._velocity = _REST
         self._is_at_rest = True
         self._start(self._told.current.smoothing_frequency)
 
     def deactivate(self) -> None:
-        """Stop the robot, and publish nothing more."""
+        """Stop the robot, and stop publishing."""
         self._stop()
         if not self._is_at_rest:
             self._publisher.publish(Velocity(), self._header)
             self._is_at_rest = True
 
     def cleanup(self) -> None:
-        """Let all parameters be changed."""
+        """Unlock all parameters."""
         self._is_configured = False
 
     def _start(self, rate_hz: float) -> None:
@@ -138,7 +138,7 @@ class VelocitySmoother(LifecycleNode):
             self._timer = None
 
     def _change(self, new: VelocitySmootherParameters) -> None:
-        """Take over changed parameters; ValueError says what is wrong with them."""
+        """Apply changed parameters; raise ValueError if they are invalid."""
         old = self._told.current
         if not self._is_configured:
             return
@@ -172,7 +172,7 @@ class VelocitySmoother(LifecycleNode):
         self._velocity = smooth(
             self._command, before, self._limits, 1.0 / current.smoothing_frequency
         )
-        # A limit of zero deceleration would never let the robot rest.
+        # With a deceleration limit of zero the robot would never come to rest.
         is_stuck = is_over and np.array_equal(self._velocity, before)
         if is_stuck or (is_over and self._is_small()):
             self._velocity, self._is_at_rest = _REST, True
@@ -183,7 +183,7 @@ class VelocitySmoother(LifecycleNode):
         return bool(np.all(np.abs(self._velocity) < 1e-3))
 
     def _velocity_now(self) -> Any:
-        """Return the velocity to go on from: the last one, or that of the odometry."""
+        """Return the velocity to start from: the last command, or that of the odometry."""
         if self._told.current.feedback == 'OPEN_LOOP':
             return self._velocity
         measured = self._odometry.velocity(now_s(self), _STALE_ODOMETRY_S)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bring the robot from one waypoint to the next."""
+"""The waypoint follower: drives the robot from one waypoint to the next."""
 
 from nav2_waypoint_follower.waypoint_follower import WaypointFollower
 

@@ -24,16 +24,16 @@ _ENCODINGS: dict[str, tuple[int, int | None]] = {
 
 def to_bgr(data: Any, height: int, width: int, step: int, encoding: str) -> npt.NDArray[np.uint8]:
     """
-    Return the pixels of an image as OpenCV writes them.
+    Convert an image to the pixel format that OpenCV writes.
 
     Parameters
     ----------
     data
         The bytes, row by row.
     height, width
-        In pixels.
+        The size in pixels.
     step
-        Bytes a row.
+        The number of bytes per row.
     encoding
         As in `sensor_msgs/Image`, such as rgb8.
 
@@ -45,7 +45,7 @@ def to_bgr(data: Any, height: int, width: int, step: int, encoding: str) -> npt.
     Raises
     ------
     ValueError
-        The encoding is not known, or the data are too short.
+        The encoding is not supported, or the data are too short.
 
     """
     if encoding not in _ENCODINGS:

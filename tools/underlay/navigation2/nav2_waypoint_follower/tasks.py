@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the robot does at a waypoint: wait, take a photo, wait for a word."""
+"""Tasks at a waypoint: wait, take a photo, wait for a message."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ class _InputParameters:
 
 class WaitAtWaypoint:
     """
-    Waits for some time.
+    Waypoint task that waits for a duration.
 
     Parameters
     ----------
     node, name
-        The node whose parameters tell how, and what stands before their names.
+        The node with the parameters of the task, and their prefix.
 
     """
 
@@ -61,12 +61,12 @@ class WaitAtWaypoint:
 
     async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
         """
-        Wait at a waypoint, for as long as the parameter `waypoint_pause_duration` says.
+        Wait at a waypoint for the duration of the parameter `waypoint_pause_duration`.
 
         Parameters
         ----------
         pose, index
-            The waypoint; both have no effect.
+            The waypoint; both are ignored.
         check
             Called every 50 ms; raises when the task has to end.
 
@@ -83,12 +83,12 @@ class WaitAtWaypoint:
 
 class PhotoAtWaypoint:
     """
-    Saves what a camera sees.
+    Waypoint task that saves an image of a camera.
 
     Parameters
     ----------
     node, name
-        The node whose parameters tell how, and what stands before their names.
+        The node with the parameters of the task, and their prefix.
 
     Raises
     ------
@@ -121,16 +121,16 @@ class PhotoAtWaypoint:
         Parameters
         ----------
         pose
-            The pose of the waypoint; no effect.
+            The pose of the waypoint; ignored.
         index
             The number of the waypoint, from 0.
         check
-            As for `WaitAtWaypoint.run`; no effect.
+            As for `WaitAtWaypoint.run`; ignored.
 
         Raises
         ------
         NavigationError
-            There is no image, or it cannot be saved.
+            No image was received, or it cannot be saved.
 
         """
         settings = self._settings.current
@@ -152,12 +152,12 @@ class PhotoAtWaypoint:
 
 class InputAtWaypoint:
     """
-    Waits until somebody publishes that it may go on.
+    Waypoint task that waits for a message to continue.
 
     Parameters
     ----------
     node, name
-        The node whose parameters tell how, and what stands before their names.
+        The node with the parameters of the task, and their prefix.
 
     """
 
@@ -172,7 +172,7 @@ class InputAtWaypoint:
 
     async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
         """
-        Wait until a message comes on the topic of the parameter `input_topic`.
+        Wait for a message on the topic of the parameter `input_topic`.
 
         Parameters
         ----------
@@ -182,7 +182,7 @@ class InputAtWaypoint:
         Raises
         ------
         NavigationError
-            Nobody published in time.
+            No message was received in time.
 
         """
         settings, count = self._settings.current, self._count
@@ -209,7 +209,7 @@ TASKS: dict[str, Any] = {
 
 def make_task(node: LifecycleNode, name: str) -> Any:
     """
-    Make the task whose type the parameters of a node say.
+    Make the task whose type is set by a parameter.
 
     Parameters
     ----------

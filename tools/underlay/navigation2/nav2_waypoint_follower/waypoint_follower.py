@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that brings the robot from one waypoint to the next, and does a task at each."""
+"""The waypoint follower, which visits waypoints and runs a task at each of them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _UNSUPPORTED = {
 
 @dataclass(frozen=True)
 class WaypointFollowerParameters:
-    """What the follower is told; names and defaults are those of Nav2."""
+    """Parameters of the follower; names and defaults are those of Nav2."""
 
     stop_on_failure: bool = parameter(True, 'Whether a waypoint that is missed ends the goal.')
     loop_rate: int = parameter(20, 'How often to look, in Hz.', low=1, high=1000)
@@ -53,14 +53,14 @@ class _Missed(NavigationError):
 
 class WaypointFollower(LifecycleNode):
     """
-    Offers `follow_waypoints` and `follow_gps_waypoints`.
+    Waypoint follower, which offers `follow_waypoints` and `follow_gps_waypoints`.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -72,7 +72,7 @@ class WaypointFollower(LifecycleNode):
         self._handle: Any = None
 
     def configure(self) -> None:
-        """Make the task, the client of the navigator, and the actions."""
+        """Create the task, the client of the navigator, and the actions."""
         self.settings = self.parameters.declare(WaypointFollowerParameters)
         self.parameters.declare_unsupported(_UNSUPPORTED)
         self._task = make_task(self, self.settings.current.waypoint_task_executor_plugin)
@@ -96,7 +96,7 @@ class WaypointFollower(LifecycleNode):
             self._client = None
 
     def _find_converter(self) -> Any:
-        """Return the client of the service that knows where places on the earth are."""
+        """Return the client of the service that converts GPS coordinates to the map frame."""
         try:
             kind = importlib.import_module('robot_localization.srv').FromLL
         except (ImportError, AttributeError):
@@ -128,7 +128,7 @@ class WaypointFollower(LifecycleNode):
         await self._go_round(self._gps_server, goal, poses)
 
     async def _go_round(self, server: ActionServer, goal: Any, poses: list[PoseStamped]) -> None:
-        """Visit all waypoints as often as a goal wants."""
+        """Visit all waypoints, for the number of loops of a goal."""
         if not 0 <= goal.goal_index < len(poses):
             self._stop()
             raise ActionAborted(
@@ -142,13 +142,13 @@ class WaypointFollower(LifecycleNode):
                 for index in range(0 if loop else goal.goal_index, len(poses)):
                     await self._visit(server, poses[index], index)
         except Exception:
-            # The goal of a newer list takes the place of this one in the navigator.
+            # The navigation goal of a newer list preempts this one in the navigator.
             if not server.is_preempt_requested:
                 self._stop()
             raise
 
     async def _visit(self, server: ActionServer, pose: PoseStamped, index: int) -> None:
-        """Go to a waypoint and do the task; note it if that fails, or end the goal."""
+        """Drive to a waypoint and run the task; record a failure, or abort the goal."""
         try:
             await self._drive(server, pose, index)
             try:
@@ -170,14 +170,14 @@ class WaypointFollower(LifecycleNode):
             code = missed.code if missed.code == _TASK_FAILED else _UNKNOWN
             raise ActionAborted(code, message)
         self.get_logger().warning(message)
-        # A missed waypoint of Jazzy has no room for the reason; the goal goes on and succeeds.
+        # A missed waypoint of Jazzy has no field for the reason; the goal continues and succeeds.
         server.result.error_msg = f'{server.result.error_msg} {message}'.lstrip()
 
     async def _drive(self, server: ActionServer, pose: PoseStamped, index: int) -> None:
-        """Let the navigator bring the robot to a pose."""
+        """Navigate to a pose."""
         client = self._client
         assert client is not None
-        # By a clock that always runs: goals are canceled also while a simulation stands.
+        # On a steady clock: goals can be canceled even while a simulation is paused.
         with Rate(self, self.settings.current.loop_rate, clock=steady_clock()) as rate:
             await self._until(server, rate, index, client.server_is_ready)
             sending = client.send_goal_async(NavigateToPose.Goal(pose=pose))
@@ -196,7 +196,7 @@ class WaypointFollower(LifecycleNode):
             raise _Missed(answer.result.error_code or _UNKNOWN, reason)
 
     def _keep(self, sending: Any) -> None:
-        """Keep the handle of a goal that was accepted, to cancel it."""
+        """Store the handle of an accepted goal, to cancel it."""
         handle = sending.result()
         if handle is not None and handle.accepted:
             self._handle = handle
@@ -209,7 +209,7 @@ class WaypointFollower(LifecycleNode):
         is_done: Callable[[], bool],
         timeout_s: float | None = _SERVER_TIMEOUT_S,
     ) -> None:
-        """Wait for something, tell where the robot is going, and end when the goal does."""
+        """Wait for a future, publish feedback, and stop when the goal ends."""
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         kind = FollowGPSWaypoints if server is self._gps_server else FollowWaypoints
         while not is_done():
@@ -221,7 +221,7 @@ class WaypointFollower(LifecycleNode):
         server.check()
 
     def _stop(self) -> None:
-        """Cancel the goal that the navigator has."""
+        """Cancel the goal of the navigator."""
         if self._handle is not None:
             self._handle.cancel_goal_async()
             self._handle = None

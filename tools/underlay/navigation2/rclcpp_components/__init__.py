@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Containers: processes that load and unload nodes at run time, classes of Python here."""
+"""Component containers: processes that load and unload Python nodes at run time."""
 
 from rclcpp_components.registry import ComponentError, find_component
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that loads components into its process, and the programs that run it."""
+"""The container node, which loads components into its process, and its executables."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _LOOK_S = 0.02
 
 @dataclass
 class _Loaded:
-    """A component, and what ends its own thread if it has one."""
+    """Loaded component, with the shutdown function of its own thread if it has one."""
 
     node: Node
     name: str
@@ -48,16 +48,16 @@ class _Loaded:
 
 class ComponentContainer(Node):
     """
-    Loads, lists and unloads nodes by the services of `composition_interfaces`.
+    Container that loads, lists and unloads nodes by the services of `composition_interfaces`.
 
     Parameters
     ----------
     node_name
-        Its name, unless it is remapped.
+        The node name, unless remapped.
     is_isolated
-        Whether each component gets an executor and a thread of its own.
+        Whether each component gets its own executor and thread.
     options
-        The further keyword arguments of `rclpy.node.Node`.
+        Further keyword arguments of `rclpy.node.Node`.
 
     """
 
@@ -76,7 +76,7 @@ class ComponentContainer(Node):
         self.create_service(ListNodes, '~/_container/list_nodes', self._list)
 
     def destroy_node(self) -> None:
-        """Unload everything, the newest first, and end."""
+        """Unload all components, the newest first, and destroy the node."""
         for uid in sorted(self._components, reverse=True):
             loaded = self._components.pop(uid)
             self._stop(loaded)
@@ -90,7 +90,7 @@ class ComponentContainer(Node):
             response.error_message = str(error)
             self.get_logger().error(response.error_message)
             if self.executor is not None:
-                self.executor.create_task(gc.collect)  # what was made of the node until it failed
+                self.executor.create_task(gc.collect)  # a partly constructed node
             return response
         self._count += 1
         self._components[self._count] = loaded
@@ -118,7 +118,7 @@ class ComponentContainer(Node):
         return loaded
 
     def _options(self, request: LoadNode.Request) -> dict[str, Any]:
-        """Return the keyword arguments with which a component is made."""
+        """Make the keyword arguments of a component."""
         words: list[str] = []
         if request.node_name:
             words += ['-r', f'__node:={request.node_name}']
@@ -139,7 +139,7 @@ class ComponentContainer(Node):
         }
 
     def _start(self, loaded: _Loaded) -> None:
-        """Let the nodes of a component work, in this executor or in one of their own."""
+        """Add the nodes of a component to this executor, or to one of their own."""
         executor = self.executor
         if self._is_isolated:
             executor = make_executor(self.context)
@@ -147,7 +147,7 @@ class ComponentContainer(Node):
             loaded.thread = threading.Thread(
                 target=self._work, args=(executor, loaded), name=loaded.name, daemon=True
             )
-        loaded.node.share_clock = self._share_clock  # for nodes that it makes later
+        loaded.node.share_clock = self._share_clock  # for nodes that it creates later
         for node in _nodes(loaded):
             self._share_clock(node)
             _add(node, executor)
@@ -169,7 +169,7 @@ class ComponentContainer(Node):
             executor.shutdown()
 
     def _stop(self, loaded: _Loaded) -> None:
-        """Take the nodes of a component from their executor."""
+        """Remove the nodes of a component from their executor."""
         if loaded.stop is not None and loaded.thread is not None:
             loaded.stop.set_result(None)
             loaded.thread.join(_END_S)
@@ -181,13 +181,13 @@ class ComponentContainer(Node):
         nodes = _nodes(loaded)
         loaded.node.destroy_node()
         for node in nodes:
-            if _is_alive(node):  # others need it, too, as that which listens to transforms
+            if _is_alive(node):  # shared with others, such as the transform listener
                 _add(node, self.executor)
             else:
                 self._shared_clock.release(node)
 
     async def _wind_up(self, loaded: _Loaded) -> None:
-        """Let the goals of a component end in its executor, if it has some."""
+        """Wait for the goals of a component to end in its executor, if it has any."""
         executor = loaded.node.executor
         if executor is None or not hasattr(loaded.node, 'wind_up'):
             return
@@ -207,11 +207,11 @@ class ComponentContainer(Node):
             return response
         await self._wind_up(loaded)
         self._stop(loaded)
-        await give_way(self)  # what had arrived for the nodes is in the queue of the executor
+        await give_way(self)  # events of the nodes may still be in the queue of the executor
         self._destroy(loaded)
         del loaded
         await give_way(self)
-        gc.collect()  # rclpy leaves the lifecycle of a node, and with it the node, to it
+        gc.collect()  # otherwise rclpy keeps the lifecycle of a node, and with it the node
         response.success = True
         return response
 
@@ -240,13 +240,13 @@ def _add(node: Node, executor: Executor | None) -> None:
 
 def run_container(kind: str = '', arguments: Sequence[str] | None = None) -> int:
     """
-    Run a container until it is told to stop; return the exit status.
+    Spin a container until it is told to stop; return the exit status.
 
     Parameters
     ----------
     kind
         '' for one executor with one thread for all components, 'mt' for several threads, and
-        'isolated' for an executor with a thread of its own for each component.
+        'isolated' for an executor with its own thread for each component.
     arguments : Sequence[str] | None
         The command line with the program's name; by default that of the process.
 
@@ -278,16 +278,16 @@ def _spin_in_threads(node: ComponentContainer) -> None:
     thread.start()
     wait_for_signal(None)
     stop.set()
-    executor.create_task(lambda: None)  # it looks up from its waiting
+    executor.create_task(lambda: None)  # wakes the executor
     thread.join(_END_S)
-    executor.shutdown(_END_S)  # not before: it breaks if that is done while it spins
+    executor.shutdown(_END_S)  # not before: shutdown while spinning fails
 
 
 def run_container_mt() -> int:
-    """Run a container whose components share several threads."""
+    """Spin a container whose components share several threads."""
     return run_container('mt')
 
 
 def run_container_isolated() -> int:
-    """Run a container in which each component has a thread of its own."""
+    """Spin a container in which each component has its own thread."""
     return run_container('isolated')

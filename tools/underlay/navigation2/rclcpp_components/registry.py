@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Which class a component is.
+Registry of components and their classes.
 
-A package registers its components in the index of resources, as C++ packages do, with the class in
-place of the library: the resource `rclcpp_components` has a line such as
-`nav2_amcl::AmclNode;nav2_amcl.amcl_node:AmclNode`. A package of Python may as well name them in
-its setup.py, as entry points of the group `rclcpp_components`.
+A package registers its components in the ament resource index, as C++ packages do, with the class
+in place of the library: the resource `rclcpp_components` has a line such as
+`nav2_amcl::AmclNode;nav2_amcl.amcl_node:AmclNode`. A Python package may also declare them in its
+setup.py, as entry points of the group `rclcpp_components`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ GROUP = 'rclcpp_components'
 
 
 class ComponentError(Exception):
-    """A component cannot be loaded or unloaded; the text says why."""
+    """A component cannot be loaded or unloaded; the text states why."""
 
 
 def registered_components(package: str) -> dict[str, str]:
@@ -39,7 +39,7 @@ def registered_components(package: str) -> dict[str, str]:
     Returns
     -------
     dict
-        The places of classes as `module:class`, or of libraries of C++, by the components' names.
+        The import paths of classes as `module:class`, or C++ libraries, by component name.
 
     """
     found: dict[str, str] = {}
@@ -59,7 +59,7 @@ def registered_components(package: str) -> dict[str, str]:
 
 def find_component(package: str, name: str) -> Any:
     """
-    Return the class of a component.
+    Import the class of a component.
 
     Parameters
     ----------

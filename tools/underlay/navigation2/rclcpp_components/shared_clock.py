@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Simulated time for many nodes of a process from one subscription to /clock."""
+"""Simulated time for many nodes of a process, from one subscription to /clock."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ __all__ = ['SharedClock']
 
 class SharedClock:
     """
-    Takes the time from /clock once, and sets the clocks of all nodes that were given to it.
+    Shared clock: one subscription to /clock, which sets the clocks of all added nodes.
 
-    Otherwise each node takes every message itself, which is most of what an idle node costs.
+    Otherwise each node receives every message itself, which is most of the load of an idle node.
 
     Parameters
     ----------
@@ -30,17 +30,17 @@ class SharedClock:
 
     def take(self, node: Node) -> Node | None:
         """
-        Let a node that uses simulated time share the clock.
+        Share the clock with a node that uses simulated time.
 
         Parameters
         ----------
         node
-            The node; one that does not use simulated time stays as it is.
+            The node; one that does not use simulated time is unchanged.
 
         Returns
         -------
         Node or None
-            The node that listens, if it was made now; whoever runs nodes runs it, too.
+            The node with the subscription, if it was just created; spin it with the others.
 
         """
         source: TimeSource = node._time_source
@@ -62,18 +62,18 @@ class SharedClock:
         for clock in source._associated_clocks:
             clock.set_ros_time_override(shared._last_time_set)
             clock._set_ros_time_is_active(True)
-        # A new set: the other may be gone through in another thread.
+        # A new set: another thread may be iterating over the old one.
         shared._associated_clocks = shared._associated_clocks | source._associated_clocks
         return made
 
     def release(self, node: Node) -> None:
         """
-        Forget the clocks of a node that is destroyed.
+        Remove the clocks of a node that is destroyed.
 
         Parameters
         ----------
         node
-            A node that `take` was given.
+            A node that was passed to `take`.
 
         """
         if self._node is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Change widgets only where they change, since all that is assigned is sent."""
+"""Assignment of changed widget properties only, since viser sends every assignment."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ __all__ = ['assign']
 
 def assign(widget: Any, **values: Any) -> None:
     """
-    Set properties of a widget, skipping those that have the value already.
+    Set properties of a widget, skipping those that already have the value.
 
     viser sends every assignment to all browsers, changed or not.
 

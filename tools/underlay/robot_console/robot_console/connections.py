@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The connections of a small page, each with a session."""
+"""The WebSocket connections of a control page, each with a session."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ from websockets.exceptions import ConnectionClosed
 __all__ = ['Connections']
 
 SILENCE_S = 0.3
-"""For how long a page that is in control may be silent."""
+"""Watchdog timeout of a page in control."""
 READING_S = 0.05
-"""How long it may take to read what has come while the thread of the page was busy."""
+"""Additional time to read messages that arrived while the event loop was busy."""
 PAUSE_S = 0.005
-"""How long a page waits that says several things at once, so that others get their turn."""
+"""Pause after each answer, so that a page that sends a burst does not starve the others."""
 ENDING_S = 1.0
 REFUSED = 1008
 
 
 class Connections:
     """
-    The WebSocket connections of a small page, each with a session of its own.
+    The WebSocket connections of a control page, each with its own session.
 
-    They are served in the thread of the page.
+    They are served in the thread of the page server.
 
     Parameters
     ----------
     people
-        Gives each page a name, which its connections share.
+        Assigns each page a user name, which its connections share.
     begin
-        Creates the session of a connection from the name of its page.
+        Creates the session of a connection, given the user name of its page.
 
     """
 
@@ -55,9 +55,8 @@ class Connections:
         """
         Serve one connection until either side closes it.
 
-        Each message, in JSON, is answered with the state of the session. A page that is watched
-        but silent for too long loses control; a message that the session rejects closes the
-        connection.
+        Each JSON message is answered with the state of the session. A watched page that is silent
+        for too long loses control; a message that the session rejects closes the connection.
 
         Parameters
         ----------
@@ -80,7 +79,7 @@ class Connections:
                 self._all_ended.set()
 
     def end(self) -> None:
-        """End all sessions, from another thread, and wait for that."""
+        """End all sessions, and wait for their end; called from another thread."""
         self._is_over = True
         for task, loop in list(self._talks.items()):
             if not loop.is_closed():
@@ -88,7 +87,7 @@ class Connections:
         self._all_ended.wait(ENDING_S)
 
     async def _serve(self, connection: ServerConnection) -> None:
-        """Talk to somebody, in a session."""
+        """Serve a connection with a new session."""
         key = _key(connection.request.path if connection.request else '')
         session = self._begin(self._people.arrive(key, str(connection.remote_address[0])))
         try:
@@ -99,7 +98,7 @@ class Connections:
 
 
 async def _exchange(connection: ServerConnection, session: Session) -> None:
-    """Answer each message, and notice when a page is silent that must not be."""
+    """Answer each message, and end the control of a watched page that is silent."""
     while True:
         try:
             text = await _next(connection, session.is_watched)
@@ -115,7 +114,7 @@ async def _exchange(connection: ServerConnection, session: Session) -> None:
 
 
 def _answer(session: Session, text: Any) -> str | ValueError:
-    """Return the answer to a message, or why it has none."""
+    """Return the answer to a message, or the error if it is invalid."""
     try:
         return json.dumps(session.take(json.loads(text)))
     except ValueError as error:
@@ -134,5 +133,5 @@ async def _next(connection: ServerConnection, is_watched: bool) -> str | bytes:
 
 
 def _key(path: str) -> str:
-    """Return what a page is known by, which it says in its address."""
+    """Return the identifier that a page sends in its URL, or a random one."""
     return parse_qs(urlsplit(path).query).get('me', [''])[0][:40] or secrets.token_hex(8)

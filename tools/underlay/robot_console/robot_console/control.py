@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who is in control of a robot."""
+"""Arbitration of the control of a robot."""
 
 from __future__ import annotations
 
@@ -10,29 +10,30 @@ __all__ = ['Control']
 
 class Control:
     """
-    Who is in control of a robot: nobody, or one person, from one or several small pages.
+    Arbitrates the control of a robot: held by no one, or by one user with one or more pages.
 
-    A person takes control with each of these pages, gives it back, or is lost with one of them.
-    Then nobody is in control, but the robot must not be told that this was on purpose.
+    A user takes control with each of these pages, releases it, or loses it when the connection to
+    one of them is lost. Then no one is in control, but the robot must not be told that this was
+    intentional.
 
     """
 
     def __init__(self) -> None:
         self.person = ''
         self.lost = ''
-        """Who was in control when the connection was lost, until somebody else is."""
+        """The user who lost the connection while in control; empty once someone takes control."""
         self._seats: set[Hashable] = set()
 
     def take(self, person: str, seat: Hashable) -> bool:
         """
-        Take control of the robot with one page.
+        Take control of the robot from one page.
 
         Parameters
         ----------
         person
-            Who wants it.
+            The user who requests control.
         seat
-            The page with which it is taken, such as its session.
+            The page from which it is taken, for example its session.
 
         Returns
         -------
@@ -48,29 +49,29 @@ class Control:
 
     def holds(self, seat: Hashable) -> bool:
         """
-        Check whether control was taken with a page.
+        Check whether a page holds control.
 
         Parameters
         ----------
         seat
-            The page, as it was given to `take`.
+            The page, as passed to `take`.
 
         """
         return seat in self._seats
 
     def give(self, seat: Hashable) -> bool:
         """
-        Give back the control that was taken with one page.
+        Release the control held by one page.
 
         Parameters
         ----------
         seat
-            The page, as it was given to `take`.
+            The page, as passed to `take`.
 
         Returns
         -------
         bool
-            True if that was the last page of the person in control, so that nobody is now.
+            True if it was the last page of the user in control, so that no one is in control now.
 
         """
         if seat not in self._seats:
@@ -83,17 +84,17 @@ class Control:
 
     def lose(self, seat: Hashable) -> bool:
         """
-        End the control of a person one of whose pages is gone, with all of that person's pages.
+        Release control when the connection to a page is lost, for all pages of the user.
 
         Parameters
         ----------
         seat
-            The page that is gone, as it was given to `take`.
+            The page that was lost, as passed to `take`.
 
         Returns
         -------
         bool
-            False if control was not taken with this page; then nothing changes.
+            False if the page did not hold control; then nothing changes.
 
         """
         if seat not in self._seats:

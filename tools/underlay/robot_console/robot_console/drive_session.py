@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Driving a robot from a small page."""
+"""Session of a page that drives a robot."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ AGAIN = 'Let go, and press again.'
 
 class DriveSession(Session):
     """
-    Drives a robot as long as a page asks for it again and again, which it does while it is held.
+    Drives a robot while a page repeats its request, which it does while the stick is held.
 
-    What the page asks for is numbered by presses. A press that has ended, for whatever reason,
-    moves nothing any more.
+    Requests carry the number of their press. Once a press has ended, for whatever reason, its
+    requests no longer move the robot.
 
     Parameters
     ----------
     link
-        The link to the robot, with its emergency stop and who is in control.
+        The link to the robot, with its emergency stop and its control arbitration.
     person
-        Who has the page open, as others are told.
+        The user of the page, as shown to others.
     limits
         The speeds at full deflection of the stick.
     say
-        Publishes a velocity of the base.
+        Publishes a velocity command of the base.
     count_listeners
-        Returns the number of subscribers of that velocity, which the page shows.
+        Returns the number of subscribers to the velocity command, which the page shows.
 
     """
 
@@ -60,16 +60,16 @@ class DriveSession(Session):
 
     @property
     def actions(self) -> Mapping[str, Callable[[Mapping[str, Any]], None]]:
-        """Return what the page may do."""
+        """Return the actions that the page may request."""
         return {'beat': self._rest, 'halt': self._rest, 'drive': self._drive}
 
     @property
     def is_watched(self) -> bool:
-        """Tell whether the page must give signs of life."""
+        """Whether the watchdog monitors the page."""
         return self._velocity is not None or super().is_watched
 
     def state(self) -> dict[str, Any]:
-        """Return what the page is to show."""
+        """Return the state that the page shows."""
         velocity, refusal = self._velocity, self._refusal
         return {
             **super().state(),
@@ -80,7 +80,7 @@ class DriveSession(Session):
         }
 
     def lose(self) -> None:
-        """Stop the robot, since the page is gone or gives no signs of life."""
+        """Stop the robot, since the page is lost or its watchdog has expired."""
         self._is_lost |= self._velocity is not None
         self._stand_still()
         super().lose()
@@ -98,7 +98,7 @@ class DriveSession(Session):
             self._say(velocity)
 
     def _why_not(self) -> str:
-        """Take control, or return why the robot is not to be driven."""
+        """Take control, or return the reason why driving is rejected."""
         if self.link.stop.pressed:
             return STOPPED
         if self._ended is not None and self._press == self._ended:
@@ -112,12 +112,12 @@ class DriveSession(Session):
         self._stop()
 
     def _stop(self) -> None:
-        """Stop on purpose."""
+        """Stop intentionally, and release control."""
         self._stand_still()
         self.give()
 
     def _stand_still(self) -> None:
-        """End this press, with a velocity of zero if the robot was driven."""
+        """End this press, and publish zero velocity if the robot was driven."""
         if self._velocity is not None:
             self._velocity = None
             self._ended = self._press
@@ -127,12 +127,12 @@ class DriveSession(Session):
 
 def stalled(silent_s: float) -> str:
     """
-    Explain to a person why the robot was stopped: the page that drove it stalled.
+    Explain to the user that the robot was stopped because the page stalled.
 
     Parameters
     ----------
     silent_s
-        For how long nothing came from the page, in s.
+        The time without a message from the page, in s.
 
     """
     return (

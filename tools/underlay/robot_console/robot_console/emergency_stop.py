@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of the emergency stop of a robot."""
+"""State of the emergency stop of a robot."""
 
 from __future__ import annotations
 
@@ -10,38 +10,38 @@ __all__ = ['EmergencyStop']
 
 @dataclass
 class EmergencyStop:
-    """Whether it is pressed, and who said so last."""
+    """State of the emergency stop, and who last changed it."""
 
     pressed: bool = False
     by: str = ''
-    """Who of this console's people said so; empty if somebody else did, or nobody."""
+    """The user of this console who last changed it; empty if another node did, or no one."""
     heard: bool = False
-    """Whether anybody has said anything yet."""
+    """Whether any state was received or set yet."""
 
     def say(self, pressed: bool, by: str) -> None:
         """
-        Record that somebody presses or releases the emergency stop with this console.
+        Record that a user of this console presses or releases the emergency stop.
 
         Parameters
         ----------
         pressed
-            Whether it is pressed from now on.
+            The new state: whether it is pressed.
         by
-            The name of the person.
+            The name of the user.
 
         """
         self.pressed, self.by, self.heard = pressed, by, True
 
     def hear(self, pressed: bool) -> None:
         """
-        Update the state of the emergency stop from the topic, whoever has published there.
+        Update the state of the emergency stop from its topic, whichever node has published.
 
-        An echo of what this console said itself keeps the name of the person.
+        The echo of a message published by this console keeps the name of the user.
 
         Parameters
         ----------
         pressed
-            Whether the message says that it is pressed.
+            Whether the message reports that it is pressed.
 
         """
         if pressed != self.pressed or not self.heard:

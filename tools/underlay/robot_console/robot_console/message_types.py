@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The fields of the types of messages that are installed."""
+"""Lookup of installed message types and their fields."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def message_class(type_name: str) -> Any:
     Parameters
     ----------
     type_name
-        Such as `std_msgs/msg/String`.
+        For example `std_msgs/msg/String`.
 
     Raises
     ------
@@ -39,17 +39,17 @@ def message_class(type_name: str) -> Any:
 @cache
 def fields_of(type_name: str) -> Mapping[str, str]:
     """
-    Get the fields of a message type.
+    Return the fields of a message type.
 
     Parameters
     ----------
     type_name
-        Such as `std_msgs/msg/String`.
+        For example `std_msgs/msg/String`.
 
     Returns
     -------
     Mapping
-        The types of the fields as IDL writes them, such as `sequence<double>`, by name.
+        The field types in IDL notation, such as `sequence<double>`, by field name.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names of topics of one of several robots."""
+"""Topic names in the namespace of a robot."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ VALID = re.compile(r'(/?[A-Za-z_][A-Za-z0-9_]*)*/?')
 
 @dataclass(frozen=True)
 class Namespace(Text):
-    """The namespace of a robot."""
+    """Property for the namespace of a robot."""
 
     def read(self, value: Any) -> str:
         """
-        Validate a namespace that a file or a widget gives.
+        Validate a namespace from a file or a widget.
 
         Parameters
         ----------
         value
-            Anything that becomes a text; None stands for no namespace.
+            Any value that can be converted to a string; None stands for no namespace.
 
         Returns
         -------
         str
-            The namespace without slashes at its ends.
+            The namespace without leading and trailing slashes.
 
         Raises
         ------
         ValueError
-            It is no valid namespace; the text goes on after the name of the property.
+            The namespace is invalid; the message continues after the name of the property.
 
         """
         text = super().read(value)
@@ -53,14 +53,14 @@ NAMESPACE = Namespace('Namespace', '', 'The robot; it is put before the names of
 
 def below(namespace: str, topic: str) -> str:
     """
-    Put a relative topic name into the namespace of a robot.
+    Place a relative topic name in the namespace of a robot.
 
     Parameters
     ----------
     namespace
-        Without slashes at its ends; '' leaves the name as it is.
+        Without leading and trailing slashes; '' leaves the name unchanged.
     topic
-        The name; an absolute one, with a leading slash, stays as it is.
+        The name; an absolute name, with a leading slash, is unchanged.
 
     """
     if topic.startswith('/') or not namespace:
@@ -70,19 +70,19 @@ def below(namespace: str, topic: str) -> str:
 
 def topic_of_robot(node: Node, namespace: str, topic: str) -> str:
     """
-    Resolve the topic name of a robot to a fully qualified one.
+    Resolve the topic name of a robot to a fully qualified name.
 
     Parameters
     ----------
     node
-        The node whose remappings apply, and whose namespace if there is no other.
+        The node whose remappings apply, and whose namespace is the default.
     namespace, topic
         As for `below`.
 
     Raises
     ------
     ValueError
-        It is no valid topic name; the text is a sentence.
+        The name is not a valid topic name; the message is a full sentence.
 
     """
     return full_topic_name(node, below(namespace, topic))

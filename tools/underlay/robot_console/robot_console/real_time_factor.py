@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How fast the time of a simulated world passes."""
+"""Real-time factor of a simulator."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ['RealTimeFactor']
 
 TOPIC = 'real_time_factor'
 STALE_S = 3.0
-"""Simulators say it once a second: one that is silent for longer is paused, or gone."""
+"""Simulators publish once a second; one that is silent for longer is paused or gone."""
 
 
 class RealTimeFactor:
@@ -36,17 +36,17 @@ class RealTimeFactor:
 
     def factor(self, now_s: float) -> float | None:
         """
-        Get the current real-time factor.
+        Return the current real-time factor.
 
         Parameters
         ----------
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         Returns
         -------
         float or None
-            Simulated seconds per real second; None if nothing has come for 3 s.
+            Simulated seconds per real second; None if no message was received for 3 s.
 
         """
         if self._heard is None or now_s - self._heard[0] > STALE_S:
@@ -54,7 +54,7 @@ class RealTimeFactor:
         return self._heard[1]
 
     def close(self) -> None:
-        """End to listen."""
+        """Destroy the subscription."""
         self._node.destroy_subscription(self._subscription)
 
     def _hear(self, message: Float64) -> None:

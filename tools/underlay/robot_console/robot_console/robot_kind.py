@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a robot is real."""
+"""Distinction between real and simulated robots."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ KINDS = (AUTO, REAL, SIMULATED)
 
 def robot_kind(told: str, clock_publishers: int) -> str:
     """
-    Decide whether a robot is called real or simulated.
+    Determine whether a robot is reported as real or simulated.
 
     Parameters
     ----------
     told
-        One of `KINDS`; anything but `AUTO` is what the user says, and returned as it is.
+        One of `KINDS`; any value except `AUTO` is set by the user, and returned unchanged.
     clock_publishers
-        How many publish `/clock`, as simulators do.
+        The number of publishers of `/clock`; simulators publish it.
 
     Returns
     -------
     str
-        `REAL`, `SIMULATED` or `UNKNOWN`; `AUTO` never leads to `REAL`.
+        `REAL`, `SIMULATED` or `UNKNOWN`; `AUTO` never results in `REAL`.
 
     """
     if told != AUTO:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the console says to a robot, from whichever thread."""
+"""Link from the console to a robot: emergency stop and heartbeat."""
 
 from __future__ import annotations
 
@@ -31,29 +31,29 @@ BEAT_PERIOD_S = 0.08
 
 class RobotLink:
     """
-    The emergency stop of a robot, its answer, and the heartbeat of the console for it.
+    The emergency stop of a robot, its stop state, and the heartbeat of the console.
 
-    What is published goes out at once, from the thread that asks for it. The link stays as long
-    as the node, so that a stop is heard also by those who join late. Nothing is published at the
-    start, since a false would release a stop.
+    Messages are published at once, from the calling thread. The link exists as long as the node,
+    so that late-joining subscribers also receive a stop. Nothing is published at startup, since a
+    message with false would release a stop.
 
     Parameters
     ----------
     node
         The node that publishes and subscribes.
     namespace
-        The namespace of the robot without slashes at its ends; '' for that of the node.
+        The namespace of the robot, without leading and trailing slashes; '' for that of the node.
 
     Attributes
     ----------
     control
-        Who is in control of the robot.
+        The arbitration of the control of the robot.
     stop
-        What is known of the emergency stop.
+        The state of the emergency stop.
     people
-        The names of those who have a small page of the robot open.
+        The names of the users who have a page of the robot open.
     stop_topic, state_topic
-        The topics of the emergency stop (Bool) and of the robot's answer (String).
+        The topics of the emergency stop (Bool) and of the robot's stop state (String).
 
     """
 
@@ -64,27 +64,27 @@ class RobotLink:
         self.stop_topic = below(namespace, 'emergency_stop')
         self.state_topic = below(namespace, 'stop_state')
         self.holds_because = ''
-        """What the robot said last: why it holds still, empty if it moves or says nothing."""
+        """The last reported reason why the robot holds still; empty if it moves or is silent."""
         self._beat_s = -1.0
         self._stop_publisher = node.create_publisher(Bool, self.stop_topic, LATCHED)
         self._beat_publisher = node.create_publisher(
             Bool, below(namespace, 'console_heartbeat'), NEWEST
         )
         quiet = SubscriptionEventCallbacks(use_default_callbacks=False)
-        for qos in (LATCHED, NEWEST):  # as the second one also those are heard who keep nothing
+        for qos in (LATCHED, NEWEST):  # NEWEST also matches volatile and best-effort publishers
             node.create_subscription(Bool, self.stop_topic, self._hear, qos, event_callbacks=quiet)
         node.create_subscription(String, self.state_topic, self._hear_answer, LATCHED)
 
     def say_stop(self, pressed: bool, by: str) -> None:
         """
-        Publish that the emergency stop is pressed or released.
+        Publish a press or release of the emergency stop.
 
         Parameters
         ----------
         pressed
             True to press it.
         by
-            The name of the person who does.
+            The name of the user.
 
         """
         self.stop.say(pressed, by)
@@ -94,13 +94,13 @@ class RobotLink:
         """
         Publish a heartbeat of the console.
 
-        While somebody is in control, those that follow within 0.08 s are left out.
+        While a user is in control, heartbeats within 0.08 s of the last one are dropped.
 
         Parameters
         ----------
         in_control
-            Whether somebody is in control; False tells the robot that control was given back on
-            purpose.
+            Whether a user is in control; False informs the robot that control was released
+            intentionally.
 
         """
         now_s = time.monotonic()
@@ -120,14 +120,14 @@ _LINKS: WeakKeyDictionary[Page, dict[str, RobotLink]] = WeakKeyDictionary()
 
 def link_of(context: Context, namespace: str) -> RobotLink:
     """
-    Get the link to a robot, which all panels of a page share; it is created on first use.
+    Return the link to a robot, which all panels of a page share; it is created on first use.
 
     Parameters
     ----------
     context
         The context of the panel, with its page and its node.
     namespace
-        The namespace of the robot; slashes at its ends do not matter.
+        The namespace of the robot; leading and trailing slashes are ignored.
 
     """
     links = _LINKS.setdefault(context.page, {})

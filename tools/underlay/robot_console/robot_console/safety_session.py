@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stopping a robot from a small page."""
+"""Session of a page with the emergency stop."""
 
 from __future__ import annotations
 
@@ -16,31 +16,31 @@ __all__ = ['Facts', 'SafetySession']
 
 @dataclass(frozen=True)
 class Facts:
-    """What is known of a robot."""
+    """Facts about a robot, for its page."""
 
     kind: str = UNKNOWN
     listeners: tuple[str, ...] = ()
-    """The nodes that hear the emergency stop."""
+    """The nodes that subscribe to the emergency stop."""
     speakers: tuple[str, ...] = ()
-    """The nodes besides this one that may press or release it."""
+    """The other nodes that publish the emergency stop."""
     says: str | None = None
-    """Why the robot holds still, empty if it moves; None if it does not say."""
+    """The reason why the robot holds still, empty if it moves; None if it does not report it."""
     pace: float | None = None
-    """How many seconds of a simulated world pass in a real one; None if nobody says so."""
+    """The real-time factor of the simulator; None if it is not published."""
 
 
 class SafetySession(Session):
     """
-    Presses the emergency stop and releases it, takes control and gives it back.
+    Presses and releases the emergency stop, takes and releases control.
 
     Parameters
     ----------
     link
         The link to the robot.
     person
-        Who has the page open, as others are told.
+        The user of the page, as shown to others.
     facts
-        Returns what is known of the robot at the moment.
+        Returns the current facts about the robot.
 
     """
 
@@ -50,7 +50,7 @@ class SafetySession(Session):
 
     @property
     def actions(self) -> Mapping[str, Callable[[Mapping[str, Any]], None]]:
-        """Return what the page may do."""
+        """Return the actions that the page may request."""
         return {
             'beat': lambda message: None,
             'stop': lambda message: self.link.say_stop(True, self.person),
@@ -60,7 +60,7 @@ class SafetySession(Session):
         }
 
     def state(self) -> dict[str, Any]:
-        """Return what the page is to show."""
+        """Return the state that the page shows."""
         return {**super().state(), 'stop': asdict(self.link.stop), **asdict(self._facts())}
 
     def _release(self, message: Mapping[str, Any]) -> None:

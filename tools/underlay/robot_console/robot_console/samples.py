@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ask for one message of some topics."""
+"""Reception of one message from each of several topics."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TIMEOUT_S = 1.5
 
 class Samples:
     """
-    Gets one message from each of some topics, with a timeout.
+    Receives one message from each of several topics, with a timeout.
 
     Parameters
     ----------
@@ -40,16 +40,16 @@ class Samples:
 
     def ask(self, topics: Collection[str], done: Done) -> None:
         """
-        Request a message from each of some topics; a request from before is dropped.
+        Request a message from each of several topics; a pending request is dropped.
 
-        Call `update` until the answer has come.
+        Call `update` until `done` is called.
 
         Parameters
         ----------
         topics
-            The names, which the constructor's `full_name` resolves.
+            The names, which `full_name` resolves.
         done
-            Called by `update` with the messages by topic; those that did not come within 1.5 s are
+            Called by `update` with the messages by topic; those not received within 1.5 s are
             missing.
 
         """
@@ -60,7 +60,7 @@ class Samples:
         self._listener.listen(self._topics)
 
     def update(self) -> None:
-        """Look if all have come, or it has taken too long."""
+        """Complete the request once all messages have arrived or the timeout has expired."""
         done = self._done
         if done is None:
             return
@@ -70,7 +70,7 @@ class Samples:
             done(self._messages)
 
     def close(self) -> None:
-        """Ask no longer."""
+        """Cancel the request."""
         self._listener.close()
         self._done = None
 

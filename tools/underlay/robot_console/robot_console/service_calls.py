@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Calls of services that block nobody."""
+"""Non-blocking service calls."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 __all__ = ['Answer', 'ServiceCalls']
 
 Answer = Callable[[Any, str], None]
-"""Takes the response and '', or None and a sentence about why there is none."""
+"""Called with the response and '', or with None and an error message."""
 
 
 @dataclass
 class _Call:
-    """A call that has not been answered yet."""
+    """A pending service call."""
 
     client: Any
     request: Any
@@ -31,12 +31,12 @@ class _Call:
 
 class ServiceCalls:
     """
-    Calls services without blocking; `update` ends each call with a response or a reason.
+    Calls services without blocking; `update` completes each call with a response or an error.
 
     Parameters
     ----------
     node
-        The node that has the clients. It is used in its own thread only.
+        The node that owns the clients. It is used in its own thread only.
 
     """
 
@@ -48,33 +48,33 @@ class ServiceCalls:
         self, kind: Any, name: str, request: Any, answer: Answer, timeout_s: float = 5.0
     ) -> None:
         """
-        Call a service as soon as its client has connected.
+        Call a service as soon as its server is available.
 
         Parameters
         ----------
         kind
-            The class of the service.
+            The class of the service type.
         name
             The name of the service.
         request
             An instance of the request class of `kind`.
         answer
-            Called once, with the response, or with None and a sentence on why there is none: at
-            once for an invalid name, otherwise by `update`.
+            Called once, with the response and '', or with None and an error message: at once for
+            an invalid name, otherwise by `update`.
         timeout_s
-            How long to wait for the connection and the response together, in s.
+            The timeout for the connection and the response together, in s.
 
         """
         try:
             client = self._node.create_client(kind, name)
-        except Exception as error:  # rclpy has no one exception for bad names
+        except Exception as error:  # rclpy raises several exceptions for invalid names
             answer(None, f"'{name}' cannot be called: {error}")
             return
         end_s = time.monotonic() + timeout_s
         self._calls.append(_Call(client, request, answer, timeout_s, end_s))
 
     def update(self) -> None:
-        """Go on with what is to be done, and tell what is over."""
+        """Send requests whose servers are available, and complete finished calls."""
         for call in list(self._calls):
             if call.future is None and call.client.service_is_ready():
                 call.future = call.client.call_async(call.request)
@@ -85,13 +85,13 @@ class ServiceCalls:
                 call.answer(*outcome)
 
     def close(self) -> None:
-        """Forget all calls, without an answer."""
+        """Cancel all calls without a response."""
         for call in self._calls:
             self._node.destroy_client(call.client)
         self._calls.clear()
 
     def _outcome(self, call: _Call) -> tuple[Any, str] | None:
-        """Return what a call ended with, or None if it goes on."""
+        """Return the result of a call, or None while it is pending."""
         name, future = call.client.srv_name, call.future
         if future is not None and future.done():
             error = future.exception()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What talks to one small page."""
+"""Session of a control page."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ __all__ = ['Session']
 
 class Session:
     """
-    What talks to one small page in a browser.
+    The session of one control page in a browser.
 
-    A page sends what it wants, as `{'do': ...}`, and gets the state of things as an answer. What
-    it may do are the methods that `actions` names. All is done in the thread of the page.
+    A page sends requests as `{'do': ...}`, and receives the state in response. The permitted
+    requests are the methods in `actions`. Everything runs in the thread of the page server.
 
     Parameters
     ----------
     link
-        The link to the robot that the page is about.
+        The link to the robot of the page.
     person
-        Who has the page open, as others are told.
+        The user of the page, as shown to others.
 
     """
 
@@ -34,21 +34,21 @@ class Session:
         self._farewells = 0
         self._heard_s = time.monotonic()
         self.silent_s = 0.0
-        """How long nothing had come from the page before its last message."""
+        """The time without a message from the page before its last message."""
 
     @property
     def actions(self) -> Mapping[str, Callable[[Mapping[str, Any]], None]]:
-        """Return what the page may do."""
+        """Return the actions that the page may request."""
         raise NotImplementedError
 
     @property
     def is_watched(self) -> bool:
-        """Tell whether the page must give signs of life."""
+        """Whether the watchdog monitors the page."""
         return self.link.control.holds(self)
 
     def take(self, message: Any) -> dict[str, Any]:
         """
-        Run the action that the page asks for, then publish the heartbeat if it is due.
+        Run the action that the page requests, then publish the heartbeat if it is due.
 
         Parameters
         ----------
@@ -58,12 +58,12 @@ class Session:
         Returns
         -------
         dict
-            The state that the page is to show, which can be written as JSON.
+            The state that the page shows, serializable as JSON.
 
         Raises
         ------
         ValueError
-            There is no such action, or it rejects what the message contains.
+            There is no such action, or it rejects the contents of the message.
 
         """
         do = message.get('do') if isinstance(message, dict) else None
@@ -77,20 +77,20 @@ class Session:
         return self.state()
 
     def state(self) -> dict[str, Any]:
-        """Return what the page is to show."""
+        """Return the state that the page shows."""
         return {'you': self.person, 'control': self._control()}
 
     def lose(self) -> None:
-        """Take note that the page is gone, or gives no signs of life."""
+        """Release control as lost, since the page is gone or its watchdog has expired."""
         self.link.control.lose(self)
 
     def give(self) -> None:
-        """Give back the control, and tell the robot that this is on purpose."""
+        """Release control, and inform the robot that this is intentional."""
         if self.link.control.give(self):
             self._farewells = 3
 
     def _beat(self) -> None:
-        """Tell the robot that the page lives; a message may be lost, so each is repeated."""
+        """Publish a heartbeat; the release of control is repeated, since messages may be lost."""
         if self.link.control.holds(self):
             self.link.beat(True)
         elif self._farewells and not self.link.control.person:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small pages inside of the page, with connections of their own."""
+"""Embedded pages of panels, with their own connections."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from websockets.asyncio.server import ServerConnection
 __all__ = ['SmallPage', 'Talks', 'page_text']
 
 COMMON = ('common.css', 'link.js', 'live.css', 'live.js')
-# The page dims and blocks its widgets when its own connection is lost; these have another one.
+# The main page dims and blocks its widgets when its connection is lost; embedded pages have
+# another connection.
 STYLE = 'display: block; width: 100%; border: 0; color-scheme: dark; pointer-events: auto'
 # As wide as widgets of HTML: without the margins, and beyond the 95 %, of those of Markdown.
 WIDE = (
@@ -26,11 +27,11 @@ WIDE = (
 
 
 class Talks(Protocol):
-    """What talks to those who have a small page open."""
+    """Server of the WebSocket connections of an embedded page."""
 
     async def talk(self, connection: ServerConnection) -> None:
         """
-        Serve a connection of the page until it is closed, in the thread of the page.
+        Serve a connection of the page until it is closed, in the thread of the page server.
 
         Parameters
         ----------
@@ -40,12 +41,12 @@ class Talks(Protocol):
         """
 
     def end(self) -> None:
-        """End all talks, from another thread."""
+        """Close all connections; called from another thread."""
 
 
 class SmallPage:
     """
-    The HTML page of a panel, embedded among the widgets as a frame, with a path of its own.
+    The HTML page of a panel, embedded among the widgets as an iframe, with its own path.
 
     Parameters
     ----------
@@ -54,20 +55,20 @@ class SmallPage:
     name
         The name of the page: that of its HTML file, and the first part of its path.
     namespace
-        The namespace of the robot, the rest of the path; '' if there is one robot.
+        The namespace of the robot, the rest of the path; '' if there is only one robot.
     settings
-        What the page knows when it is loaded, as for `page_text`.
+        The settings available to the page when it loads, as for `page_text`.
     connections
-        What serves the WebSocket connections of the page; it is ended together with the page.
+        The server of the WebSocket connections of the page; it is closed together with the page.
     order
-        Where the frame is among the widgets; None for after those that are there.
+        The order of the iframe among the widgets; None to append it.
     package
-        The package that has the HTML file.
+        The package that contains the HTML file.
 
     Raises
     ------
     ValueError
-        There is such a page for this robot already.
+        Such a page already exists for this robot.
 
     """
 
@@ -96,7 +97,7 @@ class SmallPage:
         self._frame = context.gui.add_markdown(_frame_text(self._path, name), order=order)
 
     def close(self) -> None:
-        """End what it does, and remove it."""
+        """Remove the page, and close its connections."""
         self._context.page.routes.remove(self._path)
         self._connections.end()
         self._frame.remove()
@@ -104,16 +105,16 @@ class SmallPage:
 
 def page_text(name: str, settings: dict[str, Any], package: str = 'robot_console') -> str:
     """
-    Read the HTML of a small page, with shared styles and scripts and its settings filled in.
+    Read the HTML of an embedded page, and insert shared styles, scripts and settings.
 
     Parameters
     ----------
     name
         The name of the file in the folder `web`, without `.html`.
     settings
-        What the scripts of the page find as `settings`; it must be possible to write it as JSON.
+        The value of `settings` in the scripts of the page; must be serializable as JSON.
     package
-        The package that has the file.
+        The package that contains the file.
 
     """
     folder = files('robot_console') / 'web'
@@ -125,10 +126,10 @@ def page_text(name: str, settings: dict[str, Any], package: str = 'robot_console
 
 def _frame_text(path: str, title: str) -> str:
     """
-    Return the Markdown of a small page, which loads once.
+    Build the Markdown of an embedded page that loads only once.
 
-    What is added as HTML is made anew, and so loads again, whenever widgets come or go beside
-    it; elements of Markdown stay.
+    HTML widgets are recreated, and thus reloaded, whenever adjacent widgets are added or removed;
+    elements of Markdown widgets remain.
     """
     frame = f'<iframe src="{escape(quote(path))}" title="{escape(title)}" style="{STYLE}">'
     return f'<div style="{WIDE}">{frame}</iframe></div>'

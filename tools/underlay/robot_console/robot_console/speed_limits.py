@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How fast a robot is driven."""
+"""Speed limits of a robot."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ['STILL', 'SpeedLimits', 'Velocity']
 
 
 class Velocity(NamedTuple):
-    """A velocity of the base of a robot."""
+    """Velocity of the base of a robot."""
 
     forward_m_s: float = 0.0
     left_m_s: float = 0.0
@@ -23,7 +23,7 @@ STILL = Velocity()
 
 @dataclass(frozen=True)
 class SpeedLimits:
-    """The greatest speeds; zero if the robot cannot move so."""
+    """Maximum speeds; zero for directions in which the robot cannot move."""
 
     forward_m_s: float
     sideways_m_s: float
@@ -31,27 +31,27 @@ class SpeedLimits:
 
     def velocity(self, stick: Any, share: Any) -> Velocity:
         """
-        Scale the deflection of a stick to a velocity of the base.
+        Scale the deflection of the stick to a velocity of the base.
 
-        Numbers beyond their range are clamped.
+        Numbers outside their range are clamped.
 
         Parameters
         ----------
         stick
-            Three numbers from -1 to 1: forward, to the left, and turning to the left.
+            Three numbers from -1 to 1: forward, left, and turn to the left.
         share
-            Two numbers from 0 to 1: the share of the limits of moving, and of the limit of
-            turning, that the person has chosen.
+            Two numbers from 0 to 1: the fractions of the linear and of the angular speed limits
+            that the user has selected.
 
         Returns
         -------
         Velocity
-            In m/s and rad/s, in the frame of the base.
+            In m/s and rad/s, in the base frame.
 
         Raises
         ------
         ValueError
-            An argument is no list of so many finite numbers.
+            An argument is not a list of the required number of finite numbers.
 
         """
         forward, left, turn = _numbers(stick, 3, -1.0)
@@ -64,11 +64,11 @@ class SpeedLimits:
 
 
 def _numbers(given: Any, count: int, least: float) -> list[float]:
-    """Return numbers from the least one to 1, or raise ValueError."""
+    """Validate numbers and clamp them to the range, or raise ValueError."""
     if not isinstance(given, list) or len(given) != count:
         raise ValueError(f'must be {count} numbers, and not {given}')
     for each in given:
         is_number = isinstance(each, (int, float)) and not isinstance(each, bool)
-        if not is_number or not -math.inf < each < math.inf:  # a whole number may fit no float
+        if not is_number or not -math.inf < each < math.inf:  # a large integer may not fit a float
             raise ValueError(f'must be finite numbers, and not {given}')
     return [float(max(least, min(1.0, each))) for each in given]

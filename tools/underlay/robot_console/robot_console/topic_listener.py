@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hear topics whose types are only known once somebody publishes them."""
+"""Subscriptions to topics whose types are unknown until they are published."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ __all__ = ['TopicListener']
 Take = Callable[[str, Any, float], None]
 FoundType = Callable[[str, str], None]
 DEPTH = 200
-"""More than most topics say in a tenth of a second; what is older is lost."""
+"""More messages than most topics publish in 0.1 s; older messages are lost."""
 
 
 class TopicListener:
     """
     Subscribes to topics as soon as their types are known; `take_all` passes on their messages.
 
-    Times are those at which a message came to this machine.
+    Times are those of reception on this machine.
 
     Parameters
     ----------
     node
         The node that subscribes.
     full_name
-        Resolves a topic name; a ValueError that it raises becomes the reason of that topic.
+        Resolves a topic name; a ValueError that it raises becomes the error of that topic.
     found
-        Called with a topic and the name of its type when it is subscribed.
+        Called with a topic and the name of its type when it is subscribed to.
     take
-        Called with a topic, a message, and the time at which it came (`time.time`, in s).
+        Called with a topic, a message and its time of reception (`time.time`, in s).
 
     """
 
@@ -51,17 +51,17 @@ class TopicListener:
         """
         Subscribe to these topics only.
 
-        Call it again now and then: topics that nobody published before are subscribed then.
+        Call it periodically: topics without publishers are subscribed to once they are published.
 
         Parameters
         ----------
         topics
-            The names, which the constructor's `full_name` resolves.
+            The names, which `full_name` resolves.
 
         Returns
         -------
         dict
-            By topic, a sentence on why nothing comes; topics without trouble are missing.
+            Messages that explain why nothing is received, by topic; working topics are missing.
 
         """
         for topic in set(self._heard).difference(topics):
@@ -74,7 +74,7 @@ class TopicListener:
         return reasons
 
     def take_all(self) -> None:
-        """Pass on what has come since the last time, in the order in which it came."""
+        """Deliver the messages received since the last call, in order of reception."""
         news = [
             (time_s, topic, message)
             for topic, heard in self._heard.items()
@@ -84,7 +84,7 @@ class TopicListener:
             self._take(topic, message, time_s)
 
     def close(self) -> None:
-        """Hear nothing any longer."""
+        """Destroy all subscriptions."""
         self.listen(())
 
     def _subscribe_all(self, topics: Collection[str]) -> dict[str, str]:
@@ -99,7 +99,7 @@ class TopicListener:
         return reasons
 
     def _subscribe(self, topic: str, name: str, types: list[str]) -> None:
-        """Subscribe a topic, or raise ValueError with the reason."""
+        """Subscribe to a topic, or raise ValueError with the reason."""
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
         if not types:

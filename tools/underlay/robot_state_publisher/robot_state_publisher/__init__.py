@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish where the links of a robot are, from its URDF and its joint states."""
+"""Publish the link transforms of a robot, computed from its URDF and its joint states."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot description that is given as a file on the command line."""
+"""Loading of a robot description from a file given on the command line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def file_argument(program: str, words: list[str]) -> str | None:
     program
         The name of the program, for the error message.
     words
-        The arguments that are not for ROS.
+        The non-ROS arguments.
 
     Returns
     -------
@@ -28,7 +28,7 @@ def file_argument(program: str, words: list[str]) -> str | None:
     Raises
     ------
     ValueError
-        There are several arguments, or options.
+        There is more than one argument, or an option.
 
     """
     if len(words) > 1 or any(word.startswith('-') for word in words):
@@ -41,7 +41,7 @@ def file_argument(program: str, words: list[str]) -> str | None:
 
 def parameters_from_file(file: str | None) -> list[Parameter]:
     """
-    Read a URDF file as the parameter robot_description.
+    Read a URDF file into the parameter robot_description.
 
     Parameters
     ----------

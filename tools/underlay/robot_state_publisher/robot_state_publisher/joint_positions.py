@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The names and positions of a joint state, if it can be used."""
+"""Validation of the names and positions of a joint state."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ __all__ = ['UnusableStateError', 'usable_positions']
 
 
 class UnusableStateError(ValueError):
-    """Says why a joint state is left out."""
+    """Raised, with the reason, if a joint state is rejected."""
 
 
 def usable_positions(
     names: Sequence[str], positions: Sequence[float]
 ) -> tuple[tuple[str, ...], Sequence[float]]:
     """
-    Drop the positions of a joint state that are not finite, together with their names.
+    Drop the non-finite positions of a joint state, together with their names.
 
-    A source writes NaN for what it does not know.
+    Sources publish NaN for unknown positions.
 
     Parameters
     ----------
@@ -31,12 +31,12 @@ def usable_positions(
     Returns
     -------
     tuple
-        The remaining names and positions, in their order.
+        The remaining names and positions, in the original order.
 
     Raises
     ------
     UnusableStateError
-        There are not as many positions as names.
+        The numbers of positions and names differ.
 
     """
     if len(positions) != len(names):

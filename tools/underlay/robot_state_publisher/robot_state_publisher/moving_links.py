@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The links that a list of joint positions moves."""
+"""Forward kinematics of the links moved by a list of joint positions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['MovingLinks']
 
 @dataclass(frozen=True)
 class _Drive:
-    """Where in the list the position of a joint is, and what to make of it."""
+    """Mapping from an index in the list of positions to the position of a joint."""
 
     joint: Joint
     index: int
@@ -26,22 +26,22 @@ class _Drive:
 
 class MovingLinks:
     """
-    Forward kinematics of each joint that a list of joint names drives.
+    Forward kinematics of the joints driven by a list of joint names.
 
-    A joint that mimics another one follows it, through any number of joints, unless it is itself
-    in the list.
+    A mimic joint follows its leader, also through a chain of mimic joints, unless it is itself in
+    the list.
 
     Parameters
     ----------
     model
         The robot.
     names
-        The joints whose positions will be given, in that order; unknown ones drive nothing.
+        The joints whose positions will be given, in that order; unknown names are ignored.
 
     Attributes
     ----------
     joints
-        The joints that they drive, in the order of the URDF.
+        The driven joints, in the order of the URDF.
 
     """
 
@@ -54,12 +54,12 @@ class MovingLinks:
 
     def poses(self, positions: Sequence[float]) -> list[Pose]:
         """
-        Compute the pose of the child link of each joint in its parent link.
+        Compute the pose of the child link of each joint relative to its parent link.
 
         Parameters
         ----------
         positions
-            The positions of the names, in their order, in rad or m.
+            The joint positions, in the order of the names, in rad or m.
 
         Returns
         -------
@@ -69,7 +69,7 @@ class MovingLinks:
         Raises
         ------
         UnusableStateError
-            A mimic joint would be at a position that is not finite.
+            The position of a mimic joint would not be finite.
 
         """
         values = [
@@ -81,7 +81,7 @@ class MovingLinks:
 
 
 def _beyond(joints: Sequence[Joint], values: Sequence[float]) -> str:
-    """Say which joints would be beyond all numbers."""
+    """Format an error message that names the joints with non-finite positions."""
     names = [f"'{joint.name}'" for joint, value in zip(joints, values) if not isfinite(value)]
     return (
         f'A joint state is left out, as it leads to positions of {", ".join(names)} that are '
@@ -90,7 +90,7 @@ def _beyond(joints: Sequence[Joint], values: Sequence[float]) -> str:
 
 
 def _drives(model: RobotModel, index_of: dict[str, int]) -> list[_Drive]:
-    """Return what drives each joint that is named or follows one that is."""
+    """Return the drive of each joint that is named or mimics a named joint."""
     mimics = model.mimics
     drives = []
     for joint in model.moving_joints:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When each joint was published last: not more often than the frequency asks for."""
+"""Rate limit for the publication of joints."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ __all__ = ['PublishTimes']
 
 S = 1_000_000_000
 JUMP_NS = S
-"""Stamps of several sources may be somewhat out of order; more than this is a new beginning."""
+"""Tolerance for out-of-order stamps of several sources; a larger step back is a time jump."""
 SLACK = 0.1
-"""A source with that very frequency is somewhat uneven; it is not to lose every other state."""
+"""Tolerance for jitter, so that a source at this frequency does not lose every other state."""
 
 
 class PublishTimes:
@@ -21,8 +21,8 @@ class PublishTimes:
     Parameters
     ----------
     frequency_hz
-        The highest rate for a joint, in Hz; an interval may be 10 % shorter, as sources are
-        uneven.
+        The maximum rate for a joint, in Hz; intervals may be 10 % shorter, to tolerate jitter of
+        the sources.
 
     """
 
@@ -32,12 +32,12 @@ class PublishTimes:
 
     def went_back(self, names: Iterable[str], stamp_ns: int) -> bool:
         """
-        Check whether a stamp is more than 1 s before what was published: time has begun anew.
+        Check whether a stamp is more than 1 s older than the published one: time has jumped back.
 
         Parameters
         ----------
         names
-            The joints of the state; the one that was published longest ago counts.
+            The joints of the state; the least recently published one is decisive.
         stamp_ns
             The stamp of the state, in ns.
 
@@ -45,12 +45,12 @@ class PublishTimes:
         return stamp_ns < self._oldest(names) - JUMP_NS
 
     def forget(self) -> None:
-        """Begin anew: the next joint states are due, whatever their stamps."""
+        """Reset the rate limit; the next joint states are due, whatever their stamps."""
         self._last_ns.clear()
 
     def is_due(self, names: Iterable[str], stamp_ns: int) -> bool:
         """
-        Check whether one of the joints has not been published for the shortest interval.
+        Check whether the minimum interval has elapsed for at least one of the joints.
 
         Parameters
         ----------
@@ -64,7 +64,7 @@ class PublishTimes:
 
     def note(self, names: Iterable[str], stamp_ns: int) -> None:
         """
-        Record that joints are published.
+        Record the publication of joints.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is published about one robot description."""
+"""Transforms computed for one robot description."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from urdf.kinematics import joint_motion
 __all__ = ['PublishedRobot']
 
 MAX_LISTS = 64
-"""So many lists of names are remembered: each source of joint states has one, as a rule."""
+"""Maximum number of cached name lists; usually, each source of joint states has one."""
 
 
 class PublishedRobot:
@@ -31,14 +31,14 @@ class PublishedRobot:
     model
         The robot.
     settings
-        The parameters of the node, of which the rate, the use of stamps and the prefix count.
+        The parameters of the node, of which the rate, `ignore_timestamp` and the prefix are used.
 
     Attributes
     ----------
     times
         The rate limit.
     watch
-        What is missing or wrong in the joint states.
+        Check for missing or unknown joints in the joint states.
 
     """
 
@@ -51,12 +51,12 @@ class PublishedRobot:
 
     def fixed_transforms(self, stamp: Time) -> TFMessage:
         """
-        Build the static transforms: of fixed joints, and of planar ones at position 0.
+        Build the static transforms: those of fixed joints, and of planar joints at position 0.
 
         Parameters
         ----------
         stamp
-            The stamp of all of them.
+            The stamp of all transforms.
 
         """
         joints = [joint for joint in self.model.joints if joint.kind in ('fixed', 'planar')]
@@ -81,13 +81,13 @@ class PublishedRobot:
         Returns
         -------
         TFMessage or None
-            None if it is too early for them, or the names drive no joint. The message is filled
-            anew by the next state with the same names.
+            None if the rate limit applies, or the names drive no joint. The message is reused for
+            the next state with the same names.
 
         Raises
         ------
         UnusableStateError
-            A mimic joint would be at a position that is not finite.
+            The position of a mimic joint would not be finite.
 
         """
         stamp_ns = stamp.sec * S + stamp.nanosec
@@ -104,12 +104,12 @@ class PublishedRobot:
         Parameters
         ----------
         stamp
-            The stamp of the state; 0 stands for none.
+            The stamp of the state; 0 means that it has none.
 
         Raises
         ------
         UnusableStateError
-            The state has no stamp, but needs one.
+            The state lacks the required stamp.
 
         """
         if not (self._settings.ignore_timestamp or stamp.sec or stamp.nanosec):
@@ -144,7 +144,7 @@ class PublishedRobot:
 
     def knows(self, names: tuple[str, ...]) -> bool:
         """
-        Check whether a joint state with the same list of names was published before.
+        Check whether a list of joint names is cached from an earlier joint state.
 
         Parameters
         ----------
@@ -155,7 +155,7 @@ class PublishedRobot:
         return names in self._lists
 
     def _remember(self, names: tuple[str, ...]) -> tuple[MovingLinks, TransformMessages]:
-        """Prepare for a list of names that has not come before."""
+        """Build the kinematics and the messages for a new list of names."""
         if len(self._lists) >= MAX_LISTS:
             self._lists.clear()
         links = MovingLinks(self.model, names)

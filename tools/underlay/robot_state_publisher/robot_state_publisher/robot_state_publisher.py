@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that publishes where the links of a robot are."""
+"""The node that publishes the transforms of the links of a robot."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE_S = 5.0
 REPEAT_S = 10.0
 JUMPS_S = 60.0
-"""Two simulators in a domain make the time jump with every message of /clock."""
+"""Log interval for time jumps; two simulators in a domain cause one with every /clock message."""
 TIME_JUMPED = (
     'The time has jumped back: all joints are published anew. If it goes on to do so, two '
     'simulators publish /clock.'
@@ -37,12 +37,12 @@ TIME_JUMPED = (
 
 class RobotStatePublisher(Node):
     """
-    Publishes the robot description, its fixed transforms, and the others as joints move.
+    Publishes the robot description, its static transforms, and those of moving joints.
 
     Parameters
     ----------
     file
-        A file with the URDF; by default the parameter robot_description has the text.
+        A URDF file; by default, the URDF is read from the parameter robot_description.
 
     Raises
     ------
@@ -76,7 +76,7 @@ class RobotStatePublisher(Node):
         self._publish_robot()
 
     def _first_model(self, file: str | None) -> RobotModel:
-        """Return the robot that the node starts with, or raise ValueError."""
+        """Return the initial robot model, or raise ValueError."""
         if not self._settings.robot_description.strip() and file is None:
             raise ValueError(
                 "Node 'robot_state_publisher' needs the parameter robot_description, the text of "
@@ -86,7 +86,7 @@ class RobotStatePublisher(Node):
         return self._settings.model(file or 'robot_description')
 
     def _publish_robot(self) -> None:
-        """Publish what does not depend on joint states, and wait for these."""
+        """Publish the description and static transforms, and start to wait for joint states."""
         robot, logger = self._robot, self.get_logger()
         logger.info(robot.model.describe())
         for joint in robot.model.joints:
@@ -99,7 +99,7 @@ class RobotStatePublisher(Node):
         self._patience.reset()
 
     def _on_joint_state(self, message: JointState) -> None:
-        """Publish the transforms of what has moved."""
+        """Publish the transforms of the joints in the message."""
         try:
             transforms = self._transforms(message)
         except UnusableStateError as reason:
@@ -109,7 +109,7 @@ class RobotStatePublisher(Node):
             self._tf.publish(transforms)
 
     def _transforms(self, message: JointState) -> TFMessage | None:
-        """Return the transforms that are due, or raise UnusableStateError."""
+        """Compute the transforms that are due, or raise UnusableStateError."""
         names, positions = usable_positions(message.name, message.position)
         self._robot.require_stamp(message.header.stamp)
         if len(names) < len(message.name):
@@ -120,7 +120,7 @@ class RobotStatePublisher(Node):
         return self._robot.transforms(names, positions, message.header.stamp)
 
     def _tell_about(self, names: Sequence[str]) -> None:
-        """Log what is remarkable about names that have not come together before."""
+        """Log misspelt names in a new list of names, and whether all joints have a state now."""
         watch = self._robot.watch
         self._warn(watch.misspelt(names))
         relief = watch.relief()
@@ -132,13 +132,13 @@ class RobotStatePublisher(Node):
             self.get_logger().warning(sentence)
 
     def _notice_time(self, message: JointState, names: Sequence[str]) -> None:
-        """Begin anew if stamps have jumped back, and say so."""
+        """Reset the rate limit if stamps have jumped back, and log it."""
         notice = self._robot.notice_time(names, message.header.stamp)
         if notice:
             self.get_logger().warning(notice, throttle_duration_sec=REPEAT_S)
 
     def _on_patience_end(self) -> None:
-        """Name the joints without a state, once for each robot description."""
+        """Log the joints without a state, once per robot description."""
         self._patience.cancel()
         topic = self._states.topic_name
         complaint = self._robot.watch.complaint(self.count_publishers(topic), topic)
@@ -146,12 +146,12 @@ class RobotStatePublisher(Node):
             self.get_logger().warning(complaint)
 
     def _on_time_jump(self, jump: TimeJump) -> None:
-        """Begin anew when the time of the simulator has jumped back."""
+        """Reset the rate limit when simulation time has jumped back."""
         self._robot.times.forget()
         self.get_logger().warning(TIME_JUMPED, throttle_duration_sec=JUMPS_S)
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
-        """Accept changes only if the whole robot can be published as they say."""
+        """Accept parameter changes only if the resulting robot can be published."""
         try:
             self._settings.changed(_values(changes)).model()
         except ValueError as error:
@@ -159,7 +159,7 @@ class RobotStatePublisher(Node):
         return SetParametersResult(successful=True)
 
     def _swap(self, changes: list[Parameter]) -> None:
-        """Publish as accepted changes say."""
+        """Apply accepted parameter changes."""
         settings = self._settings.changed(_values(changes))
         if settings != self._settings:
             self._settings = settings
@@ -168,10 +168,10 @@ class RobotStatePublisher(Node):
 
 
 def _declare(node: Node) -> Settings:
-    """Declare the parameters and return their first values."""
+    """Declare the parameters and return their initial values."""
     settings = Settings()
     for name, text in DESCRIPTIONS.items():
-        # A frequency may be written without a point.
+        # A frequency may be given as an integer.
         descriptor = ParameterDescriptor(
             description=text, dynamic_typing=name == 'publish_frequency'
         )
@@ -180,7 +180,7 @@ def _declare(node: Node) -> Settings:
 
 
 def _warn_of_unknown(node: Node) -> None:
-    """Log which given parameters nothing takes; rclpy has no public way to ask for them."""
+    """Log unknown parameters; rclpy has no public API for parameter overrides."""
     given = getattr(node, '_parameter_overrides', {})
     for sentence in unknown_parameters(given, DESCRIPTIONS):
         node.get_logger().warning(sentence)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of robot_state_publisher, checked as a whole."""
+"""Validation of the parameters of robot_state_publisher."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ DESCRIPTIONS = {
 
 @dataclass(frozen=True)
 class Settings:
-    """What the node is to do."""
+    """Settings of the node."""
 
     robot_description: str = ''
     publish_frequency: float = 20.0
@@ -30,12 +30,12 @@ class Settings:
 
     def changed(self, values: Mapping[str, Any]) -> Settings:
         """
-        Return a copy with other values.
+        Return a copy with new values.
 
         Parameters
         ----------
         values
-            Values of parameters by name; names of other parameters are ignored.
+            Parameter values by name; unknown names are ignored.
 
         """
         known = {field.name for field in fields(self)}
@@ -48,7 +48,7 @@ class Settings:
         Parameters
         ----------
         source
-            Where the description is from, for error messages: a file, or the name of a parameter.
+            The origin of the description, for error messages: a file or the name of a parameter.
 
         Raises
         ------

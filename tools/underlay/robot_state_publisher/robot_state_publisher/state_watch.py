@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which joints have had a state, and which names belong to no joint."""
+"""Detection of joints without a state and of misspelt joint names."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['StateWatch']
 
 class StateWatch:
     """
-    Finds joints without a state and misspelt joint names, each of which is reported once.
+    Detects joints without a state and misspelt joint names, each of which is reported once.
 
     Parameters
     ----------
@@ -32,15 +32,15 @@ class StateWatch:
 
     @property
     def missing(self) -> list[str]:
-        """Return the joints without a state; those that mimic others need none."""
+        """Return the joints without a state; mimic joints need none."""
         return [name for name in self._needed if name not in self._seen]
 
     def misspelt(self, names: Iterable[str]) -> Iterator[str]:
         """
         Record the names of a joint state, and warn of those that resemble a joint without a state.
 
-        Names that resemble no such joint belong to other robots. Names are recorded when the first
-        warning is asked for.
+        Names that resemble no such joint belong to other robots. Names are recorded on the first
+        iteration.
 
         Parameters
         ----------
@@ -50,7 +50,7 @@ class StateWatch:
         Yields
         ------
         str
-            A warning for each misspelt name that has not come before.
+            A warning for each misspelt name that is new.
 
         """
         new = [name for name in names if name not in self._seen]
@@ -76,7 +76,7 @@ class StateWatch:
         Yields
         ------
         str
-            The warnings, by name.
+            The warnings, sorted by name.
 
         """
         new = self._names.intersection(names) - self._unknown
@@ -94,7 +94,7 @@ class StateWatch:
         Parameters
         ----------
         publishers
-            How many publishers the topic has.
+            The number of publishers of the topic.
         topic
             The topic of the joint states.
 
@@ -115,7 +115,7 @@ class StateWatch:
         )
 
     def relief(self) -> str | None:
-        """Return a sentence if all joints have a state now, but had none when it was said."""
+        """Format the message that all joints have a state now, if some were reported before."""
         if not self._complained or self.missing:
             return None
         self._complained = False
@@ -123,19 +123,19 @@ class StateWatch:
 
 
 def _all(needed: int) -> str:
-    """Return the beginning of a sentence on all joints."""
+    """Format the start of a message about all joints."""
     return 'The only joint has' if needed == 1 else f'All {needed} joints have'
 
 
 def _some(missing: int, needed: int) -> str:
-    """Return the beginning of a sentence on those that are missing."""
+    """Format the start of a message about the missing joints."""
     if missing == needed:
         return _all(needed)
     return f'{missing} of {needed} joints ' + ('has' if missing == 1 else 'have')
 
 
 def _sources(publishers: int, topic: str) -> str:
-    """Say who should have sent them."""
+    """Format the number of publishers of the joint states."""
     if publishers == 0:
         return f'Nobody publishes {topic}.'
     nodes = 'one publisher' if publishers == 1 else f'{publishers} publishers'

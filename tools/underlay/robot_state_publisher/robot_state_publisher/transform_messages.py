@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages for tf that are made once and filled again and again."""
+"""Reusable transform messages for tf."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ __all__ = ['TransformMessages']
 
 class TransformMessages:
     """
-    A message with the transforms of some joints, which is built once and filled again and again.
+    A message with the transforms of a set of joints, which is built once and reused.
 
     Parameters
     ----------
     joints
         The joints, in the order of the transforms.
     frame_prefix
-        What precedes the names of all frames.
+        The prefix of all frame names.
 
     Attributes
     ----------
@@ -51,12 +51,13 @@ class TransformMessages:
         stamp
             The stamp of all transforms.
         poses
-            Pose of the child link of each joint in its parent link, in the order of the joints.
+            Pose of the child link of each joint relative to its parent link, in the order of the
+            joints.
 
         Returns
         -------
         TFMessage
-            The same message at each call.
+            The same message object on each call.
 
         """
         self._stamp.sec, self._stamp.nanosec = stamp.sec, stamp.nanosec
@@ -66,7 +67,7 @@ class TransformMessages:
 
 
 def _transform(joint: Joint, frame_prefix: str, stamp: Time) -> TransformStamped:
-    """Return the message of one joint; all share the stamp."""
+    """Create the message of one joint; all messages share the stamp."""
     transform = TransformStamped(child_frame_id=frame_prefix + joint.child)
     transform.header.frame_id = frame_prefix + joint.parent
     transform.header.stamp = stamp

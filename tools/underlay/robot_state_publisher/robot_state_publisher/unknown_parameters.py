@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters that were given to a node but mean nothing to it."""
+"""Detection of parameters that a node does not declare."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ def unknown_parameters(
     given: Iterable[str], known: Collection[str], prefixes: tuple[str, ...] = ()
 ) -> list[str]:
     """
-    Format a warning for each parameter that the node does not know.
+    Format a warning for each parameter that the node does not declare.
 
     Parameters
     ----------
     given
         The names of the parameters that were given to the node.
     known
-        The names that it declares.
+        The names that the node declares.
     prefixes
-        Beginnings of names that are allowed, besides those of ROS.
+        Allowed prefixes of names, in addition to those of ROS.
 
     """
     return [

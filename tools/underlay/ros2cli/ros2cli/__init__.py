@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The frame of the `ros2` command line: commands, verbs, exit status and the graph node."""
+"""The framework of the `ros2` command line: commands, verbs, exit status and the graph node."""

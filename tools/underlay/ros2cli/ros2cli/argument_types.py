@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers on the command line."""
+"""Argument types for numbers and names on the command line."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import argparse
 
 def positive_int(text: str) -> int:
     """
-    Parse a positive integer of the command line.
+    Parse a positive integer argument.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Returns
     -------
@@ -23,7 +23,7 @@ def positive_int(text: str) -> int:
     Raises
     ------
     argparse.ArgumentTypeError
-        The text is no such number.
+        The text is not such a number.
 
     """
     try:
@@ -37,12 +37,12 @@ def positive_int(text: str) -> int:
 
 def positive_number(text: str) -> float:
     """
-    Parse a finite positive number of the command line.
+    Parse a finite positive number argument.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Returns
     -------
@@ -52,7 +52,7 @@ def positive_number(text: str) -> float:
     Raises
     ------
     argparse.ArgumentTypeError
-        The text is no such number.
+        The text is not such a number.
 
     """
     try:
@@ -66,12 +66,12 @@ def positive_number(text: str) -> float:
 
 def whole_number(text: str) -> int:
     """
-    Parse a non-negative integer of the command line, written in digits only.
+    Parse a non-negative integer argument, written in digits only.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def whole_number(text: str) -> int:
     Raises
     ------
     argparse.ArgumentTypeError
-        The text is no such number.
+        The text is not such a number.
 
     """
     if not (text.isascii() and text.isdigit()):
@@ -91,12 +91,12 @@ def whole_number(text: str) -> int:
 
 def node_name(text: str) -> str:
     """
-    Check the name of a node, without its namespace, on the command line.
+    Validate a node name argument, without namespace.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The entry of the `ros2` command line."""
+"""Entry point of the `ros2` command line."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
 
 def run() -> NoReturn:
-    """Run the command of this process and end it; Ctrl-C no longer disturbs the end."""
+    """Run the command of this process and exit; Ctrl-C does not disturb the exit."""
     status = main()
     signals = sys.modules.get('signal')
-    if signals is not None:  # without it nothing is loaded that takes time at the end
+    if signals is not None:  # without it, no loaded module takes time at exit
         signals.signal(signals.SIGINT, signals.SIG_IGN)
     end(status)
 
@@ -40,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv
-        The words after `ros2`; those of this process if None.
+        The arguments after `ros2`; those of this process if None.
 
     """
     words = list(sys.argv[1:] if argv is None else argv)
@@ -78,7 +78,7 @@ def create_parser(
     Parameters
     ----------
     argv
-        The words after `ros2`, which name the command.
+        The arguments after `ros2`, which name the command.
     parser_class
         The class of the parser and of all its subparsers.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands that the underlay installs; a static table, so that nothing is scanned."""
+"""Static table of the commands of the underlay, so that no entry points are scanned."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Execute modules when one of their names is first used.
+Deferred import: execute modules when one of their names is first used.
 
-Libraries import all they may ever use. What a command nearly never uses of that takes a third of
-the time in which it starts.
+Libraries import all that they may ever use. The parts that a command hardly ever uses take a
+third of its startup time.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from typing import Any
 
 def defer(*names: str, **ready: Any) -> None:
     """
-    Install top-level modules that are executed on first use; those that are loaded stay.
+    Install top-level modules that are executed on first use; loaded modules stay as they are.
 
     Parameters
     ----------
     *names
         The modules.
     **ready
-        Functions which somebody imports by name, and which the modules are not needed for.
+        Functions that are imported by name and work without executing the modules.
 
     """
     for name in names:
@@ -35,10 +35,10 @@ def defer(*names: str, **ready: Any) -> None:
 
 
 class _Deferred(ModuleType):
-    """A module that is executed when an attribute is asked of it."""
+    """Module that is executed on the first attribute access."""
 
     def __getattr__(self, name: str) -> Any:
-        if name == '__path__':  # asked by the import system, to tell a package from a module
+        if name == '__path__':  # queried by the import system, to detect a package
             raise AttributeError(name)
         with _lock:
             if type(self) is _Deferred and self not in _in_execution:
@@ -53,7 +53,7 @@ _in_execution: list[ModuleType] = []
 
 
 def _execute(module: ModuleType) -> None:
-    """Make an ordinary module of a deferred one; other threads wait until that is done."""
+    """Execute a deferred module, which turns it into an ordinary one; other threads wait."""
     spec = module.__spec__
     _in_execution.append(module)
     try:
@@ -71,7 +71,7 @@ def defer_found(spec: ModuleSpec | None) -> ModuleType | None:
     Parameters
     ----------
     spec
-        How to load the module; None if there is none.
+        The module spec; None if there is none.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One row of the static tables of commands and verbs."""
+"""Rows of the static tables of commands and verbs."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ if TYPE_CHECKING:
 
 class Entry:
     """
-    A row of the static tables of commands and verbs, which does not import the class it names.
+    Row of the static tables of commands and verbs; does not import the class until `create`.
 
     Parameters
     ----------
     target
-        Where the class of the command or verb is, as `module:Class`.
+        The class of the command or verb, as `module:Class`.
     summary
-        What it does, for the help.
+        The description for the help.
     hidden
-        Whether the help leaves it out.
+        Whether the help omits it.
 
     """
 
@@ -32,6 +32,6 @@ class Entry:
         self.hidden = hidden
 
     def create(self) -> Any:
-        """Import the class which `module:Class` names and return an instance of it."""
+        """Import the class and return an instance."""
         module, _, name = self.target.partition(':')
         return getattr(__import__(module, fromlist=[name]), name)()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands and verbs that other installed distributions offer as entry points."""
+"""Commands and verbs that other installed distributions provide as entry points."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def find_entry(group: str, name: str) -> Entry | None:
     Returns
     -------
     Entry or None
-        Its class, without a summary; None if nobody offers it.
+        Its class, without a summary; None if no distribution provides it.
 
     """
     return entries_of_group(group, name).get(name)
@@ -28,14 +28,14 @@ def find_entry(group: str, name: str) -> Entry | None:
 
 def entries_of_group(group: str, name: str | None = None) -> dict[str, Entry]:
     """
-    Read the entry points of a group from all installed distributions, which takes time.
+    Read the entry points of a group from all installed distributions, which is slow.
 
     Parameters
     ----------
     group
         The group of entry points, such as `ros2bag.verb`.
     name
-        The only name to look for; all if None.
+        The only name to look for; None for all.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From what a command returns or raises to the exit status of the process."""
+"""Translation of the result or exception of a command to the exit status of the process."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import errno
 import os
 import sys
 
-BROKEN_PIPE_STATUS = 128 + 13  # what a shell gives for SIGPIPE
+BROKEN_PIPE_STATUS = 128 + 13  # status that shells report for SIGPIPE
 INTERRUPT_STATUS = 2  # the number of SIGINT
 TERMINATION_STATUS = 15  # the number of SIGTERM
 
@@ -17,8 +17,8 @@ def run_to_status(call: Callable[[], int | str | None]) -> int:
     """
     Call a command and translate its result, or its exception, to an exit status.
 
-    Errors that a user can put right (RuntimeError), signals, closed pipes and full disks are
-    handled; other exceptions are passed on.
+    Errors that a user can fix (RuntimeError), signals, closed pipes and full disks are handled;
+    other exceptions propagate.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def run_to_status(call: Callable[[], int | str | None]) -> int:
 
 
 def _status_of(error: Exception) -> int | None:
-    """Return the status for an exception, None if nobody foresaw it."""
+    """Return the exit status for an exception; None if it is unexpected."""
     if isinstance(error, BrokenPipeError):
         return _after_broken_pipe()
     if _comes_from_interrupt(error):
@@ -58,25 +58,25 @@ def _status_of(error: Exception) -> int | None:
 
 
 def _comes_from_interrupt(error: BaseException | None) -> bool:
-    """Tell if Ctrl-C caused an error, as it does while rclpy's C library is imported."""
+    """Whether Ctrl-C caused an error, as it does during the import of rclpy's C library."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
     return error is not None
 
 
 def _after_interrupt() -> int:
-    """Let a second Ctrl-C not disturb the end."""
+    """Ignore a second Ctrl-C during shutdown."""
     import signal
     import warnings
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Where rclpy is interrupted it may leave a coroutine behind that never starts.
+    # An interrupt may leave a coroutine of rclpy behind that is never awaited.
     warnings.simplefilter('ignore', RuntimeWarning)
     return INTERRUPT_STATUS
 
 
 def _call_or_exit(call: Callable[[], int | str | None]) -> int:
-    """Call a command; argparse ends with SystemExit, whose output is still to be flushed."""
+    """Call a command; catch the SystemExit of argparse, since output has yet to be flushed."""
     try:
         return _to_status(call())
     except SystemExit as end:
@@ -85,7 +85,7 @@ def _call_or_exit(call: Callable[[], int | str | None]) -> int:
 
 def is_external_shutdown(error: BaseException) -> bool:
     """
-    Whether an exception is that of rclpy for SIGTERM; this does not import rclpy.
+    Whether an exception is rclpy's ExternalShutdownException; this does not import rclpy.
 
     Parameters
     ----------
@@ -106,18 +106,18 @@ def _to_status(result: int | str | None) -> int:
 
 
 def _flush() -> None:
-    """Write what is left, unless the command has closed the stream."""
+    """Flush a stream, unless the command has closed it."""
     if not sys.stdout.closed:
         sys.stdout.flush()
 
 
 def _after_full_disk(error: OSError) -> int:
-    """Say that the output cannot be written, and drop what is left of it."""
+    """Report that the output cannot be written, and discard the rest."""
     _after_broken_pipe()
     return _to_status(f'The output cannot be written: {error.strerror}')
 
 
 def _after_broken_pipe() -> int:
-    """Give stdout a place to flush to, so that the interpreter ends without a complaint."""
+    """Redirect stdout to /dev/null, so that the interpreter can flush it without an error."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return BROKEN_PIPE_STATUS

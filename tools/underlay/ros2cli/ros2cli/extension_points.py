@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All that `ros2` consists of: its own commands and verbs, and those of other packages."""
+"""All commands and verbs of `ros2`: its own, and those of other packages."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Table = Mapping[str, Entry]
 
 
 def extension_points() -> dict[str, Table]:
-    """Return the groups of entry points that are looked up, sorted, with what this one has."""
+    """Return the groups of entry points that are searched, sorted, with their own entries."""
     groups: dict[str, Table] = {COMMAND_GROUP: COMMANDS}
     for entry in COMMANDS.values():
         groups.update(entry.create().extension_points())
@@ -29,7 +29,7 @@ def extensions(group: str, own: Table) -> dict[str, Entry]:
     group
         The name of the group.
     own
-        The entries of the static table, which win over entry points of the same name.
+        The entries of the static table, which override entry points of the same name.
 
     """
     return dict(sorted({**entries_of_group(group), **own}.items()))
@@ -37,7 +37,7 @@ def extensions(group: str, own: Table) -> dict[str, Entry]:
 
 def why_not(entry: Entry) -> str:
     """
-    Return why an extension cannot be imported or created, or ''.
+    Check whether an extension can be imported and created; return the reason if not, or ''.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finish something before Ctrl-C ends the command."""
+"""Deferral of Ctrl-C until a block of code is finished."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def interrupts_deferred() -> Iterator[None]:
     """
     Raise KeyboardInterrupt only at the end of the block.
 
-    That of a SIGINT before it, of which rclpy has heard but Python has not yet, as well.
+    This includes an earlier SIGINT that rclpy has received but Python has not handled yet.
     """
     received: list[int] = []
 

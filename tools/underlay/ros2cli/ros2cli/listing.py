@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options and the output of verbs that list names."""
+"""Options and output of verbs that list names."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from collections.abc import Iterable
 
 def add_types_argument(parser: argparse.ArgumentParser, what: str) -> None:
     """
-    Add the option to show types behind names.
+    Add the option to show types after names.
 
     Parameters
     ----------
     parser
         The parser of the verb.
     what
-        What has the names, in the singular, such as `topic`.
+        The kind of the names, in the singular, such as `topic`.
 
     """
     parser.add_argument(
@@ -33,7 +33,7 @@ def add_count_argument(parser: argparse.ArgumentParser, what: str) -> None:
     parser
         The parser of the verb.
     what
-        What is counted, in the plural, such as `topics`.
+        The counted kind, in the plural, such as `topics`.
 
     """
     parser.add_argument(
@@ -68,7 +68,7 @@ def add_hidden_argument(parser: argparse.ArgumentParser, what: str) -> None:
     parser
         The parser of the verb.
     what
-        What has the names, in the plural, such as `topics`.
+        The kind of the names, in the plural, such as `topics`.
 
     """
     parser.add_argument(
@@ -81,7 +81,7 @@ def add_hidden_argument(parser: argparse.ArgumentParser, what: str) -> None:
 
 def print_names(names: list[str], *, only_count: bool) -> None:
     """
-    Print names, one per line, or how many there are.
+    Print names, one per line, or their count.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def print_names(names: list[str], *, only_count: bool) -> None:
 
 def with_types(names_and_types: Iterable[tuple[str, list[str]]], *, show_types: bool) -> list[str]:
     """
-    Format names, with their types in brackets if they are wanted.
+    Format names, optionally with their types in brackets.
 
     Parameters
     ----------

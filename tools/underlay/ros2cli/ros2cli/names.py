@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names of the graph as users write them."""
+"""Graph names as users write them."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ NAME = re.compile(r'(/[A-Za-z_][A-Za-z0-9_]*)+')
 
 def absolute(name: str, kind: str = 'topic') -> str:
     """
-    Check a name of the graph, and add the leading slash that users leave out.
+    Validate a graph name, and add a missing leading slash.
 
     Parameters
     ----------
     name
-        The name that the user has written.
+        The name as written by the user.
     kind
-        What has the name, for the error message.
+        The kind of the name, for the error message.
 
     Returns
     -------
@@ -47,14 +47,14 @@ def _article(noun: str) -> str:
 
 def closest(name: str, known: Iterable[str]) -> str:
     """
-    Return a question that names the known name which is probably meant, or ''.
+    Return a question that suggests the known name probably meant, or ''.
 
     Parameters
     ----------
     name
         The name that was not found.
     known
-        The names that there are.
+        The existing names.
 
     """
     from ros2cli.suggest import did_you_mean

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Put the options of a command line before its other words.
+Reordering of a command line: options before other arguments.
 
-argparse fills an optional argument with nothing as soon as an option stands before it, and takes
-numbers such as -1e3 for options. Words in the order that is made here leave it no such choice.
+argparse leaves an optional positional empty as soon as an option precedes it, and mistakes
+numbers such as -1e3 for options. The order produced here rules out both.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ Options = Mapping[str, argparse.Action]
 
 def options_first(words: Sequence[str], options: Options) -> list[str]:
     """
-    Move the options of a command line, with their values, before its other words.
+    Move the options of a command line, with their values, before the other arguments.
 
     Parameters
     ----------
     words
-        The words that one parser gets.
+        The arguments of one parser.
     options
         The options of this parser, by option string such as `-r` or `--rate`.
 
     Returns
     -------
     list of str
-        The options, then `--` and all other words, if there are any.
+        The options, then `--` and all other arguments, if there are any.
 
     """
     chosen: list[str] = []
@@ -62,7 +62,7 @@ def _is_option(word: str, options: Options) -> bool:
 
 
 def _with_values(word: str, left: deque[str], options: Options) -> list[str]:
-    """Take the values of an option off the words that follow it."""
+    """Pop the values of an option from the arguments that follow it."""
     action = _open_option(word, options)
     most = 0.0 if action is None else _most_values(action)
     if most == 1 and left and NEGATIVE_NUMBER.fullmatch(left[0]):
@@ -78,7 +78,7 @@ def _ends_values(word: str, options: Options) -> bool:
 
 
 def _open_option(word: str, options: Options) -> argparse.Action | None:
-    """Return the option which takes its values from the words that follow, if one does."""
+    """Return the option that consumes the following arguments as values, if there is one."""
     if word in options:
         return options[word]
     if word.startswith('--'):
@@ -88,7 +88,7 @@ def _open_option(word: str, options: Options) -> argparse.Action | None:
 
 
 def _last_of_cluster(letters: str, options: Options) -> argparse.Action | None:
-    """Return the last option of several in one word; None if an earlier one takes the rest."""
+    """Return the last option of a cluster such as `-abc`; None if an earlier one takes a value."""
     *flags, last = (options.get(f'-{letter}') for letter in letters)
     return last if all(flag is not None and flag.nargs == 0 for flag in flags) else None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The argument parser of all commands, and how it prints help."""
+"""Argument parser and help formatter of all commands."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ YAML_EXAMPLE = '"{data: [1, 2]}"'
 
 class Parser(argparse.ArgumentParser):
     """
-    A parser in which options may stand anywhere, numbers may be negative, and errors help.
+    Argument parser with options in any position, negative numbers, and helpful errors.
 
     Parameters
     ----------
     **options
-        Those of an argparse parser; descriptions are printed as they are by default.
+        Options of an argparse parser; descriptions are printed verbatim by default.
 
     """
 
@@ -39,19 +39,19 @@ class Parser(argparse.ArgumentParser):
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> argparse.Namespace:
         """
-        Parse a command line; words that are not recognized are an error with advice.
+        Parse a command line; unrecognized arguments are an error with advice.
 
         Parameters
         ----------
         args : Sequence[str] | None
-            The words; those of this process if None.
+            The arguments; those of this process if None.
         namespace
-            What the result is added to; a new one if None.
+            The namespace to add the result to; a new one if None.
 
         Raises
         ------
         SystemExit
-            The command line is wrong, or asks for help.
+            The command line is invalid, or requests help.
 
         """
         found, rest = self.parse_known_args(args, namespace)
@@ -64,7 +64,7 @@ class Parser(argparse.ArgumentParser):
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> tuple[argparse.Namespace, list[str]]:
         """
-        Parse a command line as far as its words are recognized.
+        Parse the recognized arguments of a command line.
 
         Parameters
         ----------
@@ -74,13 +74,13 @@ class Parser(argparse.ArgumentParser):
         Returns
         -------
         tuple of argparse.Namespace and list of str
-            The result, and the words that are left; `_parser_of_rest` is the innermost parser of
+            The result, and the remaining arguments; `_parser_of_rest` is the innermost parser of
             these.
 
         Raises
         ------
         SystemExit
-            The command line is wrong, or asks for help.
+            The command line is invalid, or requests help.
 
         """
         words = sys.argv[1:] if args is None else list(args)
@@ -93,12 +93,12 @@ class Parser(argparse.ArgumentParser):
 
     def advice(self, words: list[str]) -> str:
         """
-        Return what was probably meant by words that this parser does not recognize, or ''.
+        Return a suggestion for arguments that this parser does not recognize, or ''.
 
         Parameters
         ----------
         words
-            The words, at least one.
+            The unrecognized arguments, at least one.
 
         """
         if any(word.endswith(('}', ']')) for word in words):
@@ -108,35 +108,35 @@ class Parser(argparse.ArgumentParser):
 
     def print_help(self, file: Any = None) -> None:
         """
-        Print the help like any other output; argparse hides that it cannot be written.
+        Print the help like any other output; argparse would hide write errors.
 
         Parameters
         ----------
         file
-            Where to print it; stdout if None.
+            The stream to print to; stdout if None.
 
         """
         print(self.format_help(), end='', file=file or sys.stdout)
 
     def _takes_any_order(self) -> bool:
-        """Tell if there are positionals, and none takes all words, whatever they look like."""
+        """Whether there are positionals, and none consumes all remaining arguments."""
         kinds = [action.nargs for action in self._actions if not action.option_strings]
         return bool(kinds) and not {argparse.PARSER, argparse.REMAINDER}.intersection(kinds)
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
     """
-    A formatter that knows the width of the terminal.
+    Help formatter with the width of the terminal.
 
-    argparse makes one for each argument, and would import shutil, with all its compression
-    libraries, to find the width out.
+    argparse creates a formatter for each argument, and would import shutil, with all its
+    compression libraries, to determine the width.
 
     Parameters
     ----------
     prog
         The name of the program.
     **options
-        Those of an argparse formatter.
+        Options of an argparse formatter.
 
     """
 

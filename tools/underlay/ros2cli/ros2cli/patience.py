@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say what a command waits for."""
+"""Report of what a command waits for."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ PATIENCE_S = 2.0
 
 class Patience:
     """
-    Tells once, on stderr, what a command waits for, when it has been waiting for 2 s.
+    Reports once, on stderr, what a command waits for, after 2 s of waiting.
 
     Parameters
     ----------
     what
-        What is waited for, as in "Still waiting for ...".
+        The subject of the wait, as in "Still waiting for ...".
     hint
-        Called then; returns what may help, or ''.
+        Called with the report; returns a hint, or ''.
 
     """
 
@@ -29,7 +29,7 @@ class Patience:
         self._end = time.monotonic() + PATIENCE_S
 
     def check(self) -> None:
-        """Speak up if the time has come."""
+        """Print the report if it is due."""
         if time.monotonic() > self._end:
             text = f'Still waiting for {self._what} (Ctrl-C to stop)'
             print('. '.join(filter(None, (text, self._hint()))), file=sys.stderr)

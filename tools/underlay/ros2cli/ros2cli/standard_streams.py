@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Standard streams that the caller has closed, as `ros2 topic list >&-` does."""
+"""Handling of standard streams that the caller has closed, as in `ros2 topic list >&-`."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ NAMES = ('stdin', 'stdout', 'stderr')
 
 def open_standard_streams() -> None:
     """
-    Open streams that are closed on /dev/null.
+    Open closed standard streams on /dev/null.
 
-    Else the next file or socket would get the descriptor, and what is printed would go there.
+    Otherwise the next file or socket would get the descriptor, and receive the output.
     """
     for descriptor, name in enumerate(NAMES):
         if getattr(sys, name) is None and not _is_open(descriptor):
-            os.open(os.devnull, os.O_RDWR)  # the lowest descriptor that is free: this one
+            os.open(os.devnull, os.O_RDWR)  # the lowest free descriptor: this one
             setattr(sys, name, os.fdopen(descriptor, 'r' if descriptor == 0 else 'w'))
 
 

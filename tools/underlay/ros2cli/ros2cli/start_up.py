@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Make the interpreter of a command start and end fast.
+Fast startup and exit of the interpreter.
 
-Most commands take less time than the interpreter that runs them: what it does besides the
-command's own work is what a user waits for. Whatever is here imports nothing.
+Most commands take less time than the interpreter that runs them, so that its overhead dominates
+what a user waits for. This module imports nothing itself.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ OBJECTS_BETWEEN_COLLECTIONS = 100_000
 
 
 def prepare() -> None:
-    """Let what follows be imported fast."""
+    """Speed up the imports that follow."""
     look_into_the_standard_library_first()
     collect_less_often()
 
@@ -29,10 +29,10 @@ def look_into_the_standard_library_first() -> None:
     """
     Put the standard library before the folders of PYTHONPATH.
 
-    In a workspace each package has a folder of its own in PYTHONPATH, and an import asks the
-    operating system about each folder until it has found its module: ten questions a module.
-    Nor can a package that bears the name of a standard module break a command. The folder of the
-    script is left out: it has programs, not modules.
+    In a workspace each package has its own folder in PYTHONPATH, and an import searches one folder
+    after the other, with about ten system calls per module. The order also prevents a package
+    with the name of a standard module from breaking a command. The folder of the script is left
+    out: it contains programs, not modules.
     """
     library = os.path.dirname(os.__file__)
     archive = os.path.join(os.path.dirname(library), 'python')
@@ -49,9 +49,9 @@ def look_into_the_standard_library_first() -> None:
 
 def collect_less_often() -> None:
     """
-    Look for cycles of garbage after many new objects, instead of after some hundred.
+    Raise the threshold of the garbage collector from some hundred new objects to many.
 
-    While modules are imported nothing but new objects comes, and nothing of it is garbage.
+    Imports only create new objects, none of which are garbage.
     """
     import gc
 
@@ -60,10 +60,10 @@ def collect_less_often() -> None:
 
 def end(status: int) -> NoReturn:
     """
-    End the process with a status, without taking the interpreter apart.
+    Exit the process with a status, without finalizing the interpreter.
 
-    Functions of atexit are called, and output is written. If threads are still at work, or the
-    output cannot be written, the interpreter ends as usual.
+    Functions of atexit are called, and output is flushed. If threads are still running, or the
+    output cannot be written, the interpreter exits as usual.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def end(status: int) -> NoReturn:
     Raises
     ------
     SystemExit
-        The interpreter is to end as usual.
+        The interpreter must exit as usual.
 
     """
     import atexit

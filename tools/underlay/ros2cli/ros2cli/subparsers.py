@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Argument parsers for many commands of which only the one that is called is imported."""
+"""Lazy subparsers for many commands, of which only the called one is imported."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ def add_lazy_subparsers(
     entries
         The static table of commands or verbs.
     group
-        The group of entry points to look at for a name that is not in the table.
+        The group of entry points to search for a name that is not in the table.
     kind
-        What the entries are called in the help: `command` or `verb`.
+        The name of the entries in the help: `command` or `verb`.
     dest
-        The attribute of the parsed command line that gets the instance of the chosen entry.
+        The attribute of the parsed arguments that holds the instance of the chosen entry.
     argv
-        The words after `cli_name`; the first one that is no option chooses the entry.
+        The arguments after `cli_name`; the first one that is not an option selects the entry.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def add_lazy_subparsers(
     entries = _with_extension(entries, group, name)
     metavar = f'Call `{cli_name} <{kind}> -h` for more detailed usage.'
     subparsers = parser.add_subparsers(
-        prog=parser.prog,  # argparse would format its usage to find that out
+        prog=parser.prog,  # argparse would format its usage to determine this
         title='Commands',
         description=_listing(entries),
         metavar=metavar,
@@ -92,7 +92,7 @@ def add_subparsers_on_demand(
     group_name
         The group of entry points, such as `ros2bag.verb`.
     hide_extensions
-        The names that the help leaves out.
+        The names that the help omits.
     required
         Accepted for compatibility; it has no effect.
 
@@ -113,7 +113,7 @@ def add_subparsers_on_demand(
 
 
 def _split(argv: Sequence[str]) -> tuple[str | None, Sequence[str]]:
-    """Return the first word that is no option and what follows; None if help is asked for."""
+    """Split at the first argument that is not an option; None if help is requested."""
     for index, word in enumerate(argv):
         if word in ('-h', '--help'):
             break
@@ -154,7 +154,7 @@ def _add_chosen(
 
 
 def _takes_argv(add_arguments: Callable[..., None]) -> bool:
-    """Return whether a function has this keyword-only parameter; that of a verb has not."""
+    """Whether a function has the keyword-only parameter `argv`; those of verbs do not."""
     return 'argv' in (getattr(add_arguments, '__kwdefaults__', None) or {})
 
 

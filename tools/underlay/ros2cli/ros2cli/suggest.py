@@ -15,7 +15,7 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     name
         The name that was not found.
     known
-        The names that there are.
+        The existing names.
 
     """
     found = closest_name(name, known)
@@ -31,7 +31,7 @@ def closest_name(name: str, known: Iterable[str]) -> str:
     name
         The name that was not found.
     known
-        The names that there are.
+        The existing names.
 
     """
     from difflib import get_close_matches

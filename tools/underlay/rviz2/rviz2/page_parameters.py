@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the page is served, as the parameters of a node say."""
+"""The settings of the page, from the parameters of a node."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def page_settings(node: Node) -> PageSettings:
     Raises
     ------
     ValueError
-        The host is no IP address, the port is outside 1 to 65535, or the token is `none` on an
+        The host is not an IP address, the port is outside 1 to 65535, or the token is `none` on an
         address that other machines reach.
     rclpy.exceptions.ParameterException
         A parameter has been overridden with a value of another type.
@@ -48,7 +48,7 @@ def unknown_parameters(node: Node) -> list[str]:
     """
     from robot_state_publisher.unknown_parameters import unknown_parameters
 
-    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public way to ask for them
+    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public API for them
     return unknown_parameters(given, node.get_parameters_by_prefix('').keys())
 
 

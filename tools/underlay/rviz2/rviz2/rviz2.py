@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Show in a browser what a robot says and knows: `ros2 run rviz2 rviz2 -d FILE.rviz`."""
+"""Show the topics and frames of a robot in a browser: `ros2 run rviz2 rviz2 -d FILE.rviz`."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ def main(args: Sequence[str] | None = None) -> None:
 
 def _job(words: list[str]) -> Job:
     """
-    Return what is to be shown, and a warning if it is not what was asked for.
+    Return the configuration to show, and a warning if it is not the requested one.
 
-    What cannot be read ends the program before anything starts. A file that is not there does
-    not, as in the genuine RViz: launch files of books name some that they never print.
+    An unreadable file ends the program before anything starts. A missing file does not, as in the
+    genuine RViz: launch files in books name some that are never printed there.
     """
     arguments = parse(words)
     if not arguments.display_config:  # launch files pass '' for none
@@ -60,7 +60,7 @@ def _job(words: list[str]) -> Job:
 
 
 def _show(job: Job) -> int:
-    """Show it until a signal comes; return the exit status."""
+    """Show the configuration until a signal arrives; return the exit status."""
     from rclpy.exceptions import ParameterException
     from rviz2.page_parameters import page_settings
     from rviz_common.guarded_node import GuardedNode
@@ -97,7 +97,7 @@ def _visualize(
         node.get_logger().warning(sentence)
     node.get_logger().info(f'RViz is at {" and ".join(page.urls)}')
     spin(node)
-    page.close()  # first, so that browsers keep what they show and say that it is lost
+    page.close()  # first, so that browsers keep the scene and report the lost connection
     visualizer.close()
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the displays, tools and panels of RViz in the browser are made of."""
+"""Base classes for the displays, tools and panels of RViz in the browser."""

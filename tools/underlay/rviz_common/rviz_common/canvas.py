@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A part of the scene that is drawn again and again."""
+"""A part of the scene that is redrawn repeatedly."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ __all__ = ['Canvas']
 
 COLORS = ('colors', 'batched_colors')
 ONCE = ('jpeg_quality',)
-"""What can only be said when something is added."""
+"""Arguments that can only be set when a node is added."""
 
 
 @dataclass
 class Thing:
-    """Something in the scene, as it has been put last."""
+    """A node of the scene, with the arguments it was last put with."""
 
     kind: str
     handle: Any
@@ -33,8 +33,8 @@ class Canvas:
     """
     Scene nodes below one path, which are updated in place as they are drawn again.
 
-    What is put again under its name is changed, and not made anew: a browser shows what is new at
-    the origin before it is where it belongs.
+    A node that is put again under its name is updated, not recreated: a browser shows a new node
+    at the origin before it moves to its pose.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Canvas:
 
     @contextmanager
     def anew(self) -> Iterator[None]:
-        """Remove what is not put again in a `with` block; all stays if that fails."""
+        """Remove all nodes not put again in a `with` block; keep all if the block fails."""
         self._seen = set()
         yield
         for name in [name for name in self._things if name not in self._seen]:
@@ -63,7 +63,7 @@ class Canvas:
         """
         Add a node to the scene, or update the one of this name.
 
-        A node of another kind, or with other arguments than before, is made anew.
+        A node of another kind, or with a different set of arguments, is recreated.
 
         Parameters
         ----------
@@ -91,7 +91,7 @@ class Canvas:
 
 
 def _change(thing: Thing, look: dict[str, Any]) -> None:
-    """Set what is different; viser finds out for itself in which arrays that is so."""
+    """Set the attributes that have changed; viser itself detects which arrays have changed."""
     for name, value in look.items():
         before = thing.look[name]
         is_array = isinstance(value, np.ndarray) or isinstance(before, np.ndarray)

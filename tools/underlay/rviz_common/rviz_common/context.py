@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What displays, tools and panels have at hand."""
+"""The objects that displays, tools and panels share."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ __all__ = ['Context']
 @dataclass(frozen=True)
 class Context:
     """
-    What displays, tools and panels have at hand; it is used in the thread of the node only.
+    The objects that displays, tools and panels share; to be used in the node's thread only.
 
-    What is set of the scene in one frame reaches browsers together. Callbacks of widgets come in
-    other threads: `on_input` and `on_click` bring what they do to the thread of the node.
+    Changes to the scene in one frame reach browsers together. Widget callbacks run in other
+    threads: `on_input` and `on_click` transfer their work to the node's thread.
     """
 
     node: Node
@@ -33,7 +33,7 @@ class Context:
     frames: Frames
     queue: WorkQueue
     visualizer: Any = None
-    """The `Visualizer` that owns all this; a test may do without."""
+    """The `Visualizer` that owns the context; optional in tests."""
 
     @property
     def server(self) -> ViserServer:
@@ -42,7 +42,7 @@ class Context:
 
     @property
     def scene(self) -> SceneApi:
-        """Return what is drawn in three dimensions."""
+        """The 3D scene."""
         return self.server.scene
 
     @property
@@ -52,21 +52,21 @@ class Context:
 
     def on_input(self, widget: Any, take: Callable[[Any], None]) -> None:
         """
-        Call a function in the thread of the node with each value that a user gives to a widget.
+        Call a function in the node's thread with each value that a user enters in a widget.
 
         Parameters
         ----------
         widget
             A widget of viser that has a value.
         take
-            Receives the value. Values that a program sets are not passed on.
+            Receives the value. Values set by a program are not reported.
 
         """
         on_input(self.queue.post, widget, take)
 
     def on_click(self, button: Any, do: Callable[[], None]) -> None:
         """
-        Call a function in the thread of the node whenever a button is pressed.
+        Call a function in the node's thread whenever a button is pressed.
 
         Parameters
         ----------

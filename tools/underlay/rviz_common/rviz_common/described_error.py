@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where an error comes from."""
+"""Describe an error together with its origin."""
 
 from __future__ import annotations
 

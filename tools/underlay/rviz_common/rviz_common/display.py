@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Something that is shown, with properties that can be set."""
+"""The base class of displays."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ class Display:
     """
     An entry of the list of displays.
 
-    A display draws below `root`, a path of the scene which it has for itself. It is started when
-    it is enabled, and stopped when it is disabled; `update` is called for each frame in between.
-    Nothing is drawn before `start`.
+    A display draws below `root`, a path of the scene that no other display uses. It is started
+    when it is enabled, and stopped when it is disabled; `update` is called for each frame in
+    between. Nothing is drawn before `start`.
 
     Parameters
     ----------
     context
-        What it draws with: the node, the page, and the transforms.
+        The node, the page and the transforms.
     root
         The path of the scene below which it draws.
     given
-        Its entry of the .rviz file, None for a new display. Values that cannot be used become a
-        warning in the status, and the defaults hold.
+        Its entry in the .rviz file, None for a new display. Invalid values are reported as a
+        warning in the status, and the defaults are used instead.
 
     Attributes
     ----------
@@ -40,15 +40,15 @@ class Display:
     values
         The properties, with `Enabled` as the first.
     status
-        What the display reports of itself.
+        The status that the display reports.
 
     """
 
     CLASS: ClassVar[str]
-    """The class that the file names, such as `rviz_default_plugins/Grid`."""
+    """The class name in the file, such as `rviz_default_plugins/Grid`."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     UNUSED: ClassVar[tuple[str, ...]] = ()
-    """Properties of RViz, by their first name, that mean nothing in a browser."""
+    """Properties of RViz, by top-level name, that do not apply in a browser."""
 
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
@@ -64,11 +64,11 @@ class Display:
 
     @property
     def unknown(self) -> list[str]:
-        """Return the properties of the file that nobody knows."""
+        """The properties in the file that are unknown."""
         return self.values.unknown((*COMMON, *self.UNUSED))
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         written = self.values.to_file()
         if 'Class' not in written or self.name != self._first_name:
             written.update({'Class': self.CLASS, 'Name': self.name})
@@ -77,17 +77,17 @@ class Display:
         return written
 
     def start(self) -> None:
-        """Begin to show it."""
+        """Start showing the display."""
 
     def stop(self) -> None:
-        """Show it no longer."""
+        """Stop showing the display."""
 
     def update(self) -> None:
         """Draw the next frame."""
 
     def on_change(self, path: str) -> None:
         """
-        Apply a property that has been changed while the display runs; by default restart it.
+        Apply a property that was changed while the display is running; by default restart it.
 
         Parameters
         ----------
@@ -101,7 +101,7 @@ class Display:
 
 def name_of(given: Mapping[str, Any] | None, class_name: str) -> str:
     """
-    Find the name of an entry of a .rviz file.
+    Return the name of an entry of a .rviz file.
 
     Parameters
     ----------

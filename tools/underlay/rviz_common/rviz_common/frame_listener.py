@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hear of transforms when a frame is to be drawn, and not in between."""
+"""A transform listener that is polled once per drawn frame."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tf2_ros import Buffer, TransformListener
 
 __all__ = ['FrameListener']
 
-# More than robots say between two frames; what is older is lost.
+# More than robots publish between two frames; older messages are dropped.
 DEPTH = 1000
 MOVING = QoSProfile(depth=DEPTH)
 STATIC = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -21,16 +21,16 @@ class FrameListener(TransformListener):
     """
     Transform listener that is polled: it fills a buffer whenever `take_all` is called.
 
-    For an executor to wake for each message takes longer than to take the transforms out of it.
-    While it rests, it hears static transforms only: those that move come some 100 times a second,
-    and who listens again knows them all a moment later.
+    Waking an executor for each message costs more than reading the transforms from it.
+    While it rests, it receives static transforms only: dynamic ones arrive some 100 times a
+    second, so that all of them are known again a moment after `resume`.
 
     Parameters
     ----------
     buffer
         Receives the transforms.
     node
-        Subscribes `/tf` and `/tf_static`.
+        Subscribes to `/tf` and `/tf_static`.
 
     """
 
@@ -38,7 +38,7 @@ class FrameListener(TransformListener):
         super().__init__(buffer, node, qos=MOVING, static_qos=STATIC)
 
     def take_all(self) -> None:
-        """Take what has come since the last time, static transforms first."""
+        """Process all messages received since the last call, static transforms first."""
         for subscription in (self.tf_static_sub, self.tf_sub):
             for _ in range(DEPTH if subscription is not None else 0):
                 with subscription.handle:
@@ -48,13 +48,13 @@ class FrameListener(TransformListener):
                 subscription.callback(found[0])
 
     def rest(self) -> None:
-        """Subscribe `/tf` no longer."""
+        """Unsubscribe from `/tf`."""
         if self.tf_sub is not None:
             self.node.destroy_subscription(self.tf_sub)
             self.tf_sub = None
 
     def resume(self) -> None:
-        """Subscribe `/tf` again."""
+        """Subscribe to `/tf` again."""
         if self.tf_sub is None:
             self.tf_sub = self._subscribe('/tf', False, MOVING)
 

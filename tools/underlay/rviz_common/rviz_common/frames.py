@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where frames are in the one that does not move on the screen."""
+"""Poses of frames in the fixed frame."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from tf2_ros import Buffer, TransformException
 __all__ = ['FIXED_FRAME', 'FrameError', 'Frames', 'Pose']
 
 FIXED_FRAME = '<Fixed Frame>'
-"""What a property says that means the fixed frame, whichever it is."""
+"""The value of a property that stands for the current fixed frame."""
 
 
 class Pose(NamedTuple):
-    """A position in metres and a rotation as quaternion w, x, y, z, as the page wants them."""
+    """A position in metres and a rotation as quaternion w, x, y, z, as viser expects them."""
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
 
 class FrameError(LookupError):
-    """A pose that is not known, with the reason."""
+    """A pose that is unknown, with the reason."""
 
 
 class Frames:
     """
-    Look up the poses of frames in the transforms of a buffer.
+    The poses of frames, from a transform buffer.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ class Frames:
         """
         Look up the latest pose of one frame in another, without a reason if it is unknown.
 
-        Use it in each frame that is drawn: a reason takes long to find. `reason` gives it.
+        Use it in each frame that is drawn: finding the reason, with `reason`, is slow.
 
         Parameters
         ----------
@@ -132,7 +132,7 @@ class Frames:
         """
         Explain why no transform connects two frames.
 
-        It takes too long to be called for each frame that is drawn.
+        It is too slow to be called for each frame that is drawn.
 
         Parameters
         ----------
@@ -144,7 +144,7 @@ class Frames:
         Returns
         -------
         str
-            The error message of tf, '' if the pose is known.
+            The error message of tf2, '' if the pose is known.
 
         """
         try:
@@ -154,11 +154,11 @@ class Frames:
         return ''
 
     def latest(self) -> dict[str, Sample]:
-        """Return the newest parent and pose of each frame that has one, by name."""
+        """Return the latest parent and pose of each frame that has a parent, by name."""
         return self.buffer._latest_samples()
 
     def _direct(self, target: str, source: str) -> Pose | None:
-        """Return the latest pose of a frame in its parent or child, where most are asked for."""
+        """Return the latest pose of a frame in its parent or child, the most common case."""
         below = self.buffer._latest_sample(source)
         if below is not None and below.parent == target:
             return _pose(below.pose)
@@ -172,6 +172,6 @@ class Frames:
 
 
 def _pose(numbers: Numbers) -> Pose:
-    """Return a pose of tf, whose quaternions have w last."""
+    """Convert a pose of tf2, whose quaternions have w last."""
     x, y, z, qx, qy, qz, qw = numbers
     return Pose((x, y, z), (qw, qx, qy, qz))

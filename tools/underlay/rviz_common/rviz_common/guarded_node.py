@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node that goes on when a callback fails."""
+"""A node that survives failing callbacks."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ REPEAT_S = 10.0
 
 class GuardedNode(Node):
     """
-    A node that goes on when a callback of a subscription or a timer fails.
+    A node that survives an exception in a callback of a subscription or a timer.
 
-    The log says which one failed, and why.
+    The exception is logged, together with the callback that raised it.
     """
 
     @property
     def subscriptions(self) -> Iterator[Any]:
-        """Yield the subscriptions that an executor is to serve: not those that are polled."""
+        """The subscriptions that an executor serves: those that are not polled."""
         for each in super().subscriptions:
             if not isinstance(each.callback_group, WaitingGroup):
                 yield each
@@ -89,7 +89,7 @@ class GuardedNode(Node):
         def guarded(*args: Any) -> None:
             try:
                 callback(*args)
-            except Exception as error:  # whatever a display does, the others go on
+            except Exception as error:  # a failing callback must not stop the others
                 if pace.is_due():
                     said = f'{subject} has met an error: {described_error(error)}'
                     self.get_logger().error(said)
@@ -99,9 +99,9 @@ class GuardedNode(Node):
 
 def _with_info(callback: Callable[..., Any]) -> Callable[..., Any]:
     """
-    Give a callback that wants it the time at which it got the message.
+    Add the time of reception to a callback that accepts message info.
 
-    The EventsExecutor of rclpy 7.1 has nothing to say about messages, and fails.
+    The EventsExecutor of rclpy 7.1 provides no message info, and fails.
     """
     try:
         inspect.signature(callback).bind(None)

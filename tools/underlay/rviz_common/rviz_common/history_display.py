@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A display of the last messages of a topic, each where its frame was at its time."""
+"""A display of the last messages of a topic, each placed by the transform at its stamp."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ __all__ = ['HistoryDisplay']
 
 
 class Waiting(NamedTuple):
-    """A message, and when it came in nanoseconds of the node's clock."""
+    """A message, and its time of reception in nanoseconds of the node's clock."""
 
     message: Any
     came_ns: int
 
 
 class Place(NamedTuple):
-    """A node of the scene, and what is drawn below it."""
+    """A node of the scene, and the canvas below it."""
 
     node: Any
     canvas: Canvas
 
 
 class Kept(NamedTuple):
-    """A message that is drawn, and where."""
+    """A message that is drawn, and its node of the scene."""
 
     waiting: Waiting
     place: Place
@@ -40,22 +40,22 @@ class HistoryDisplay(TopicDisplay):
     """
     A display of the last messages of a topic.
 
-    Each stays in the fixed frame where its own frame was at the time of its stamp; it waits until
-    that is known. A message that is overtaken by a newer one of its frame is given up: what tf
-    did not know of its time when it came, such as the first seconds, it never will. `draw` is
-    called once for each, and again for those that are shown when a property changes.
+    Each is placed in the fixed frame by the transform of its own frame at its stamp; it waits
+    until that transform is available. A waiting message is dropped once a newer one of the same
+    frame can be drawn: transforms from before the listener started, say, never become available.
+    `draw` is called once for each message, and again for those shown when a property changes.
     """
 
     PATIENCE: ClassVar[int] = 10
-    """How many messages wait for their transform."""
+    """The maximum number of messages that wait for their transform."""
     GRACE_S: ClassVar[float] = 2.0
-    """How long nothing may be drawn for want of a transform before that is said; transforms come
-    a moment later than what was measured at the same time, more so on a busy computer."""
+    """How long a missing transform may block drawing before it is reported; transforms arrive
+    slightly later than measurements of the same time, more so on a busy computer."""
     MOST: ClassVar[int] = 50
-    """How many messages are shown at once while they decay."""
+    """The maximum number of messages shown at once while they decay."""
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._waiting: deque[Waiting] = deque()
         self._kept: deque[Kept] = deque()
         self._free: list[Place] = []
@@ -64,14 +64,14 @@ class HistoryDisplay(TopicDisplay):
         super().start()
 
     def stop(self) -> None:
-        """Subscribe no longer, and remove what was drawn."""
+        """Unsubscribe, and remove everything that was drawn."""
         super().stop()
         self._waiting.clear()
         self._kept.clear()
         self._free.clear()
 
     def update(self) -> None:
-        """Draw the messages whose place has become known, and remove old ones."""
+        """Draw the messages whose transform has become available, and remove old ones."""
         super().update()
         if self.context.frames.fixed_frame != self._fixed_frame:
             self._fixed_frame = self.context.frames.fixed_frame
@@ -98,22 +98,22 @@ class HistoryDisplay(TopicDisplay):
         Raises
         ------
         ValueError
-            The message cannot be drawn; the reason goes into the status.
+            The message cannot be drawn; the reason is shown in the status.
 
         """
         raise NotImplementedError
 
     def keep(self) -> int:
-        """Return how many messages are shown at once."""
+        """Return the number of messages shown at once."""
         return 1
 
     def decay_s(self) -> float:
-        """Return how long messages are shown; the newest ones that are kept in any case for 0."""
+        """Return the decay time of messages in seconds; 0 to show the newest ones instead."""
         return 0.0
 
     def take(self, message: Any) -> None:
         """
-        Queue a message until its transform is known.
+        Queue a message until its transform is available.
 
         Parameters
         ----------
@@ -126,13 +126,13 @@ class HistoryDisplay(TopicDisplay):
             self._waiting.popleft()
 
     def redraw(self) -> None:
-        """Draw the messages that are shown again."""
+        """Redraw the messages that are shown."""
         for kept in reversed(self._kept):
             self._waiting.appendleft(kept.waiting)
         self._keep_last(0)
 
     def _draw_ready(self) -> None:
-        """Draw those of the waiting messages whose place is known."""
+        """Draw the waiting messages whose transform is available."""
         ready: list[tuple[Waiting, Pose]] = []
         still: list[Waiting] = []
         reason = ''
@@ -154,7 +154,7 @@ class HistoryDisplay(TopicDisplay):
             self._draw(waiting, pose)
 
     def _say_missing(self, reason: str) -> None:
-        """Say why nothing can be drawn, once that has been so for a while."""
+        """Report why nothing can be drawn, after a grace period."""
         if not reason:
             self._missing_since_s = None
             self.status.forget('Transform')
@@ -185,7 +185,7 @@ class HistoryDisplay(TopicDisplay):
         return Place(node, Canvas(self.context.scene, root))
 
     def _leave(self, place: Place) -> None:
-        """Hide a place, to draw another message there."""
+        """Hide a node of the scene, to reuse it for another message."""
         place.node.visible = False
         self._free.append(place)
 
@@ -212,7 +212,7 @@ class HistoryDisplay(TopicDisplay):
         return self.context.frames.pose(header.frame_id, max(stamp_ns, 0))
 
     def steady_s(self) -> float:
-        """Return the time by which people wait, in seconds."""
+        """Return the monotonic wall time in seconds."""
         return time.monotonic()
 
     def _now_ns(self) -> int:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What a person does with widgets, brought to another thread.
+User input from widgets, transferred to another thread.
 
-Callbacks of widgets come in other threads, and also for values that a program sets.
+Widget callbacks run in other threads, and are also called for values set by a program.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from typing import Any
 __all__ = ['Post', 'on_choice', 'on_click', 'on_input']
 
 Post = Callable[[Callable[[], None]], None]
-"""Has something done in the right thread, such as `WorkQueue.post`."""
+"""Runs a callable in the right thread, such as `WorkQueue.post`."""
 
 
 def on_input(post: Post, widget: Any, take: Callable[[Any], None]) -> None:
     """
-    Call a function in another thread with each value that a user gives to a widget.
+    Call a function in another thread with each value that a user enters in a widget.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def on_input(post: Post, widget: Any, take: Callable[[Any], None]) -> None:
     widget
         A widget of viser that has a value.
     take
-        Receives the value. Values that a program sets are not passed on.
+        Receives the value. Values set by a program are not reported.
 
     """
     widget.on_update(_passing_on(post, take))

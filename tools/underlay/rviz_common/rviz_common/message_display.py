@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A display of the newest message of a topic, at the place of the message's frame."""
+"""A display of the newest message of a topic, at the pose of the message's frame."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ class MessageDisplay(TopicDisplay):
     """
     A display of the newest message of a topic.
 
-    However fast messages come, `show` is called at most once a frame, with the newest. All that it
-    draws belongs below `root`, which has the pose of the message's frame.
+    However fast messages arrive, `show` is called at most once per drawn frame, with the newest.
+    It must draw everything below `root`, which has the pose of the message's frame.
     """
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._pose = Pose()
         self._newest: Any = None
         self._shown: Any = None
         super().start()
 
     def stop(self) -> None:
-        """Subscribe no longer, and remove what was drawn."""
+        """Unsubscribe, and remove everything that was drawn."""
         super().stop()
         self._newest = self._shown = None
 
@@ -55,7 +55,7 @@ class MessageDisplay(TopicDisplay):
         Raises
         ------
         ValueError
-            The message cannot be drawn; the reason goes into the status.
+            The message cannot be drawn; the reason is shown in the status.
 
         """
         raise NotImplementedError
@@ -79,7 +79,7 @@ class MessageDisplay(TopicDisplay):
 
     def take(self, message: Any) -> None:
         """
-        Keep a message as the newest, to be shown in the next frame.
+        Store a message as the newest, to be shown in the next frame.
 
         Parameters
         ----------
@@ -102,7 +102,7 @@ class MessageDisplay(TopicDisplay):
         self.say_shown()
 
     def _follow(self, header: Any) -> None:
-        """Move what is drawn to where the frame of the message is."""
+        """Move the root to the pose of the message's frame."""
         try:
             pose = self.placed(self.context.frames.pose(header.frame_id))
         except FrameError as error:

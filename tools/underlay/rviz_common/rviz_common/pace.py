@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Do something not for each frame, but now and then."""
+"""A rate limiter."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Pace:
     Parameters
     ----------
     period_s
-        The least time between two runs, in s of a monotonic clock.
+        The minimum time between two runs, in s of a monotonic clock.
 
     """
 
@@ -24,7 +24,7 @@ class Pace:
         self._next_s = 0.0
 
     def is_due(self) -> bool:
-        """Tell if it is time, at most once a period."""
+        """Return True at most once per period, if the next run is due."""
         now_s = time.monotonic()
         if now_s < self._next_s:
             return False
@@ -32,5 +32,5 @@ class Pace:
         return True
 
     def hurry(self) -> None:
-        """Make it time now."""
+        """Make the next run due immediately."""
         self._next_s = 0.0

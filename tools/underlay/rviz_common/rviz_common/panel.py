@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A group of widgets of the page."""
+"""The base class of panels."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ class Panel:
     """
     An entry of the list of panels.
 
-    `start` is called once, where the widgets that it adds get into the panel; `update` is called
-    for each frame.
+    `start` is called once, in a context that places the widgets that it adds into the panel;
+    `update` is called for each frame.
 
     Parameters
     ----------
     context
-        What it works with: the node, the page, and the transforms.
+        The node, the page and the transforms.
     given
-        Its entry of the .rviz file, None for a panel that no file lists.
+        Its entry in the .rviz file, None for a panel that no file lists.
 
     Attributes
     ----------
@@ -42,12 +42,12 @@ class Panel:
     """
 
     CLASS: ClassVar[str]
-    """The class that the file names, such as `rviz_common/Displays`."""
+    """The class name in the file, such as `rviz_common/Displays`."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     UNUSED: ClassVar[tuple[str, ...]] = ()
-    """Properties of RViz, by their first name, that mean nothing in a browser."""
+    """Properties of RViz, by top-level name, that do not apply in a browser."""
     IS_ALWAYS_VISIBLE: ClassVar[bool] = False
-    """Whether it is not in a tab; it then removes its widgets itself when it is closed."""
+    """Whether it is outside the tabs; it must then remove its widgets itself when closed."""
 
     def __init__(self, context: Context, given: Mapping[str, Any] | None = None) -> None:
         self.context = context
@@ -57,23 +57,23 @@ class Panel:
     @classmethod
     def is_wanted(cls, node: Node) -> bool:
         """
-        Whether a panel on demand is to appear, since what it is for is there; by default False.
+        Whether a panel on demand is to appear, as its subject is available; by default False.
 
         Parameters
         ----------
         node
-            The node through which to look, every 2 s until it is.
+            The node whose graph is examined, every 2 s until it is wanted.
 
         """
         return False
 
     @property
     def unknown(self) -> list[str]:
-        """Return the properties of the file that nobody knows."""
+        """The properties in the file that are unknown."""
         return self.values.unknown((*COMMON, *self.UNUSED))
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         written = self.values.to_file()
         if 'Class' not in written:
             written.update({'Class': self.CLASS, 'Name': self.name})
@@ -84,7 +84,7 @@ class Panel:
         raise NotImplementedError
 
     def update(self) -> None:
-        """Show what is new."""
+        """Update the widgets."""
 
     def close(self) -> None:
-        """End what the panel has begun; its widgets go with the page."""
+        """Release the resources of the panel; its widgets are removed with the page."""

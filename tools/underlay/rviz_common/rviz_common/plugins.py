@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the classes that files name, which installed packages offer as entry points."""
+"""Plugin classes, which installed packages offer as entry points."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ DISPLAYS = 'rviz_common.displays'
 PANELS = 'rviz_common.panels'
 TOOLS = 'rviz_common.tools'
 PANELS_ON_DEMAND = 'rviz_common.panels_on_demand'
-"""Panels that appear by themselves when there is something that they are for."""
+"""Panels that appear automatically when their subject is available."""
 
 
 def plugin_names(group: str) -> list[str]:

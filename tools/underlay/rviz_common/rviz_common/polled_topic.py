@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hear a topic when there is time for it, and not in between."""
+"""Subscriptions that are polled."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _topics: WeakKeyDictionary[Node, WeakSet[PolledTopic]] = WeakKeyDictionary()
 
 class WaitingGroup(ReentrantCallbackGroup):
     """
-    Subscriptions that the executor leaves alone.
+    Callback group of subscriptions that the executor ignores.
 
-    SingleThreadedExecutor asks the group, and a `GuardedNode` does not show them to others.
+    SingleThreadedExecutor asks the group; a `GuardedNode` hides them from other executors.
     """
 
     def can_execute(self, entity: Any) -> bool:
@@ -41,9 +41,9 @@ class WaitingGroup(ReentrantCallbackGroup):
 
 class PolledTopic:
     """
-    A subscription whose messages wait until they are taken; those beyond the depth are lost.
+    A subscription whose messages are queued until they are taken; the queue depth limits them.
 
-    For an executor to wake for each message takes longer than to take several at once.
+    Waking an executor for each message costs more than taking several at once.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class PolledTopic:
     topic
         The topic.
     qos
-        The quality of service, whose depth says how many messages can wait.
+        The QoS profile, whose depth is the maximum number of queued messages.
 
     """
 
@@ -66,7 +66,7 @@ class PolledTopic:
         _topics.setdefault(node, WeakSet()).add(self)
 
     def take(self) -> Iterator[tuple[Any, float]]:
-        """Yield the messages that wait, each with the time at which it came (`time.time`)."""
+        """Yield the queued messages, each with its time of reception (`time.time`)."""
         if self._subscription is None:
             return
         handle = self._subscription.handle
@@ -79,7 +79,7 @@ class PolledTopic:
             yield message, about['received_timestamp'] / 1e9 or time.time()
 
     def rest(self) -> None:
-        """Subscribe no longer until `resume`."""
+        """Unsubscribe until `resume`."""
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
@@ -96,14 +96,14 @@ class PolledTopic:
             )
 
     def close(self) -> None:
-        """Subscribe no longer."""
+        """Unsubscribe."""
         self.rest()
         _topics.get(self._node, WeakSet()).discard(self)
 
 
 def rest_all(node: Node) -> None:
     """
-    Unsubscribe all polled topics of a node until `resume_all`.
+    Unsubscribe from all polled topics of a node until `resume_all`.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def rest_all(node: Node) -> None:
 
 def resume_all(node: Node) -> None:
     """
-    Subscribe all polled topics of a node again, after `rest_all`.
+    Resubscribe to all polled topics of a node, after `rest_all`.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why nothing comes on a topic, as far as the graph of nodes tells."""
+"""Diagnosis of a topic without messages, from the ROS graph."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ __all__ = ['reason_of_silence']
 
 def reason_of_silence(node: Node, kind: Any, topic: str, qos: QoSProfile) -> str:
     """
-    Return how a sentence goes on that says that no message has come yet.
+    Return the reason why no message has arrived yet, as the end of a message about that.
 
     Parameters
     ----------
     node
-        Whose graph is looked at.
+        The node whose graph is examined.
     kind
-        The class of the messages that are subscribed.
+        The class of the messages.
     topic
         The topic, as the subscriber names it.
     qos
-        The quality of service that the subscriber asks for.
+        The QoS profile of the subscriber.
 
     """
     try:
         publishers = node.get_publishers_info_by_topic(full_topic_name(node, topic))
-    except Exception:  # rclpy has no one exception for bad names, or for a graph that is lost
+    except Exception:  # rclpy has no single exception for invalid names or a lost graph
         return '.'
     if not publishers:
         return ': nobody publishes there.'
@@ -44,7 +44,7 @@ _WAITS = ', though somebody publishes there: it may be sent rarely.'
 
 
 def _reason(publisher: Any, type_name: str, qos: QoSProfile) -> str:
-    """Return why nothing comes from a publisher."""
+    """Return the reason why no messages arrive from a publisher."""
     from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
     who = f'{publisher.node_namespace.rstrip("/")}/{publisher.node_name}'

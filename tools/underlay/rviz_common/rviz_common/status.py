@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a display has to say about itself."""
+"""The status of a display."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ['Level', 'Statuses']
 
 
 class Level(IntEnum):
-    """How bad something is."""
+    """The severity of a status message."""
 
     OK = 0
     WARN = 1
@@ -17,21 +17,21 @@ class Level(IntEnum):
 
 
 class Statuses:
-    """Sentences about a display by subject (`Topic`, `Transform`), the newest of each."""
+    """Status messages of a display by subject (`Topic`, `Transform`), the newest of each."""
 
     def __init__(self) -> None:
         self._sentences: dict[str, tuple[Level, str]] = {}
 
     def say(self, subject: str, level: Level, sentence: str) -> None:
         """
-        Set the message about a subject, in place of the one before.
+        Set the message about a subject, replacing the previous one.
 
         Parameters
         ----------
         subject
             What it is about, such as `Topic` or `Transform`.
         level
-            How bad it is.
+            The severity.
         sentence
             The message for the user.
 
@@ -51,14 +51,14 @@ class Statuses:
         self._sentences.pop(subject, None)
 
     def clear(self) -> None:
-        """Say no longer anything."""
+        """Remove all messages."""
         self._sentences.clear()
 
     @property
     def level(self) -> Level:
-        """Return the worst level."""
+        """The worst level."""
         return max((level for level, _ in self._sentences.values()), default=Level.OK)
 
     def items(self) -> list[tuple[str, Level, str]]:
-        """Return subject, level and sentence of all."""
+        """Return the subject, level and text of all messages."""
         return [(subject, *said) for subject, said in list(self._sentences.items())]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the pointer does in the scene."""
+"""The base class of tools."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ COMMON = ('Class',)
 
 class Tool:
     """
-    Something that the pointer does on the ground, which is the plane z = 0 of the fixed frame.
+    A tool for the pointer on the ground, which is the plane z = 0 of the fixed frame.
 
-    At most one tool is in use. Its methods are called in the thread of the node, and points are in
+    At most one tool is active. Its methods are called in the thread of the node, and points are in
     the fixed frame.
 
     Parameters
     ----------
     context
-        What it works with: the node, the page, and the transforms.
+        The node, the page and the transforms.
     root
         The path of the scene below which it draws.
     given
-        Its entry of the .rviz file, None for the defaults.
+        Its entry in the .rviz file, None for the defaults.
 
     Attributes
     ----------
@@ -40,14 +40,14 @@ class Tool:
     """
 
     CLASS: ClassVar[str]
-    """The class that the file names, such as `rviz_default_plugins/SetGoal`."""
+    """The class name in the file, such as `rviz_default_plugins/SetGoal`."""
     NAME: ClassVar[str]
-    """What the button says."""
+    """The label of the button."""
     HINT: ClassVar[str]
-    """What to do, in a sentence."""
+    """A sentence on how to use the tool."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     UNUSED: ClassVar[tuple[str, ...]] = ()
-    """Properties of RViz, by their first name, that mean nothing in a browser."""
+    """Properties of RViz, by top-level name, that do not apply in a browser."""
 
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
@@ -58,22 +58,22 @@ class Tool:
 
     @property
     def unknown(self) -> list[str]:
-        """Return the properties of the file that nobody knows."""
+        """The properties in the file that are unknown."""
         return self.values.unknown((*COMMON, *self.UNUSED))
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         return {**self.values.to_file(), 'Class': self.CLASS}
 
     def begin(self) -> None:
-        """Do what is to be done before the first use."""
+        """Prepare the tool for its first use."""
 
     def close(self) -> None:
-        """End what has been begun."""
+        """Release the resources of the tool."""
 
     def on_change(self, path: str) -> None:
         """
-        Apply a property that has been changed; by default close the tool and begin again.
+        Apply a property that was changed; by default close the tool and prepare it again.
 
         Parameters
         ----------
@@ -85,10 +85,10 @@ class Tool:
         self.begin()
 
     def take_up(self) -> None:
-        """Be the one that is in use."""
+        """Activate the tool."""
 
     def lay_down(self) -> None:
-        """Be in use no longer."""
+        """Deactivate the tool."""
 
     def click(self, point: Point) -> bool:
         """
@@ -97,31 +97,31 @@ class Tool:
         Parameters
         ----------
         point
-            Where, in m in the fixed frame.
+            The position, in m in the fixed frame.
 
         Returns
         -------
         bool
-            Whether the tool is done, and to be laid down.
+            Whether the tool is done, and to be deactivated.
 
         """
         return False
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
         """
-        Handle a drag over the ground, of which each movement is a call.
+        Handle a drag over the ground; called for each movement.
 
         Parameters
         ----------
         start, end
-            Where the drag has begun, and where the pointer is now, in m in the fixed frame.
+            The start of the drag and the current position of the pointer, in m in the fixed frame.
         is_over
             Whether the button has been released.
 
         Returns
         -------
         bool
-            Whether the tool is done, and to be laid down.
+            Whether the tool is done, and to be deactivated.
 
         """
         return False

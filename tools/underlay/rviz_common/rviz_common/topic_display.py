@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A display of what comes on a topic."""
+"""The base class of displays of a topic."""
 
 from __future__ import annotations
 
@@ -20,17 +20,16 @@ LOOK_S = 1.0
 
 class TopicDisplay(Display):
     """
-    A display of what comes on a topic.
+    A display of the messages of a topic.
 
-    Messages are given to `take` as they come; what is to be drawn of them waits for `update`.
-    While none comes, the status says what stands in the way: nobody publishes, another type, or
-    a quality of service that does not fit.
+    Messages are passed to `take` as they arrive; drawing waits for `update`. While none arrives,
+    the status reports the reason: no publisher, another type, or an incompatible QoS profile.
     """
 
     MESSAGE: ClassVar[type]
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._frame = self.context.scene.add_frame(self.root, show_axes=False)
         self._subscriptions: list[Any] = []
         self._silence_pace = Pace(LOOK_S)
@@ -44,7 +43,7 @@ class TopicDisplay(Display):
             self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet.')
 
     def update(self) -> None:
-        """Say what stands in the way of messages, as long as none has come."""
+        """Report why no message arrives, until the first one does."""
         topic = self.values['Topic/Value']
         if not self._is_silent or not self._silence_pace.is_due():
             return
@@ -53,7 +52,7 @@ class TopicDisplay(Display):
         self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet{reason}')
 
     def stop(self) -> None:
-        """Subscribe no longer, and remove what was drawn."""
+        """Unsubscribe, and remove everything that was drawn."""
         for subscription in self._subscriptions:
             self.context.node.destroy_subscription(subscription)
         self._subscriptions = []
@@ -62,7 +61,7 @@ class TopicDisplay(Display):
 
     def on_change(self, path: str) -> None:
         """
-        Subscribe anew after a change of a topic or its quality of service; redraw after any other.
+        Resubscribe after a change of a topic or its QoS profile; redraw after any other change.
 
         Parameters
         ----------
@@ -89,18 +88,18 @@ class TopicDisplay(Display):
 
     def take(self, message: Any) -> None:
         """
-        Keep a message for the next frame.
+        Store a message for the next frame.
 
         Parameters
         ----------
         message
-            A message that has just come on the topic.
+            A message that has just arrived on the topic.
 
         """
         raise NotImplementedError
 
     def redraw(self) -> None:
-        """Draw what there is again, since a property has been changed."""
+        """Redraw everything, since a property was changed."""
         raise NotImplementedError
 
     def subscribe(
@@ -112,7 +111,7 @@ class TopicDisplay(Display):
         **options: Any,
     ) -> bool:
         """
-        Subscribe a topic until the display stops; an error is reported in the status.
+        Subscribe to a topic until the display stops; an error is reported in the status.
 
         Parameters
         ----------
@@ -123,28 +122,28 @@ class TopicDisplay(Display):
         take
             Called with each message, in the thread of the node.
         path
-            Where the properties with the quality of service are; also the subject in the status.
+            The path of the properties with the QoS profile; also the subject in the status.
         **options
             Options of `Node.create_subscription`, such as `raw`.
 
         Returns
         -------
         bool
-            Whether the topic could be subscribed.
+            Whether the subscription succeeded.
 
         """
         try:
             subscription = self.context.node.create_subscription(
                 kind, topic, take, qos_of(self.values, path), **options
             )
-        except Exception as error:  # rclpy has no one exception for bad names
+        except Exception as error:  # rclpy has no single exception for invalid names
             self.status.say(path, Level.ERROR, f"'{topic}' cannot be subscribed: {error}")
             return False
         self._subscriptions.append(subscription)
         return True
 
     def say_shown(self) -> None:
-        """Say that a message has been shown."""
+        """Report in the status that a message has been shown."""
         topic = self.values['Topic/Value']
         self.status.forget('Message')
         self.status.say('Topic', Level.OK, f'{self.received} messages have come on {topic}.')
@@ -156,7 +155,7 @@ class TopicDisplay(Display):
         Parameters
         ----------
         reason
-            Why not: the error, or its text.
+            The error, or its text.
 
         """
         topic = self.values['Topic/Value']

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names of topics that people, files and browsers give."""
+"""Validation of topic names from users, files and browsers."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ LONGEST_SHOWN = 60
 
 def full_topic_name(node: Node, name: str) -> str:
     """
-    Resolve the full name of a topic, with namespaces and remappings of a node.
+    Resolve the full name of a topic, with the namespace and remappings of a node.
 
     Parameters
     ----------
     node
         The node whose namespace and remappings apply.
     name
-        The name as a user, a file or a browser gives it.
+        The name, as given by a user, a file or a browser.
 
     Raises
     ------
     ValueError
-        The text is no name of a topic. What rclpy raises for those depends on what is wrong, and
-        has the line of a C file or several lines.
+        The text is not a valid topic name. The exceptions of rclpy for these depend on the fault,
+        and their messages have several lines, or the line of a C file.
 
     """
     try:
         full: str = node.resolve_topic_name(name)
-    except Exception as error:  # rclpy has no one exception for bad names
+    except Exception as error:  # rclpy has no single exception for invalid names
         shown = name if len(name) <= LONGEST_SHOWN else f'{name[:LONGEST_SHOWN]}...'
         found = REASON.match(str(error))
         reason = found['reason'] if found else error
@@ -46,12 +46,12 @@ def full_topic_name(node: Node, name: str) -> str:
 
 def is_full_topic_name(name: str) -> bool:
     """
-    Whether ROS nodes can subscribe a name: the graph also lists topics of other DDS programs.
+    Whether ROS nodes can subscribe to a name: the graph also lists topics of other DDS programs.
 
     Parameters
     ----------
     name
-        The name of the topic, as the graph has it.
+        The name of the topic, as in the graph.
 
     """
     return FULL_NAME.fullmatch(name) is not None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work that is to be done in another thread."""
+"""A queue of work for another thread."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ Work = Callable[[], None]
 
 class WorkQueue:
     """
-    Thread-safe queue of work, which one thread does in the order of its arrival.
+    Thread-safe queue of callables, which one thread runs in the order of their arrival.
 
     Parameters
     ----------
     on_post
-        Called after each `post`, in the thread of the caller, to wake the one that works.
+        Called after each `post`, in the thread of the caller, to wake the worker thread.
 
     """
 
@@ -40,7 +40,7 @@ class WorkQueue:
         self._on_post()
 
     def run(self) -> None:
-        """Do what is waiting."""
+        """Run all queued work."""
         while True:
             try:
                 work = self._waiting.get_nowait()

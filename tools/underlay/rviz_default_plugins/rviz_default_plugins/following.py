@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep what a display draws at the place of a frame."""
+"""Moving the node of a display with a frame."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ __all__ = ['follow']
 
 def follow(display: Display, node: Any, frame: str) -> None:
     """
-    Move a node of the scene to a frame; hide it if no transform leads there.
+    Move a node of the scene to a frame; hide it if there is no transform to it.
 
     Parameters
     ----------
     display
-        The display that draws, whose status says why the node is hidden.
+        The display, whose status reports why the node is hidden.
     node
         The handle of viser for the node.
     frame

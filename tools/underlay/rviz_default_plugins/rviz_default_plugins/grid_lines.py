@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 __all__ = ['GridSize', 'in_pieces', 'lines']
 
 AXES = {'XY': (0, 1, 2), 'XZ': (0, 2, 1), 'YZ': (1, 2, 0)}
-"""Which coordinates go along the grid, and which across it."""
+"""The indices of the two in-plane coordinates of a grid, and of its normal."""
 
 
 @dataclass(frozen=True)
 class GridSize:
-    """How many square cells a grid has along its plane and across it, and how long they are."""
+    """The number of square cells of a grid in its plane and across it, and their size."""
 
     cells: int
     layers: int
@@ -24,7 +24,7 @@ class GridSize:
 
     @property
     def line_count(self) -> int:
-        """Return how many lines it takes."""
+        """The number of lines."""
         across = (self.cells + 1) ** 2 if self.layers else 0
         return 2 * (self.cells + 1) * (self.layers + 1) + across
 
@@ -35,7 +35,7 @@ class GridSize:
         Parameters
         ----------
         limit
-            The largest number of lines; at most an eighth of it are layers.
+            The maximum number of lines; at most an eighth of it are layers.
 
         Returns
         -------
@@ -88,7 +88,7 @@ def in_pieces(whole: NDArray[np.float32], count: int) -> NDArray[np.float32]:
     """
     Cut each line into pieces of the same length.
 
-    A browser finds the depth of a line wrong that begins behind the viewer: short ones stay right.
+    A browser misjudges the depth of a line that starts behind the viewer: short lines avoid this.
 
     Parameters
     ----------

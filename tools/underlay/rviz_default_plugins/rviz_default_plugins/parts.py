@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a file says of the links of a robot, or of the frames of tf, one by one."""
+"""The settings of single links of a robot, or of single frames of tf, in a file."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ AXES = Flag('Show Axes', False)
 
 class Parts:
     """
-    Settings of named parts, such as the links of a robot, below one name of a file.
+    Settings of named parts, such as the links of a robot, in one section of a file.
 
-    A part that the file does not name is shown if all are to be shown.
+    A part that the file does not name is shown if `all_shown` is set.
 
     Parameters
     ----------
     given
-        The section of the file, by the name of the part; values that cannot be used are ignored.
+        The section of the file, by the name of the part; invalid values are ignored.
 
     Attributes
     ----------
     all_shown
-        Whether a part is shown that the file does not name.
+        Whether parts that the file does not name are shown.
 
     """
 
@@ -39,7 +39,7 @@ class Parts:
 
     def show_all(self, are_shown: bool) -> None:
         """
-        Show all parts, or none of them, whatever has been set for each.
+        Show all parts, or none of them, overriding their individual settings.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class Parts:
 
     def alpha(self, name: str) -> float:
         """
-        Look up the opacity of a part, from 0 to 1.
+        Return the opacity of a part, from 0 to 1.
 
         Parameters
         ----------
@@ -90,14 +90,14 @@ class Parts:
 
     def put_into(self, written: dict[str, Any], name: str) -> dict[str, Any]:
         """
-        Merge the settings of the parts into what a file is to have.
+        Merge the settings of the parts into the entry for the file.
 
         Parameters
         ----------
         written
             The entry of the file.
         name
-            The section of the parts, such as `Links`; without it the entry stays as it is.
+            The section of the parts, such as `Links`; without it the entry is left unchanged.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a map of what a scanner sees while a robot moves, from the newest scan."""
+"""Map with a laser scanner while a robot moves, processing the newest scan only."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, EmitEvent, LogInfo, RegisterEventHandler

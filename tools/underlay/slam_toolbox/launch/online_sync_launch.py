@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a map of what a scanner sees while a robot moves, from every scan."""
+"""Map with a laser scanner while a robot moves, processing every scan."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, EmitEvent, LogInfo, RegisterEventHandler

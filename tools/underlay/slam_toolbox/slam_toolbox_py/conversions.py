@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages of maps, poses and graphs."""
+"""Conversion of maps, poses and graphs to messages."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def make_map(grid: Grid, frame: str, stamp: Any) -> OccupancyGrid:
     Parameters
     ----------
     grid
-        The cells, with their origin and width.
+        The cells, with their origin and resolution.
     frame
         The frame of the map.
     stamp
@@ -53,13 +53,13 @@ def make_placement(
     placement: Placement, frame: str, stamp: Any, position_scale: float, yaw_scale: float
 ) -> PoseWithCovarianceStamped:
     """
-    Build the `geometry_msgs/PoseWithCovarianceStamped` of where a scan was taken.
+    Build the `geometry_msgs/PoseWithCovarianceStamped` of the base at the time of a scan.
 
     Parameters
     ----------
     placement
-        Pose of the base in the map, with its covariance in the axes of the base; the message has
-        it in those of the map.
+        Pose of the base in the map, with its covariance in the axes of the base; the message
+        expresses it in those of the map.
     frame
         The frame of the map.
     stamp

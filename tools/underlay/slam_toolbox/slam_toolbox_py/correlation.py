@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Find where a scan fits best: a search over all poses in a window.
+Correlative scan matching: a search over all poses in a window.
 
-E. Olson, "Real-time correlative scan matching", ICRA 2009: what was seen is smeared to a grid of
-likelihoods, and coarse grids, each cell of which bounds those of a finer one, narrow the search.
+E. Olson, "Real-time correlative scan matching", ICRA 2009: the reference points are smeared to a
+likelihood grid, and coarse grids, whose cells bound those of a finer one, narrow the search.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ IntArray = npt.NDArray[np.int32]
 
 @dataclass(frozen=True)
 class CorrelationSettings:
-    """The window of a search, its steps, and how much poses far from the guess are disliked."""
+    """The window of a search, its steps, and the penalty of poses far from the guess."""
 
     half_window_m: float = 0.25
     half_window_rad: float = 0.349
@@ -56,7 +56,7 @@ def correlate(
     seen: FloatArray, points: FloatArray, guess: FloatArray, settings: CorrelationSettings
 ) -> CorrelationMatch:
     """
-    Find the pose in a window around a guess at which points fit best to those that were seen.
+    Find the pose in a window around a guess at which points best match the reference points.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def correlate(
 def _likelihoods(
     seen: FloatArray, settings: CorrelationSettings, margin: int
 ) -> tuple[npt.NDArray[np.uint8], FloatArray]:
-    """Return the grid of likelihoods, with a margin of zeros, and its corner in m."""
+    """Return the likelihood grid, with a margin of zeros, and its corner in m."""
     smear = int(np.ceil(3.0 * settings.smear_m / settings.resolution_m))
     corner = seen.min(axis=0) - (margin + smear) * settings.resolution_m
     cells = np.floor((seen - corner) / settings.resolution_m).astype(np.intp)
@@ -128,7 +128,7 @@ def _cells_of(
     reach: int,
     settings: CorrelationSettings,
 ) -> tuple[IntArray, int]:
-    """Return the flat cells of the points at each angle, and the cells in a row."""
+    """Return the flat cell indices of the points at each angle, and the row length."""
     turns = np.stack([rotation(guess[2] + angle) for angle in angles])
     placed = np.einsum('aij,pj->api', turns, points) + guess[:2]
     cells = np.floor((placed - corner) / settings.resolution_m)
@@ -138,7 +138,7 @@ def _cells_of(
 
 
 def _bounds(field: npt.NDArray[np.uint8], step: int) -> npt.NDArray[np.uint8]:
-    """Return the greatest likelihood in the square of `step` cells that begins at each cell."""
+    """Return the maximum likelihood in the square of `step` cells that starts at each cell."""
     if step == 1:
         return field.ravel()
     kernel = np.ones((step, step), dtype=np.uint8)
@@ -168,7 +168,7 @@ def _score(
 def _penalty(
     angle: FloatArray, right: IntArray, down: IntArray, settings: CorrelationSettings
 ) -> FloatArray:
-    """Return the factors, up to 1, for how far candidates are from the guess."""
+    """Return the penalty factors, up to 1, for the distance of candidates from the guess."""
     distance2 = (right.astype(float) ** 2 + down.astype(float) ** 2) * settings.resolution_m**2
     by_distance = np.exp(-0.5 * distance2 / settings.distance_variance)
     by_angle = np.exp(-0.5 * angle**2 / settings.angle_variance)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Localize in a finished map: scans are matched with its keyframes, and none is added."""
+"""Localize in a finished map: scans are matched to its keyframes, and none is added."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ __all__ = ['Localizer']
 
 class Localizer:
     """
-    Follows a robot in a map.
+    Tracks the pose of a robot in a map.
 
     Parameters
     ----------
     mapper
-        The map; it stays as it is.
+        The map, which is not changed.
     start
-        (3,) pose near which the robot is.
+        (3,) approximate pose of the robot.
 
     """
 
@@ -56,7 +56,7 @@ class Localizer:
 
     @property
     def is_searching(self) -> bool:
-        """Whether the next scan is looked for near given poses."""
+        """Whether the next scan is searched for near given poses."""
         return bool(self._starts)
 
     def is_due(self, odometry: FloatArray, share: float = 1.0) -> bool:
@@ -68,7 +68,7 @@ class Localizer:
         odometry
             Pose (3,) of the base in the odometry frame.
         share
-            The share of the least travel that is enough.
+            The fraction of the minimum travel that is sufficient.
 
         """
         if self._starts or self._odometry is None:
@@ -77,12 +77,12 @@ class Localizer:
 
     def add(self, scan: Scan, odometry: FloatArray) -> Placement:
         """
-        Match a scan with the map, and correct `map_to_odom`.
+        Match a scan to the map, and correct `map_to_odom`.
 
         Parameters
         ----------
         scan
-            What was seen.
+            The scan.
         odometry
             Pose (3,) of the base in the odometry frame at that time.
 
@@ -110,7 +110,7 @@ class Localizer:
         return placement_of(match)
 
     def _surfaces(self, pose: FloatArray) -> Surfaces:
-        """Return what was seen near a pose; kept while the same keyframes are near."""
+        """Return the surfaces near a pose; cached while the same keyframes are near."""
         near = tuple(sorted(self._mapper.nearest(pose[:2])))
         if near != self._seen[0]:
             self._seen = near, self._mapper.surfaces(list(near))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Notice that the robot is where it has been before, and correct the map with that.
+Loop closure: detect that the robot has returned to a known place, and correct the map.
 
-A closed loop has to pass four tests: the coarse match, the fine one, that it is not farther from
-what the graph tells than the robot can have drifted, and that the graph agrees with it afterwards.
+A loop closure has to pass four tests: the coarse match, the fine match, a deviation from the graph
+within the possible drift of odometry, and agreement of the graph with it after optimization.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def find_chains(mapper: Mapper, node: int) -> list[list[int]]:
 
     Returns
     -------
-    Chains of keyframes that follow each other, those with the nearest one first.
+    Chains of consecutive keyframes, the chain with the nearest one first.
 
     """
     settings = mapper.settings
@@ -68,14 +68,14 @@ def close_loops(mapper: Mapper, node: int) -> Iterator[str]:
     mapper
         The keyframes and the graph, which is changed.
     node
-        The keyframe, as a rule the newest one.
+        The keyframe, usually the newest one.
 
     Yields
     ------
     str
         The message for the log, which is empty after most steps. Each step takes some ten
-        milliseconds, and other work may be done meanwhile. The two keyframes after a loop close
-        none.
+        milliseconds, and other work may be done in between. The two keyframes after a loop
+        closure are not tested.
 
     """
     if node - mapper.last_loop < _REST:
@@ -94,7 +94,7 @@ def close_loops(mapper: Mapper, node: int) -> Iterator[str]:
 
 
 def _corrected(mapper: Mapper, edge: Edge) -> Iterator[str]:
-    """Optimize the graph with a new edge; take the edge back if the graph does not agree."""
+    """Optimize the graph with a new edge; remove the edge if the graph disagrees with it."""
     before = mapper.graph.poses.copy()
     for _ in mapper.graph.optimizing():
         yield ''
@@ -111,7 +111,7 @@ def _corrected(mapper: Mapper, edge: Edge) -> Iterator[str]:
 
 
 def _match(mapper: Mapper, node: int, chain: list[int]) -> Edge | None:
-    """Match a keyframe with a chain; return the edge to it if that is trustworthy."""
+    """Match a keyframe to a chain; return the edge between them if it is reliable."""
     settings, graph = mapper.settings, mapper.graph
     scan, guess = mapper.keyframes[node].scan, graph.poses[node]
     away = np.hypot(*(graph.poses[chain, :2] - guess[:2]).T)
@@ -137,7 +137,7 @@ def _match(mapper: Mapper, node: int, chain: list[int]) -> Edge | None:
 
 
 def _drift(mapper: Mapper, node: int, other: int) -> FloatArray:
-    """Return how far the pose of a keyframe may be off from another one: m, m, rad."""
+    """Return the maximum drift between two keyframes: x and y in m, yaw in rad."""
     way = mapper.travelled_m[node] - mapper.travelled_m[other]
     since = mapper.travelled_m[max(mapper.last_loop, 0)]
     loose = min(way, mapper.travelled_m[node] - since + 0.2 * way)

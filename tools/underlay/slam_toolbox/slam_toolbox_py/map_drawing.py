@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep the occupancy grid of the keyframes, and draw it anew after they have moved."""
+"""The occupancy grid of the keyframes, redrawn after they have moved."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _MOVED_RAD = 0.01
 
 class MapDrawing:
     """
-    The grid of what keyframes have seen.
+    The occupancy grid drawn from the keyframes.
 
     Parameters
     ----------
     resolution_m
-        Width of a cell.
+        The cell size.
 
     """
 
@@ -91,7 +91,7 @@ class MapDrawing:
 
     def grid(self, min_pass_through: int, occupancy_threshold: float) -> Grid | None:
         """
-        Compute the occupancy grid of what is drawn.
+        Compute the occupancy grid of the drawn keyframes.
 
         Parameters
         ----------
@@ -101,7 +101,7 @@ class MapDrawing:
         Returns
         -------
         Grid or None
-            The part of the grid that is known; None if none is.
+            The known part of the grid; None if no cell is known.
 
         """
         return self._counts.grid(min_pass_through, occupancy_threshold)

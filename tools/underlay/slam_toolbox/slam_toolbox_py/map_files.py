@@ -21,9 +21,9 @@ def full_path(name: str, *extensions: str) -> Path:
     Parameters
     ----------
     name
-        The name, which may begin with `~`.
+        The name, which may start with `~`.
     *extensions
-        The extensions that are removed, with their dots; others are kept as part of the name.
+        The extensions to remove, with their dots; others are kept as part of the name.
 
     """
     path = Path(os.path.abspath(os.path.expanduser(name)))
@@ -32,14 +32,14 @@ def full_path(name: str, *extensions: str) -> Path:
 
 def write_atomically(path: Path, content: bytes) -> None:
     """
-    Write a file so that nobody ever sees half of it.
+    Write a file atomically, so that no reader sees a partial file.
 
     Parameters
     ----------
     path
         The file, which is replaced if it exists.
     content
-        All that is in it.
+        Its content.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def save_map(grid: Grid, name: str) -> Path:
 
     Returns
     -------
-    The whole path of the description.
+    The absolute path of the description.
 
     Raises
     ------

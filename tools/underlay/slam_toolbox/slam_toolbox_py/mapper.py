@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Where is the robot, and what has it seen: keyframes, matched one after the other.
+The front end of SLAM: keyframes, matched one after the other.
 
-A scan is processed when the robot has moved a little. It is matched with the last ones, and
-becomes a node of the pose graph, with an edge to the one before. Loops are closed in
+A scan is processed when the robot has moved sufficiently. It is matched to the last keyframes, and
+becomes a node of the pose graph, with an edge to the previous one. Loops are closed in
 `loop_closure`, in steps, after that.
 """
 
@@ -36,7 +36,7 @@ _START_WINDOW_M = 1.0
 
 @dataclass(frozen=True)
 class Keyframe:
-    """A scan that the map is made of."""
+    """A scan that is part of the map."""
 
     scan: Scan
     odometry: FloatArray
@@ -46,14 +46,14 @@ class Keyframe:
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a scan was taken."""
+    """The pose at which a scan was taken."""
 
     pose: FloatArray
     """(3,) pose of the base in the map."""
     covariance: FloatArray
-    """(3, 3) of it, in the axes of the base, in m2 and rad2."""
+    """(3, 3) covariance of the pose, in the axes of the base, in m2 and rad2."""
     response: float
-    """How well it fits to what was seen, from 0 to 1."""
+    """The quality of the match, from 0 to 1."""
 
 
 def placement_of(match: RefinedMatch) -> Placement:
@@ -72,12 +72,12 @@ def placement_of(match: RefinedMatch) -> Placement:
 
 class Mapper:
     """
-    Places scans, and keeps those that the map is made of.
+    Matches scans, and stores them as keyframes of the map.
 
     Parameters
     ----------
     settings
-        How scans are matched; may be replaced at any time.
+        The settings of scan matching; may be replaced at any time.
 
     """
 
@@ -86,9 +86,9 @@ class Mapper:
         self.graph = PoseGraph()
         self.keyframes: list[Keyframe] = []
         self.travelled_m: list[float] = []
-        """The way of the robot up to each keyframe."""
+        """The distance travelled by the robot up to each keyframe."""
         self.last_loop = -(10**6)
-        """The keyframe that has closed a loop last."""
+        """The keyframe that closed the latest loop."""
         self.map_to_odom: FloatArray = np.zeros(3)
         """(3,) pose of the odometry frame in the map."""
         self._starts: list[FloatArray] = []
@@ -97,7 +97,7 @@ class Mapper:
 
     def start_at(self, *poses: FloatArray) -> None:
         """
-        Search for the robot near given poses with the next scan, which begins a new session.
+        Search for the robot near given poses with the next scan, which starts a new session.
 
         Parameters
         ----------
@@ -110,7 +110,7 @@ class Mapper:
 
     @property
     def is_searching(self) -> bool:
-        """Whether the next scan is looked for near given poses."""
+        """Whether the next scan is searched for near given poses."""
         return bool(self._starts)
 
     def is_due(self, odometry: FloatArray, share: float = 1.0) -> bool:
@@ -122,7 +122,7 @@ class Mapper:
         odometry
             (3,) pose of the base in the odometry frame.
         share
-            The share of the least travel that is enough.
+            The fraction of the minimum travel that is sufficient.
 
         """
         if not self.keyframes or self._starts:
@@ -140,7 +140,7 @@ class Mapper:
         pose
             Pose (3,) of the base in the map.
         travelled_m
-            The distance that the robot has covered up to there, in m.
+            The distance that the robot has travelled up to there, in m.
 
         """
         self.keyframes.append(keyframe)
@@ -166,12 +166,12 @@ class Mapper:
 
     def add(self, scan: Scan, odometry: FloatArray, stamp_s: float = 0.0) -> Placement:
         """
-        Place a scan, and keep it.
+        Match a scan, and add it as a keyframe.
 
         Parameters
         ----------
         scan
-            What was seen.
+            The scan.
         odometry
             (3,) pose of the base in the odometry frame at that time.
         stamp_s
@@ -199,25 +199,25 @@ class Mapper:
         return placement_of(match)
 
     def follow_graph(self) -> None:
-        """Take over where the newest keyframe is, after the graph has changed."""
+        """Update `map_to_odom` from the newest keyframe, after the graph has changed."""
         if self.keyframes:
             last = inverse(self.keyframes[-1].odometry)
             self.map_to_odom = compose(self.graph.poses[-1], last)
 
     def surfaces(self, nodes: list[int]) -> Surfaces:
         """
-        Collect the points and normals that keyframes have seen, in the map.
+        Collect the points and normals of the scans of keyframes, in the map.
 
         Parameters
         ----------
         nodes
-            The numbers of the keyframes, which are placed where the graph has them now.
+            The indices of the keyframes, at their current poses in the graph.
 
         """
         return Surfaces([(self.keyframes[i].scan, self.graph.poses[i]) for i in nodes])
 
     def positions(self) -> FloatArray:
-        """Return the (N, 2) positions of keyframes, by which they are near to each other."""
+        """Return the (N, 2) positions of keyframes by which their distances are measured."""
         if not self.settings.use_scan_barycenter:
             return self.graph.poses[:, :2]
         known = len(self._middles)
@@ -234,19 +234,19 @@ class Mapper:
         position
             Position (2,) in the map, in m.
         count
-            How many keyframes are wanted.
+            The number of keyframes to find.
 
         Returns
         -------
         list of int
-            Their numbers, the nearest first.
+            Their indices, the nearest first.
 
         """
         away = np.hypot(*(self.graph.poses[:, :2] - position).T)
         return [int(i) for i in np.argsort(away, kind='stable')[:count]]
 
     def _followed(self, scan: Scan, odometry: FloatArray) -> tuple[RefinedMatch, int]:
-        """Match a scan with the last ones, near where odometry tells that it was taken."""
+        """Match a scan to the last keyframes, near the pose predicted by odometry."""
         last = len(self.keyframes) - 1
         moved = relative(self.keyframes[-1].odometry, odometry)
         guess = compose(self.graph.poses[-1], moved)
@@ -261,7 +261,7 @@ class Mapper:
         return match, last
 
     def _recent(self) -> list[int]:
-        """Return the last keyframes that are near enough to the newest one."""
+        """Return the last keyframes that are sufficiently near the newest one."""
         first = max(self._session, len(self.keyframes) - self.settings.scan_buffer_size)
         recent = np.arange(first, len(self.keyframes))
         away = self.graph.poses[recent, :2] - self.graph.poses[-1, :2]
@@ -273,16 +273,16 @@ def has_moved(
     before: FloatArray, odometry: FloatArray, settings: MapperSettings, share: float
 ) -> bool:
     """
-    Check whether a robot has moved enough between two poses, by distance or by turn.
+    Check whether a robot has moved enough between two poses, by distance or by rotation.
 
     Parameters
     ----------
     before, odometry
         Earlier and current pose (3,) of the base in the odometry frame.
     settings
-        The least travel and turn.
+        The settings, with the minimum travel and rotation.
     share
-        The share of these that is enough.
+        The fraction of these that is sufficient.
 
     """
     moved = relative(before, odometry)
@@ -296,25 +296,25 @@ def find_again(
     mapper: Mapper, scan: Scan, guesses: list[FloatArray], half_window_m: float = _START_WINDOW_M
 ) -> tuple[RefinedMatch, int]:
     """
-    Match a scan with the keyframes near given poses, to relocalize the robot.
+    Match a scan to the keyframes near given poses, to relocalize the robot.
 
     A match that is not good enough is replaced by the first guess, with little information.
 
     Parameters
     ----------
     mapper
-        The keyframes, and how to match with them.
+        The keyframes and the settings of the matching.
     scan
-        What was seen.
+        The scan.
     guesses
         Poses (3,) of the base in the map.
     half_window_m
-        How far from each guess to search along x and y, in m.
+        The half-width of the search window around each guess along x and y, in m.
 
     Returns
     -------
     tuple of RefinedMatch and int
-        The best match, and the number of the keyframe nearest to its guess.
+        The best match, and the index of the keyframe nearest to its guess.
 
     """
     search, found = mapper.settings.loop_search(half_window_m), []
@@ -332,7 +332,7 @@ def find_again(
 
 def trust_in_odometry(moved: FloatArray) -> FloatArray:
     """
-    Model the information of a motion that odometry measures.
+    Compute the information matrix of a motion measured by odometry.
 
     Parameters
     ----------

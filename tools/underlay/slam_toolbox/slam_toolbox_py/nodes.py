@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes of slam_toolbox, and the bodies of their executables."""
+"""The nodes of slam_toolbox, and the main functions of their executables."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ __all__ = ['AsynchronousSlamToolbox', 'LocalizationSlamToolbox', 'SynchronousSla
 
 
 class AsynchronousSlamToolbox(SlamToolbox):
-    """Processes the newest scan, and leaves out those that came while it was busy."""
+    """Node that processes the newest scan, and drops those that arrived while it was busy."""
 
 
 class SynchronousSlamToolbox(SlamToolbox):
-    """Processes each scan in order, however long that takes: for recorded data."""
+    """Node that processes every scan in order, however long that takes: for recorded data."""
 
     keeps_all_scans = True
 
     def configure(self) -> None:
-        """Also offer to drop the scans that wait."""
+        """Also offer the service that clears the scan queue."""
         super().configure()
         self.offered.offer_clear_queue()
 
 
 class LocalizationSlamToolbox(SlamToolbox):
-    """Localizes in a map of the parameter `map_file_name` or the service `deserialize_map`."""
+    """Node that localizes in a map from `map_file_name` or the service `deserialize_map`."""
 
     only_localizes = True
 
     def configure(self) -> None:
-        """Also listen to where people say that the robot is."""
+        """Also subscribe to initial pose estimates."""
         super().configure()
         self.offered.offer_clear_localization_buffer()
         self.create_subscription(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw scans to an occupancy grid: how often was each cell hit, and how often swept."""
+"""Drawing of scans to an occupancy grid: counts of hits and passes of each cell."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SHIFT = 6
 
 @dataclass(frozen=True)
 class Grid:
-    """An occupancy grid, as `nav_msgs/OccupancyGrid` has it."""
+    """An occupancy grid, as in `nav_msgs/OccupancyGrid`."""
 
     cells: npt.NDArray[np.int8]
     """(rows, columns) of FREE, OCCUPIED and UNKNOWN; row 0 at the lowest y."""
@@ -31,12 +31,12 @@ class Grid:
 
 class OccupancyCounts:
     """
-    Counts of hits and passes, which grow with what is seen.
+    Counts of hits and passes, in a grid that grows with the scans.
 
     Parameters
     ----------
     resolution_m
-        Width of a cell.
+        The cell size.
 
     """
 
@@ -49,9 +49,9 @@ class OccupancyCounts:
 
     def add(self, scan: Scan, pose: FloatArray) -> None:
         """
-        Count what a scan hits and sweeps.
+        Count the cells that a scan hits and sweeps.
 
-        The area between the beams, up to a cell before their ends, counts as swept once.
+        The area between the beams, up to one cell before their ends, counts as swept once.
 
         Parameters
         ----------
@@ -67,7 +67,7 @@ class OccupancyCounts:
         outline = sensor + outline * shorter[:, None]
         self._cover(np.concatenate([points, outline, sensor]))
         swept = np.zeros(self._hits.shape, dtype=np.uint8)
-        # A cell's middle has whole coordinates in what OpenCV draws.
+        # OpenCV draws with the centres of cells at integer coordinates.
         corners = outline / self.resolution_m - self._corner - 0.5
         fixed = np.rint(corners * (1 << _SHIFT)).astype(np.int32)
         cv2.fillPoly(swept, [fixed], 1, lineType=cv2.LINE_8, shift=_SHIFT)
@@ -80,18 +80,18 @@ class OccupancyCounts:
 
     def grid(self, min_pass_through: int, occupancy_threshold: float) -> Grid | None:
         """
-        Decide what cells are.
+        Classify the cells.
 
         Parameters
         ----------
         min_pass_through
-            Cells that fewer scans have hit or swept are unknown, but those that each of them hit.
+            Cells observed by fewer scans are unknown, unless all of those scans hit them.
         occupancy_threshold
-            Cells that a greater share of scans has hit are occupied.
+            Cells hit by a greater fraction of the scans are occupied.
 
         Returns
         -------
-        The part of the grid that is known; None if none is.
+        The known part of the grid; None if no cell is known.
 
         """
         seen = self._hits + self._passes
@@ -109,7 +109,7 @@ class OccupancyCounts:
         return Grid(cells, origin, self.resolution_m)
 
     def _cover(self, points: FloatArray) -> None:
-        """Grow the grid so that it holds points, in m."""
+        """Grow the grid so that it contains points, in m."""
         low = np.floor(points.min(axis=0) / self.resolution_m).astype(np.int64) - 1
         high = np.floor(points.max(axis=0) / self.resolution_m).astype(np.int64) + 2
         if not self._hits.size:

@@ -24,12 +24,12 @@ UNSUPPORTED = {
     'use_response_expansion': 'a scan that matches badly is placed by odometry',
     'scan_queue_size': 'a node keeps one scan until its transforms are there, the synchronous all',
 }
-"""Parameters that are accepted without effect, and what happens instead."""
+"""Parameters that are accepted without effect, and the behaviour instead."""
 
 
 @dataclass(frozen=True)
 class SlamParameters:
-    """What the nodes are told; see `ros2 param describe` for each."""
+    """The parameters of the nodes; see `ros2 param describe` for each."""
 
     solver_plugin: str = parameter(
         'solver_plugins::CeresSolver', 'Solver of the pose graph; there is one, whatever its name.'

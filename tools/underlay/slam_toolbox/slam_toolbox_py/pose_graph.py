@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Poses and the measurements between them, and the poses that agree best with all of them.
+Pose graph optimization: the poses that agree best with the measurements between them.
 
 G. Grisetti, R. Kuemmerle, C. Stachniss and W. Burgard, "A tutorial on graph-based SLAM", 2010:
-nonlinear least squares on sparse normal equations, damped after Levenberg and Marquardt. Closed
-loops count less the less they agree (Cauchy weights).
+nonlinear least squares on sparse normal equations, with Levenberg-Marquardt damping. Loop
+closures are weighted less the less they agree (Cauchy weights).
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ class Edge:
     measured: FloatArray
     """(3,) pose of the second node in the first one."""
     information: FloatArray
-    """(3, 3) inverse covariance of it in the axes of the second node."""
+    """(3, 3) inverse covariance of the measurement in the axes of the second node."""
     is_loop: bool = False
-    """Whether it closes a loop, and so may be wrong."""
+    """Whether it is a loop closure, and so may be wrong."""
 
 
 class PoseGraph:
@@ -59,7 +59,7 @@ class PoseGraph:
         Returns
         -------
         int
-            The number of the node.
+            The index of the node.
 
         """
         self.poses = np.concatenate([self.poses, np.reshape(pose, (1, 3))])
@@ -105,7 +105,7 @@ class PoseGraph:
         return before
 
     def optimizing(self) -> Iterator[None]:
-        """Optimize in steps, each of one solution of linear equations; poses change at the end."""
+        """Optimize in steps of one linear solve each; the poses change at the end."""
         edges, poses = list(self.edges), self.poses.copy()
         if len(poses) < 2 or not edges:
             return
@@ -124,7 +124,7 @@ class PoseGraph:
             poses, cost, damping = moved, new_cost, damping * 0.1
             if change < _CONVERGED_M:
                 break
-        # Nodes may have come meanwhile: they keep where they are from the last one that moved.
+        # Nodes added meanwhile keep their poses relative to the last optimized one.
         self.poses = _carried(self.poses, poses)
 
 
@@ -150,13 +150,13 @@ class _Problem:
         )
 
     def cost(self, poses: FloatArray) -> float:
-        """Return the sum of the squared errors, less for loops that do not agree."""
+        """Return the sum of the squared errors, with robust weights for loop closures."""
         squared = (self._whitened(poses) ** 2).sum(axis=1)
         robust = _CAUCHY**2 * np.log1p(squared / _CAUCHY**2)
         return float(np.where(self.is_loop, robust, squared).sum())
 
     def step(self, poses: FloatArray, damping: float) -> FloatArray:
-        """Return the poses after a step of Gauss-Newton with a damping."""
+        """Return the poses after a damped Gauss-Newton step."""
         errors = self._whitened(poses)
         squared = (errors**2).sum(axis=1)
         weights = np.where(self.is_loop, 1.0 / (1.0 + squared / _CAUCHY**2), 1.0)
@@ -189,7 +189,7 @@ class _Problem:
         return whitened
 
     def _jacobians(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return how the errors change with the first and with the second poses, (E, 3, 3)."""
+        """Return the Jacobians of the errors by the first and the second poses, (E, 3, 3)."""
         first, second = poses[self.first], poses[self.second]
         turn = first[:, 2] + self.measured[:, 2]
         cos, sin = np.cos(turn), np.sin(turn)
@@ -212,12 +212,12 @@ def _errors(poses: FloatArray, edges: list[Edge]) -> FloatArray:
 
 
 def _differences(first: FloatArray, second: FloatArray, measured: FloatArray) -> FloatArray:
-    """Return where second poses are from where they were measured, in axes measured, (E, 3)."""
+    """Return the errors of the second poses in the axes of the measured ones, (E, 3)."""
     return relative(measured, relative(first, second))
 
 
 def _carried(current: FloatArray, moved: FloatArray) -> FloatArray:
-    """Return all poses when the first ones have moved, and the others with the last of them."""
+    """Return all poses after the first ones moved, carrying the others with the last one."""
     first = len(moved)
     later: npt.NDArray[np.float64] = current[first:]
     if not len(later):

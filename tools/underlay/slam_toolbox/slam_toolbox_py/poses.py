@@ -27,7 +27,7 @@ def wrap(angle_rad: FloatArray | float) -> FloatArray:
 
 def compose(first: FloatArray, second: FloatArray) -> FloatArray:
     """
-    Return poses that are given in other ones, in the frame in which those are given.
+    Compose poses: express the second ones, given in the first ones, in their parent frame.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def inverse(pose: FloatArray) -> FloatArray:
 
 def relative(first: FloatArray, second: FloatArray) -> FloatArray:
     """
-    Express poses in other ones.
+    Express poses relative to other ones.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def relative(first: FloatArray, second: FloatArray) -> FloatArray:
 
 def transform(pose: FloatArray, points: FloatArray) -> FloatArray:
     """
-    Return points that are given in a pose, in the frame in which the pose is given.
+    Transform points from the frame of a pose to its parent frame.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Refine the pose of a scan below the cells of a grid, and say how sure it is.
+Refine the pose of a scan beyond the grid resolution, and estimate its information matrix.
 
-Gauss-Newton on the distances of the points to the surfaces that they are nearest to, with robust
-weights: A. Censi, "An ICP variant using a point-to-line metric", ICRA 2008. The guess takes part
-as a measurement, so the pose keeps to it in directions that no surface tells of, as in a corridor.
+Gauss-Newton on the distances of the points to their nearest surfaces, with robust weights:
+A. Censi, "An ICP variant using a point-to-line metric", ICRA 2008. The guess is included as a
+measurement, so the pose follows it in unobservable directions, as along a corridor.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ _STILL = np.array([2e-4, 2e-4, 1e-4])
 
 @dataclass(frozen=True)
 class RefinedMatch:
-    """The pose at which a scan fits best."""
+    """The pose at which a scan matches best."""
 
     pose: FloatArray
     """(3,) pose of the scan."""
     information: FloatArray
     """(3, 3) inverse covariance of the pose in its own axes, in 1/m2 and 1/rad2."""
     response: float
-    """From 0 to 1: how well the points lie on surfaces that face the same way."""
+    """From 0 to 1: how well the points lie on surfaces with matching normals."""
 
 
 class Surfaces:
     """
-    Points that were seen, with the normals of their surfaces, to match with.
+    Reference points with their surface normals, for scan matching.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Surfaces:
         points
             Points (N, 2) in m, in the frame of the scans' poses.
         within_m
-            How far away they may be, in m.
+            The maximum distance, in m.
 
         Returns
         -------
@@ -92,16 +92,16 @@ def refine(
     seen: Surfaces, scan: Scan, start: FloatArray, guess: FloatArray, trust: FloatArray
 ) -> RefinedMatch:
     """
-    Find the most likely pose of a scan near a start.
+    Find the most likely pose of a scan, starting from an initial pose.
 
     Parameters
     ----------
     seen
-        What it is matched with.
+        The reference surfaces.
     scan, start
-        The scan, and the (3,) pose to begin at.
+        The scan, and its initial (3,) pose.
     guess, trust
-        (3,) pose by another measurement, and its (3, 3) information in the axes of the map.
+        (3,) pose from another measurement, and its (3, 3) information in the axes of the map.
 
     """
     pose = start.copy()
@@ -127,20 +127,20 @@ def refine(
 
 def fit_of(seen: Surfaces, scan: Scan, pose: FloatArray) -> float:
     """
-    Rate how well a scan fits to what was seen.
+    Rate how well a scan matches the reference surfaces.
 
     Parameters
     ----------
     seen
-        What it is compared with.
+        The reference surfaces.
     scan, pose
-        The scan, and its pose (3,) in the frame of what was seen.
+        The scan, and its pose (3,) in the frame of the reference surfaces.
 
     Returns
     -------
     float
-        From 0 to 1: the mean of how near its points with known normals lie to surfaces that face
-        the same way; 0 if it has none.
+        From 0 to 1: the mean closeness of its points with known normals to surfaces with matching
+        normals; 0 if it has none.
 
     """
     _, errors, _, weights = _residuals(seen, scan, pose, 3.0 * _RESPONSE_M)
@@ -152,7 +152,7 @@ def fit_of(seen: Surfaces, scan: Scan, pose: FloatArray) -> float:
 def _residuals(
     seen: Surfaces, scan: Scan, pose: FloatArray, gate_m: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return the points from the pose's position, their errors in m, the normals, and weights."""
+    """Return the points relative to the position, their errors in m, normals, and weights."""
     turn = rotation(pose[2]).T
     arms = scan.points @ turn
     placed = arms + pose[:2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scans wait here until it is known where the robot was when they were taken."""
+"""The queue of scans that wait for their transforms."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _FOREVER = 1000
 
 @dataclass(frozen=True)
 class TimedScan:
-    """A scan of which the pose of the robot in the odometry frame is known."""
+    """A scan with the pose of the robot in the odometry frame."""
 
     message: LaserScan
     odometry: FloatArray
@@ -37,14 +37,14 @@ class TimedScan:
 
     @property
     def tilt_rad(self) -> float:
-        """Return the angle between the scanner's axis and the vertical, whichever side is up."""
+        """The angle between the scanner's axis and the vertical, whichever side is up."""
         q = self.sensor.rotation
         return math.acos(min(1.0, abs(1.0 - 2.0 * (q.x * q.x + q.y * q.y))))
 
 
 class ScanIntake:
     """
-    Holds scans back until their transforms are there.
+    Queue of scans that wait until their transforms are available.
 
     Parameters
     ----------
@@ -53,9 +53,9 @@ class ScanIntake:
     odom_frame, base_frame
         The frames of odometry and of the robot.
     keeps_all
-        Whether each scan is handed out, in order, instead of the newest ones only.
+        Whether every scan is returned, in order, instead of the newest ones only.
     warn
-        Called with a sentence when scans are dropped.
+        Called with a message when scans are dropped.
 
     """
 
@@ -73,7 +73,7 @@ class ScanIntake:
 
     def offer(self, message: LaserScan) -> None:
         """
-        Queue a scan until its transforms are known.
+        Queue a scan until its transforms are available.
 
         Parameters
         ----------
@@ -84,21 +84,21 @@ class ScanIntake:
         self._waiting.append(message)
 
     def clear(self) -> int:
-        """Drop what waits; return how many scans that were."""
+        """Drop all queued scans; return their number."""
         count = len(self._waiting)
         self._waiting.clear()
         return count
 
     def next_scan(self, now_s: float, timeout_s: float) -> TimedScan | None:
         """
-        Return the next scan whose transforms are known, and drop what is before it.
+        Return the next scan whose transforms are available, and drop the scans before it.
 
         Parameters
         ----------
         now_s
-            The time of the node's clock.
+            The time of the node's clock, in s.
         timeout_s
-            Scans whose transforms have not come for so long are dropped.
+            Scans that have waited longer for their transforms are dropped.
 
         """
         count = len(self._waiting)
@@ -121,7 +121,7 @@ class ScanIntake:
 
     def located(self, message: LaserScan) -> TimedScan:
         """
-        Look up where the robot and the scanner were when a scan was taken.
+        Look up the poses of the robot and the scanner at the time of a scan.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class ScanIntake:
         Raises
         ------
         TransformException
-            They are not known, or not yet.
+            The transforms are not available, or not yet.
 
         """
         found = self._look_up(self._odom, self._base, message)
@@ -159,14 +159,14 @@ class ScanIntake:
 
 def project(timed: TimedScan, range_min_m: float, range_max_m: float) -> Scan:
     """
-    Project a scan to the ground: the odometry frame tells how the scanner was tilted.
+    Project a scan to the ground, using the tilt of the scanner in the odometry frame.
 
     Parameters
     ----------
     timed
         The scan.
     range_min_m, range_max_m
-        What is measured, if the scanner does not tell of less.
+        The limits of the ranges, unless those of the scanner are narrower.
 
     """
     message, sensor = timed.message, timed.sensor
@@ -176,7 +176,7 @@ def project(timed: TimedScan, range_min_m: float, range_max_m: float) -> Scan:
     at[:2] -= timed.odometry[:2]
     ranges = np.array(message.ranges, dtype=float)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
-    # What is beyond the scanner's range is no measurement.
+    # Ranges beyond the scanner's maximum are not measurements.
     ranges[ranges >= message.range_max] = math.nan
     low = max(range_min_m, message.range_min)
     turn = level @ _matrix(sensor.rotation)
@@ -188,7 +188,7 @@ def _seconds(message: LaserScan) -> float:
 
 
 def _matrix(rotation_: Any) -> FloatArray:
-    """Return the (3, 3) matrix of a quaternion."""
+    """Return the (3, 3) rotation matrix of a quaternion."""
     x, y, z, w = rotation_.x, rotation_.y, rotation_.z, rotation_.w
     return np.array(
         [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sweep of a planar laser scanner tells: points, surfaces and free space."""
+"""Scans of a planar laser scanner: points, surface normals and free space."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _FLATNESS = 0.1
 
 @dataclass(frozen=True)
 class Scan:
-    """A sweep in the planar base frame: x ahead, y to the left, z up whatever the tilt was."""
+    """A sweep in the planar base frame: x forward, y left, z up, independent of the tilt."""
 
     points: FloatArray
     """(N, 2) end points of the beams that hit something, in m."""
     normals: FloatArray
-    """(N, 2) unit normals of the surfaces at the points, to the scanner; 0 where unknown."""
+    """(N, 2) unit surface normals at the points, towards the scanner; 0 where unknown."""
     outline: FloatArray
     """(B, 2) corners of the area that the beams have swept, in m."""
     origin: FloatArray
@@ -31,7 +31,7 @@ class Scan:
 
     @property
     def barycenter(self) -> FloatArray:
-        """Return the mean of the points, (2,), in m; the scanner's position if there are none."""
+        """The mean of the points, (2,), in m; the scanner's position if there are none."""
         return self.points.mean(axis=0) if len(self.points) else self.origin
 
 
@@ -50,11 +50,11 @@ def take_scan(
     ----------
     ranges, angles
         (B,) distances in m, and directions in rad in the plane x, y of the scanner. Distances
-        that are no numbers, infinite or below the minimum say nothing.
+        that are NaN, infinite or below the minimum are ignored.
     turn, origin
         (3, 3) rotation matrix and (3,) position in m of the scanner in the planar base frame.
     range_min_m, range_max_m
-        What is measured; a beam that is longer has swept free space to the maximum.
+        The valid ranges; a longer beam sweeps free space up to the maximum.
 
     """
     ranges = np.asarray(ranges, dtype=float)
@@ -69,18 +69,18 @@ def take_scan(
 
 def surface_normals(points: FloatArray, origin: FloatArray) -> FloatArray:
     """
-    Estimate the normals of the surfaces on which points lie, by their principal directions.
+    Estimate the surface normals at points by principal component analysis.
 
     Parameters
     ----------
     points
         (N, 2) array in m.
     origin
-        (2,) position that the normals point to.
+        (2,) position towards which the normals point.
 
     Returns
     -------
-    (N, 2) unit vectors; 0 where the neighbours are too few or lie on no line.
+    (N, 2) unit vectors; 0 where the neighbours are too few or not on a line.
 
     """
     if len(points) < 3:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of the nodes: save and load maps, pause, and begin anew."""
+"""The services of the nodes: save and load maps, pause, and reset."""
 
 from __future__ import annotations
 
@@ -59,11 +59,11 @@ class SlamServices:
             self._offer(SaveMap, 'save_map', self._save)
 
     def offer_clear_queue(self) -> None:
-        """Offer to drop the scans that wait."""
+        """Offer the service that clears the scan queue."""
         self._offer(ClearQueue, 'clear_queue', self._clear_queue)
 
     def offer_clear_localization_buffer(self) -> None:
-        """Offer to forget the scans that localize; none are kept, so that is done."""
+        """Offer the service that clears the localization buffer; there is none to clear."""
         self._offer(Empty, 'clear_localization_buffer', lambda _, response: response)
 
     def _offer(self, kind: Any, name: str, answer: Callable[[Any, Any], Any]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A run of the mapper or the localizer: which scans are taken, and what is done between them."""
+"""A run of the mapper or the localizer: scheduling of scans, loop closure and drawing."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ _DRAWN_AT_ONCE = 40
 
 @dataclass(frozen=True)
 class SessionSettings:
-    """How often scans are taken, and how the map is drawn."""
+    """The settings of scan processing and map drawing."""
 
     mapper: MapperSettings = field(default_factory=MapperSettings)
     minimum_time_interval_s: float = 0.5
     enough_travel: float = 1.0
-    """The share of the least travel that makes a keyframe."""
+    """The fraction of the minimum travel that makes a keyframe."""
     resolution_m: float = 0.05
     min_pass_through: int = 2
     occupancy_threshold: float = 0.1
@@ -43,14 +43,14 @@ class SessionSettings:
 
 class Session:
     """
-    Takes scans when they are due, and does longer work in steps.
+    Scheduler that processes scans when they are due, and runs longer work in steps.
 
     Parameters
     ----------
     settings
         See `SessionSettings`; may be replaced with `change`.
     log
-        Called with sentences for the people who watch.
+        Called with messages for the user.
 
     """
 
@@ -72,7 +72,7 @@ class Session:
         Parameters
         ----------
         settings
-            The new ones; another resolution begins the drawing of the map anew.
+            The new settings; another resolution restarts the drawing of the map.
 
         """
         if settings.resolution_m != self.settings.resolution_m:
@@ -89,19 +89,19 @@ class Session:
         return placed.map_to_odom
 
     def reset(self) -> None:
-        """Forget the map."""
+        """Discard the map."""
         self.begin(Mapper(self.settings.mapper))
 
     def begin(self, mapper: Mapper, localizer: Localizer | None = None) -> None:
         """
-        Replace the map, and drop the work that was left to do for the old one.
+        Replace the map, and drop the remaining work for the old one.
 
         Parameters
         ----------
         mapper
             The new map.
         localizer
-            Localizes in it; None to go on mapping.
+            The localizer in the map; None to continue mapping.
 
         """
         self.mapper, self.localizer = mapper, localizer
@@ -111,21 +111,21 @@ class Session:
 
     def load(self, name: str, start: FloatArray | None, only_localize: bool) -> None:
         """
-        Go on with a map from a file.
+        Load a map from a file and continue with it.
 
         Parameters
         ----------
         name
             The file's path without extension.
         start
-            (3,) pose of the robot in that map; None if it is where that map began.
+            (3,) pose of the robot in that map; None if it is at the origin of that map.
         only_localize
-            Whether to leave the map as it is.
+            Whether to leave the map unchanged.
 
         Raises
         ------
         PoseGraphFileError
-            The file cannot be read; all stays as it was.
+            The file cannot be read; the session is left unchanged.
 
         """
         mapper = load_pose_graph(name, self.settings.mapper)
@@ -162,7 +162,7 @@ class Session:
         self, odometry: FloatArray, stamp_s: float, take: Callable[[], Scan]
     ) -> Placement | None:
         """
-        Place a scan if it is due.
+        Match a scan if it is due.
 
         Parameters
         ----------
@@ -173,7 +173,7 @@ class Session:
 
         Returns
         -------
-        Where it was taken; None if it was not due.
+        The placement of the scan; None if it was not due.
 
         """
         self._notice_jumps(odometry, stamp_s)
@@ -201,7 +201,7 @@ class Session:
         """
         Schedule the drawing of the map, in steps of `work`.
 
-        Nothing happens if it is being drawn already, or if there are no keyframes.
+        Nothing happens if it is already being drawn, or if there are no keyframes.
 
         Parameters
         ----------
@@ -220,7 +220,7 @@ class Session:
         Parameters
         ----------
         duration_s
-            No step begins after this time, in s.
+            No step starts after this time, in s.
 
         """
         end_s = time.monotonic() + duration_s
@@ -234,7 +234,7 @@ class Session:
                 self._log(told)
 
     def grid(self) -> Grid | None:
-        """Return the map as it is now, or as it was drawn last if drawing it takes long."""
+        """Return the current map, or the last drawn one if an update would take long."""
         if self._drawing.backlog(self.mapper) <= _DRAWN_AT_ONCE and not self._is_drawing:
             self._drawing.update(self.mapper)
         return self._drawing.grid(
@@ -248,7 +248,7 @@ class Session:
         then()
 
     def _notice_jumps(self, odometry: FloatArray, stamp_s: float) -> None:
-        """Look for the robot anew if time has jumped back or odometry tells of no possible way."""
+        """Relocalize the robot if time has jumped back or odometry has jumped."""
         if self._last is None or not self.mapper.keyframes:
             return
         before_s, before = self._last
@@ -272,5 +272,5 @@ class Session:
 
     def _start_at(self, *poses: FloatArray) -> None:
         placed = self.mapper if self.localizer is None else self.localizer
-        if not placed.is_searching:  # else somebody has told where it is
+        if not placed.is_searching:  # otherwise an initial pose was given
             placed.start_at(*poses)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a mapper is told; the names are those of the parameters of slam_toolbox."""
+"""The settings of a mapper, named as the parameters of slam_toolbox."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class MapperSettings:
     minimum_distance_penalty: float = 0.5
 
     def local_search(self) -> CorrelationSettings:
-        """Return the search for the next scan, near where odometry tells that it is."""
+        """Return the search settings for the next scan, near the pose predicted by odometry."""
         return self._search(
             0.5 * self.correlation_search_space_dimension,
             max(self.correlation_search_space_resolution, _GRID_M),
@@ -52,13 +52,13 @@ class MapperSettings:
 
     def loop_search(self, half_window_m: float) -> CorrelationSettings:
         """
-        Derive the settings of the search for a place that was seen before.
+        Derive the settings of the search for a loop closure.
 
         Parameters
         ----------
         half_window_m
-            How far from the guess to search along x and y, in m; half of
-            `loop_search_space_dimension` at most.
+            The half-width of the search window along x and y, in m; at most half of
+            `loop_search_space_dimension`.
 
         """
         return self._search(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that all of slam_toolbox have in common: scans in, map, pose and transforms out."""
+"""The base class of the nodes: scans in, map, pose and transforms out."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _LATCHED = QoSProfile(
 
 class SlamToolbox(LifecycleNode):
     """
-    Makes a map of what a laser scanner sees, and tells where the robot is in it.
+    Node that builds a map from laser scans, and localizes the robot in it.
 
     Parameters
     ----------
@@ -57,16 +57,16 @@ class SlamToolbox(LifecycleNode):
     """
 
     only_localizes = False
-    """Whether the map stays as it was loaded."""
+    """Whether the loaded map is left unchanged."""
     keeps_all_scans = False
-    """Whether each scan is processed, in order, instead of the newest one."""
+    """Whether every scan is processed, in order, instead of the newest one only."""
 
     def __init__(self, node_name: str = 'slam_toolbox', **options: Any) -> None:
         super().__init__(node_name, **options)
         self.told: ParameterSet[SlamParameters]
         self.session: Session
         self.is_paused = False
-        """Whether new scans are left out."""
+        """Whether new scans are ignored."""
         self.offered: SlamServices
         self._out: dict[str, Any] = {}
         self._broadcaster: Any = None
@@ -76,7 +76,7 @@ class SlamToolbox(LifecycleNode):
         self._stamp: Any = None
 
     def configure(self) -> None:
-        """Read the parameters, load a map if one is named, and offer the services."""
+        """Read the parameters, load a map if one is given, and offer the services."""
         self.parameters.declare_unsupported(UNSUPPORTED)
         self.told = self.parameters.declare(SlamParameters)
         told = self.told.current
@@ -96,7 +96,7 @@ class SlamToolbox(LifecycleNode):
         self.offered = SlamServices(self, told.use_map_saver)
 
     def activate(self) -> None:
-        """Listen to scans."""
+        """Subscribe to scans."""
         told = self.told.current
         self._intake = ScanIntake(
             self.transforms.buffer,
@@ -125,13 +125,13 @@ class SlamToolbox(LifecycleNode):
         self.session.draw(self._publish_map)
 
     def deactivate(self) -> None:
-        """Listen no longer; the map is kept."""
+        """Unsubscribe from scans; the map is kept."""
         for kind, each in self._active:
             getattr(self, f'destroy_{kind}')(each)
         self._active, self._intake = [], None
 
     def _if_active(self, callback: Callable[[], None]) -> Callable[[], None]:
-        """Return a timer's callback that does nothing if it comes after the timer's end."""
+        """Wrap a timer callback, to do nothing if it is called after deactivation."""
 
         def call() -> None:
             if self._active:
@@ -140,17 +140,17 @@ class SlamToolbox(LifecycleNode):
         return call
 
     def restart(self) -> None:
-        """Publish another map than before."""
+        """Start over after the map was replaced: clear the queue, and publish the new map."""
         self._stamp = None
         self.clear_queue()
         self.session.draw(self._publish_map)
 
     def clear_queue(self) -> int:
-        """Drop the scans that wait; return how many they were."""
+        """Drop all queued scans; return their number."""
         return 0 if self._intake is None else self._intake.clear()
 
     def start_pose(self) -> FloatArray | None:
-        """Return where the robot is in a loaded map, (3,); None if where that map began."""
+        """Return the pose of the robot in a loaded map, (3,); None for the origin of that map."""
         given = self.told.current.map_start_pose
         if not given:
             return None
@@ -179,7 +179,7 @@ class SlamToolbox(LifecycleNode):
         self.get_logger().info(f"Loaded the map '{name}' with {count} keyframes.")
 
     def _timer(self, period_s: float, callback: Any) -> Timer:
-        """Return a timer of the steady clock: work goes on while simulated time stands still."""
+        """Create a timer of the steady clock: work continues while simulated time is paused."""
         return self.create_timer(period_s, callback, clock=STEADY)
 
     def _on_scan(self, message: LaserScan) -> None:
@@ -190,7 +190,7 @@ class SlamToolbox(LifecycleNode):
             self._intake.offer(message)
 
     def _work(self) -> None:
-        """Process a scan whose transforms have come; go on with loops and the map."""
+        """Process a scan whose transforms are available; continue loop closure and map drawing."""
         if self._intake is not None and self._takes_scans:
             now_s = self.get_clock().now().nanoseconds * 1e-9
             timed = self._intake.next_scan(now_s, self.told.current.transform_timeout)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Keep a mapper in a file, to go on with it or to localize with it another time.
+Serialization of a mapper, to continue mapping or to localize with it later.
 
 `NAME.posegraph` is a ZIP archive of NumPy arrays (`numpy.load` reads it), all lengths in m and
 angles in rad, little-endian:
@@ -10,7 +10,7 @@ angles in rad, little-endian:
 - `outline_counts` (N,), `outlines` (sum of the counts, 2), `origins` (N, 2)
 - `edge_nodes` (E, 2), `edge_poses` (E, 3), `edge_information` (E, 3, 3), `edge_is_loop` (E,)
 
-`NAME.data` only says so, for programs that look whether it is there.
+`NAME.data` only refers to it, for programs that check for that file.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ _SHAPES = {
 
 
 class PoseGraphFileError(Exception):
-    """A serialized pose graph cannot be read; the text is a sentence that says why."""
+    """A serialized pose graph cannot be read; the message states the reason."""
 
 
 def save_pose_graph(mapper: Mapper, name: str) -> Path:
@@ -61,13 +61,13 @@ def save_pose_graph(mapper: Mapper, name: str) -> Path:
     Parameters
     ----------
     mapper
-        What is kept.
+        The mapper.
     name
         The path without extension; `map` if it is empty.
 
     Returns
     -------
-    The whole path of the file.
+    The absolute path of the file.
 
     Raises
     ------
@@ -115,12 +115,12 @@ def load_pose_graph(name: str, settings: MapperSettings) -> Mapper:
     name
         The path without extension.
     settings
-        How the mapper goes on.
+        The settings of the mapper.
 
     Raises
     ------
     PoseGraphFileError
-        It cannot be read, or is none.
+        It cannot be read, or is not a pose graph.
 
     """
     path = full_path(name, *_EXTENSIONS)
@@ -171,7 +171,7 @@ def _mapper_of(arrays: dict[str, npt.NDArray[np.generic]], settings: MapperSetti
 
 
 def _fault(arrays: dict[str, npt.NDArray[np.generic]]) -> str | None:
-    """Say what is wrong with arrays of a file; None if nothing is."""
+    """Validate the arrays of a file; return the error, or None if they are valid."""
     if 'version' not in arrays or int(arrays['version'].sum()) != _VERSION:
         return f'it is not of version {_VERSION}'
     for key, shape in _SHAPES.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms between frames over time, without nodes: the buffer and its exceptions."""
+"""Core of tf2, without ROS nodes: transform buffer and exceptions."""
 
 from __future__ import annotations
 

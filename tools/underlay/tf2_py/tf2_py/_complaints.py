@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Warnings that come again and again."""
+"""Throttling of recurring warnings."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ _SILENCE_S = 10.0
 
 class Complaints:
     """
-    Logs each kind of warning at most once per period, 10 s by default.
+    Throttled logger: logs each kind of warning at most once per period, 10 s by default.
 
     Parameters
     ----------
     say
-        Logs the text.
+        The function that logs a text.
     now_s
-        The clock, in s; only differences count.
+        The clock, in s, with an arbitrary epoch.
     silence_s
-        How long a kind of warning is suppressed after it was logged, in s.
+        The time for which a kind of warning is suppressed after it was logged, in s.
 
     """
 
@@ -44,7 +44,7 @@ class Complaints:
         text
             The warning.
         *kind
-            What identifies its kind, such as the frame and the broadcaster.
+            The key of its kind, such as the frame and the broadcaster.
 
         """
         now_s = self._now_s()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The frames, and the way between two of them at a time."""
+"""Frame tree with transform samples over time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Cache = TimeCache | StaticCache
 
 
 class _Latest(NamedTuple):
-    """The newest link of a frame; one that does not move has no time."""
+    """The latest link of a frame; static frames have no time."""
 
     parent: str
     stamp_ns: int | None
@@ -31,18 +31,18 @@ class _Latest(NamedTuple):
 
 class FrameStore:
     """
-    Samples of frames by the frame's name. It knows neither messages nor threads.
+    Transform samples by frame name, independent of messages and threads.
 
     Parameters
     ----------
     cache_ns
-        How much of the past is kept for moving frames, in ns.
+        The length of the buffer for moving frames, in ns.
 
     """
 
     def __init__(self, cache_ns: int) -> None:
         self.cache_ns = cache_ns
-        # A frame that is only known as a parent has no cache.
+        # Frames that are known only as parents have no cache.
         self._caches: dict[str, Cache | None] = {}
 
     def insert(self, frame: str, sample: Sample, is_static: bool) -> bool:
@@ -56,14 +56,14 @@ class FrameStore:
         frame
             The child frame.
         sample
-            Its parent, pose, time and broadcaster.
+            The parent, pose, time and broadcaster of the frame.
         is_static
             Whether the sample holds at all times.
 
         Returns
         -------
         bool
-            False if the sample is older than what is kept, and so was left out.
+            False if the sample was dropped because it is older than the buffer.
 
         """
         cache = self._caches.get(frame)
@@ -75,7 +75,7 @@ class FrameStore:
 
     def changes_kind(self, frame: str, is_static: bool) -> bool:
         """
-        Check whether a sample would turn a static frame into a moving one, or the other way round.
+        Check whether a sample would change a frame between static and moving.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class FrameStore:
         return cache is not None and cache.is_static != is_static
 
     def clear(self) -> None:
-        """Forget what moves."""
+        """Remove the samples of moving frames."""
         for _, cache in self.known():
             cache.clear()
 
@@ -99,23 +99,23 @@ class FrameStore:
 
     def has(self, *frames: str) -> bool:
         """
-        Check whether frames are known, be it only as parents.
+        Check whether all frames are known, including those known only as parents.
 
         Parameters
         ----------
         *frames
-            Their names, all of which must be known.
+            The frame names, all of which must be known.
 
         """
         return all(frame in self._caches for frame in frames)
 
     def known(self) -> Iterator[tuple[str, Cache]]:
-        """Yield the frames of which more is known than the name."""
+        """Yield the frames that have a cache, that is, not only a name."""
         return ((frame, cache) for frame, cache in self._caches.items() if cache is not None)
 
     def latest(self, frame: str) -> Sample | None:
         """
-        Look up the newest sample of a frame.
+        Return the latest sample of a frame.
 
         Parameters
         ----------
@@ -145,9 +145,9 @@ class FrameStore:
         Raises
         ------
         InvalidArgumentException
-            A name is empty or begins with a slash.
+            A name is empty or starts with a slash.
         LookupException
-            There is no such frame.
+            The frame does not exist.
 
         """
         for argument, frame in frames.items():
@@ -168,7 +168,7 @@ class FrameStore:
         target, source
             The frames, which must be known.
         time_ns
-            The time in ns; here 0 does not stand for the latest one.
+            The time in ns; 0 is not treated as the latest time here.
 
         Returns
         -------
@@ -180,7 +180,7 @@ class FrameStore:
         ConnectivityException
             The frames are in different trees.
         ExtrapolationException
-            There are no samples around that time.
+            The samples do not cover that time.
         LookupException
             The parents form a loop.
 
@@ -197,14 +197,14 @@ class FrameStore:
         target, source
             The frames, which must be known.
         time_ns
-            The time in ns; here 0 does not stand for the latest one.
+            The time in ns; 0 is not treated as the latest time here.
 
         Raises
         ------
         ConnectivityException
             The frames are in different trees.
         ExtrapolationException
-            There are no samples around that time.
+            The samples do not cover that time.
         LookupException
             The parents form a loop.
 
@@ -276,7 +276,7 @@ class FrameStore:
 
 
 def _pose_above(links: list[Link]) -> Pose:
-    """Return the pose of the first frame in the one above all links."""
+    """Chain the poses of links: the pose of the first frame in the last parent."""
     pose = IDENTITY
     for link in links:
         pose = chain(link.pose(), pose)

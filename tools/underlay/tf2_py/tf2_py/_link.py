@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a frame's parent is at a time, and where the frame is in it."""
+"""Links between frames and their parents at a time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tf2_py._pose import interpolate, Pose
 
 
 class Sample(NamedTuple):
-    """What a broadcaster has said of a frame."""
+    """A transform of a frame as received from a broadcaster."""
 
     stamp_ns: int
     parent: str
@@ -18,7 +18,7 @@ class Sample(NamedTuple):
 
 
 class Link(NamedTuple):
-    """The way from a frame to its parent, between two samples."""
+    """The link from a frame to its parent, interpolated between two samples."""
 
     parent: str
     earlier: Pose
@@ -33,7 +33,7 @@ class Link(NamedTuple):
 
 
 class Gap(Exception):
-    """There are samples, but none around the time that is asked for."""
+    """The samples do not cover the requested time."""
 
     def __init__(self, requested_ns: int, oldest_ns: int, latest_ns: int) -> None:
         super().__init__()

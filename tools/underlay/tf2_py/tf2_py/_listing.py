@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All frames as text."""
+"""Format all frames as text, YAML or Graphviz."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _PLAIN = re.compile(r'[\w/][\w/.-]*')
 
 
 class Branch(NamedTuple):
-    """What a listing says of a frame."""
+    """The entry of a frame in a listing."""
 
     frame: str
     parent: str
@@ -24,13 +24,13 @@ class Branch(NamedTuple):
 
     @property
     def length_s(self) -> float:
-        """Return how much of the past is kept."""
+        """Return the time between the oldest and the latest transform."""
         return self.latest_s - self.oldest_s
 
 
 def branches(store: FrameStore) -> list[Branch]:
     """
-    List what is known of all frames that have a parent.
+    List all frames that have a parent.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def _yaml(branch: Branch) -> str:
 
 
 def _key(frame: str) -> str:
-    """Return a frame as tf2 does, or in quotes if YAML would read it otherwise."""
+    """Format a frame as a YAML key, quoted if YAML would parse it differently."""
     return frame if _PLAIN.fullmatch(frame) else _yaml_text(frame)
 
 
@@ -89,7 +89,7 @@ def _yaml_text(text: str) -> str:
 
 def as_string(store: FrameStore) -> str:
     """
-    Format the frames and their parents as text, one a line.
+    Format the frames and their parents as text, one per line.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def as_string(store: FrameStore) -> str:
 
 def as_dot(store: FrameStore) -> str:
     """
-    Format the tree of frames as a graph for Graphviz.
+    Format the frame tree as a Graphviz graph.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Times and transforms of messages, as numbers."""
+"""Convert times and transforms of messages to numbers and back."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tf2_py._pose import Pose
 
 _NS_PER_S = 10**9
 Reading = tuple[str, str, int, Pose]
-"""The names of parent and child, the time in nanoseconds, and where the child is."""
+"""The parent frame, the child frame, the stamp in ns, and the pose of the child."""
 
 
 def nanoseconds(time: Any) -> int:
@@ -25,7 +25,7 @@ def nanoseconds(time: Any) -> int:
     Raises
     ------
     TypeError
-        It is neither.
+        The argument is neither a time nor a duration.
 
     """
     try:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Poses of frames in others: chained, inverted and interpolated.
+Pose arithmetic: composition, inversion and interpolation.
 
-In plain Python, since a chain has few links: across 10 of them scipy's Rotation takes several
-times as long in whole batches (tools/benchmarks/tf2_lookups.py shows both), and a quarter of a
-second to import. The tests compare with scipy.
+Implemented in plain Python, as chains are short: for 10 links, scipy's Rotation takes several
+times as long even in batches (see tools/benchmarks/tf2_lookups.py), and 0.25 s to import. The
+tests compare with scipy.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from math import acos, isfinite, sin, sqrt
 Pose = tuple[float, float, float, float, float, float, float]
 
 IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-# Nearer than this the length of what is between is 1 all the same: off by 2.5e-13 at most.
+# Above this cosine, linear interpolation keeps the norm within 2.5e-13 of 1.
 _NEARLY_EQUAL = 1.0 - 1e-12
 _NORM_TOLERANCE = 0.01
 
@@ -76,14 +76,14 @@ def interpolate(first: Pose, last: Pose, fraction: float) -> Pose:
     """
     Interpolate between two poses: linearly in translation, by slerp in rotation.
 
-    The rotation takes the shorter arc.
+    The rotation follows the shorter arc.
 
     Parameters
     ----------
     first, last
         The poses, with quaternions of length 1.
     fraction
-        How far the result is on the way, from 0 (first) to 1 (last).
+        The interpolation parameter, from 0 (first) to 1 (last).
 
     """
     x, y, z, ax, ay, az, aw = first

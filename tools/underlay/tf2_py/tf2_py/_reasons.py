@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The sentences of lookups that fail."""
+"""Error messages of failed lookups."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def unknown_frame(call: str, argument: str, frame: str, known: Collection[str]) 
     call, argument
         The call, such as 'lookupTransform', and its argument, such as 'target_frame'.
     frame
-        The name that was given.
+        The given name.
     known
-        The names that exist.
+        The existing names.
 
     """
     if call == 'canTransform':
@@ -34,7 +34,7 @@ def unknown_frame(call: str, argument: str, frame: str, known: Collection[str]) 
 
 def empty_frame(call: str, argument: str) -> str:
     """
-    Format the error for a frame name that is empty.
+    Format the error for an empty frame name.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def slashed_frame(call: str, argument: str, frame: str) -> str:
     call, argument
         The call, such as 'lookupTransform', and its argument, such as 'target_frame'.
     frame
-        The name that was given.
+        The given name.
 
     """
     return (
@@ -91,14 +91,14 @@ def _below(frame: str, root: str) -> str:
 
 def after_waiting(reason: str, timeout_s: float) -> str:
     """
-    Adapt the reason of a failed lookup to a caller that has waited already.
+    Adapt the reason of a failed lookup for a caller that has already waited.
 
     Parameters
     ----------
     reason
-        The text of the exception.
+        The message of the exception.
     timeout_s
-        How long the caller has waited, in s.
+        The time for which the caller has waited, in s.
 
     """
     return reason.replace(_ADVICE_TO_WAIT, f'it has not come within {timeout_s:g} s; wait longer')
@@ -106,12 +106,12 @@ def after_waiting(reason: str, timeout_s: float) -> str:
 
 def extrapolation(gap: Gap, target: str, source: str) -> str:
     """
-    Format the error for a time outside the samples, with how far off the nearest one is.
+    Format the error for a time outside the samples, with the distance to the nearest one.
 
     Parameters
     ----------
     gap
-        The time that was asked for, and the range of the samples.
+        The requested time and the range of the samples.
     target, source
         The frames of the lookup.
 
@@ -150,7 +150,7 @@ def _seconds(time_ns: int) -> str:
 
 
 def _which(frame: str, known: Collection[str]) -> str:
-    """Name the frame that is meant, or those that there are."""
+    """Suggest a similar frame name, or list the existing ones."""
     if not known:
         return 'There are no frames yet: nothing has come on /tf and /tf_static'
     question = did_you_mean(frame, known)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is wrong with a transform that cannot be taken."""
+"""Validation of transforms, and messages for rejected ones."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ def refusal(parent: str, child: str, pose: Pose, authority: str) -> str:
     pose
         Translation and quaternion.
     authority
-        Who has published it.
+        The publisher of the transform.
 
     Returns
     -------
     str
-        Why the transform is rejected; '' if it is valid.
+        The reason why the transform is rejected; '' if it is valid.
 
     """
     if not child:
@@ -54,7 +54,7 @@ def _bad_number(child: str, pose: Pose, authority: str) -> str:
 
 def bad_quaternion(child: str, pose: Pose, authority: str) -> str:
     """
-    Format the error for a transform whose quaternion is not of length 1.
+    Format the error for a transform whose quaternion is not normalized.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def bad_quaternion(child: str, pose: Pose, authority: str) -> str:
     pose
         Translation and quaternion x, y, z, w.
     authority
-        Who has published it.
+        The publisher of the transform.
 
     """
     hint = ' (an empty message has w = 0; no rotation is w = 1)' if not any(pose[3:]) else ''
@@ -76,18 +76,18 @@ def bad_quaternion(child: str, pose: Pose, authority: str) -> str:
 
 def old_data(child: str, stamp_ns: int, latest_ns: int, cache_ns: int, authority: str) -> str:
     """
-    Format the warning for a transform that is older than what is kept.
+    Format the warning for a transform that is older than the buffer.
 
     Parameters
     ----------
     child
         The child frame.
     stamp_ns, latest_ns
-        The time of the transform, and that of the newest one of this frame, in ns.
+        The time of the transform and of the latest one of this frame, in ns.
     cache_ns
-        How much of the past is kept, in ns.
+        The length of the buffer, in ns.
     authority
-        Who has published it.
+        The publisher of the transform.
 
     """
     return (
@@ -107,7 +107,7 @@ def both_kinds(child: str, authority: str) -> str:
     child
         The child frame.
     authority
-        Who has published the last one, which counts.
+        The publisher of the last transform, which takes precedence.
 
     """
     return (

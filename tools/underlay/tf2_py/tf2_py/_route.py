@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The way between two frames, over the frame above both."""
+"""Route between two frames via their common ancestor."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _MAX_LINKS = 1000
 
 
 class Step(Protocol):
-    """What leads from a frame to its parent."""
+    """Step from a frame to its parent."""
 
     @property
     def parent(self) -> str:
-        """Return the frame above."""
+        """Return the parent frame."""
         ...
 
 
@@ -27,14 +27,14 @@ StepT = TypeVar('StepT', bound=Step)
 
 @dataclass(frozen=True)
 class Route(Generic[StepT]):
-    """The steps up from both frames to the one that is above them."""
+    """The steps from two frames up to their common ancestor."""
 
     from_source: list[StepT]
     from_target: list[StepT]
 
 
 class Unconnected(Exception):
-    """No frame is above both; perhaps since some have no samples of that time."""
+    """There is no common ancestor, possibly as some frames have no samples at that time."""
 
     def __init__(self, gap: Gap | None) -> None:
         super().__init__()
@@ -55,7 +55,7 @@ def find_route(source: str, target: str, step_of: Callable[[str], StepT | None])
     Raises
     ------
     Unconnected
-        There is no common ancestor; it holds the Gap, if one has been met on the way.
+        There is no common ancestor; the exception holds the Gap, if one was encountered.
     LookupException
         The parents form a loop, or a chain of more than 1000 frames.
 
@@ -73,7 +73,7 @@ def find_route(source: str, target: str, step_of: Callable[[str], StepT | None])
 def _climb(
     start: str, step_of: Callable[[str], StepT | None], goal: Container[str]
 ) -> tuple[list[str], list[StepT], Gap | None]:
-    """Go up to the goal, the root or a gap; return the frames, the steps between, and the gap."""
+    """Climb to the goal, the root or a gap; return the frames, the steps and the gap."""
     frame = start
     frames = [start]
     steps: list[StepT] = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of a frame that does not move."""
+"""Cache for the transform of a static frame."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tf2_py._link import Link, Sample
 
 
 class StaticCache:
-    """The one sample of a frame; it holds at all times."""
+    """The single sample of a static frame, valid at all times."""
 
     is_static = True
 
@@ -20,7 +20,7 @@ class StaticCache:
 
     @property
     def samples(self) -> Sequence[Sample]:
-        """Return the sample, if there is one."""
+        """Return the sample, if any, in a sequence."""
         return [] if self._sample is None else [self._sample]
 
     def insert(self, sample: Sample) -> bool:
@@ -30,7 +30,7 @@ class StaticCache:
         Parameters
         ----------
         sample
-            The new one, whose time is ignored.
+            The new sample, whose time is ignored.
 
         Returns
         -------
@@ -64,4 +64,4 @@ class StaticCache:
         return self._sample
 
     def clear(self) -> None:
-        """Forget nothing: what does not move is true before a jump of time as well."""
+        """Keep the sample, as static transforms remain valid after a time jump."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of a frame that moves."""
+"""Cache for the transforms of a moving frame over time."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from tf2_py._link import Gap, Link, Sample
 
 class TimeCache:
     """
-    The samples of a moving frame, in the order of their time.
+    The samples of a moving frame, sorted by time.
 
     Parameters
     ----------
     duration_ns
-        How long before the newest sample the older ones are kept, in ns.
+        The length of the cache before the latest sample, in ns.
 
     """
 
@@ -29,12 +29,12 @@ class TimeCache:
 
     @property
     def samples(self) -> Sequence[Sample]:
-        """Return the samples, the oldest one first."""
+        """Return the samples, oldest first."""
         return self._samples
 
     def insert(self, sample: Sample) -> bool:
         """
-        Insert a sample, in place of one with the same time.
+        Insert a sample; it replaces one with the same time.
 
         Parameters
         ----------
@@ -44,7 +44,7 @@ class TimeCache:
         Returns
         -------
         bool
-            False if the sample is older than what is kept, and so was left out.
+            False if the sample was dropped because it is older than the buffer.
 
         """
         stamps_ns = self._stamps_ns
@@ -66,7 +66,7 @@ class TimeCache:
         """
         Interpolate the link to the parent at a time.
 
-        Between samples with different parents the earlier sample holds.
+        Between samples with different parents, the earlier sample is used.
 
         Parameters
         ----------
@@ -103,11 +103,11 @@ class TimeCache:
         return Link(earlier.parent, earlier.pose, later.pose, fraction)
 
     def latest(self) -> Sample | None:
-        """Return the newest sample."""
+        """Return the latest sample."""
         return self._samples[-1] if self._samples else None
 
     def clear(self) -> None:
-        """Forget all samples."""
+        """Remove all samples."""
         self._stamps_ns.clear()
         self._samples.clear()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms between frames over time."""
+"""Transform buffer, without ROS nodes."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ _CACHE_NS = 10 * 10**9
 
 class BufferCore:
     """
-    Buffers the transforms of some seconds, and looks up those between any two frames.
+    Buffer of the transforms of the last seconds, with lookups between any two frames.
 
-    All methods may be called from several threads.
+    All methods are thread-safe.
 
     Parameters
     ----------
     cache_time
-        How much of the past is kept; 10 s by default.
+        The length of the buffer, as a duration; 10 s by default.
 
     Raises
     ------
@@ -56,30 +56,30 @@ class BufferCore:
         """
         Insert a transform of a moving frame.
 
-        An invalid or outdated one is left out with a warning.
+        Invalid or outdated transforms are ignored with a warning.
 
         Parameters
         ----------
         transform
-            The pose of the child frame in the frame of the header, at its time.
+            The pose of the child frame in the header frame, at the time of the header.
         authority
-            Who has published it.
+            The publisher of the transform.
 
         """
         self._take([reading_of(transform)], authority, is_static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """
-        Insert a transform that holds at all times.
+        Insert a static transform, which is valid at all times.
 
-        An invalid one is left out with a warning.
+        Invalid transforms are ignored with a warning.
 
         Parameters
         ----------
         transform
             The pose of the child frame in the frame of the header.
         authority
-            Who has published it.
+            The publisher of the transform.
 
         """
         self._take([reading_of(transform)], authority, is_static=True)
@@ -88,7 +88,7 @@ class BufferCore:
         self, target_frame: str, source_frame: str, time: Time
     ) -> TransformStamped:
         """
-        Look up the transform that takes data from the source frame to the target frame.
+        Look up the transform that maps data from the source frame to the target frame.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class BufferCore:
         Raises
         ------
         TransformException
-            There is no such transform; the subclass and the text say why.
+            The transform is not available; the subclass and the message state why.
 
         """
         with self._lock:
@@ -136,7 +136,7 @@ class BufferCore:
         source_frame, source_time
             The frame of the data, and its time; 0 is the latest.
         fixed_frame
-            The frame that does not move between the two times.
+            The frame that is assumed to be fixed between the two times.
 
         Returns
         -------
@@ -147,7 +147,7 @@ class BufferCore:
         Raises
         ------
         TransformException
-            There is no such transform; the subclass and the text say why.
+            The transform is not available; the subclass and the message state why.
 
         """
         with self._lock:
@@ -170,7 +170,7 @@ class BufferCore:
         Returns
         -------
         tuple of bool and str
-            Whether it succeeds, and why not; '' if it does.
+            Whether it succeeds, and the reason for a failure or ''.
 
         """
         try:
@@ -202,7 +202,7 @@ class BufferCore:
         Returns
         -------
         tuple of bool and str
-            Whether it succeeds, and why not; '' if it does.
+            Whether it succeeds, and the reason for a failure or ''.
 
         """
         try:
@@ -226,7 +226,7 @@ class BufferCore:
         Returns
         -------
         Time
-            0 if all transforms between them are static.
+            The time; 0 if all transforms between the frames are static.
 
         Raises
         ------
@@ -243,31 +243,31 @@ class BufferCore:
             return Time(nanoseconds=self._store.common_time_ns(target_frame, source_frame))
 
     def clear(self) -> None:
-        """Forget all transforms but the static ones."""
+        """Remove all transforms except static ones."""
         with self._lock:
             self._store.clear()
 
     def all_frames_as_yaml(self) -> str:
-        """Return the frames, their parents and broadcasters as YAML."""
+        """Format the frames, their parents and broadcasters as YAML."""
         with self._lock:
             return _listing.as_yaml(self._store)
 
     def all_frames_as_string(self) -> str:
-        """Return the frames and their parents, one a line."""
+        """Format the frames and their parents as text, one per line."""
         with self._lock:
             return _listing.as_string(self._store)
 
     def _allFramesAsDot(self) -> str:  # noqa: N802
-        """Return the frames as a graph for graphviz."""
+        """Format the frames as a Graphviz graph."""
         with self._lock:
             return _listing.as_dot(self._store)
 
     def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
-        """Tell if there is a frame of this name."""
+        """Whether a frame exists."""
         return self._knows(frame_id)
 
     def _knows(self, *frames: str) -> bool:
-        """Tell if there are all these frames."""
+        """Whether all frames exist."""
         with self._lock:
             return self._store.has(*frames)
 
@@ -277,12 +277,12 @@ class BufferCore:
             return self._store.names()
 
     def _latest_sample(self, frame: str) -> Optional[Sample]:
-        """Return the newest that is known of a frame; one that does not move has time 0."""
+        """Return the latest sample of a frame; that of a static frame has time 0."""
         with self._lock:
             return self._store.latest(frame)
 
     def _latest_samples(self) -> dict[str, Sample]:
-        """Return the newest that is known of each frame that has a parent."""
+        """Return the latest sample of each frame that has a parent."""
         with self._lock:
             latest = {frame: cache.latest() for frame, cache in self._store.known()}
         return {frame: sample for frame, sample in latest.items() if sample is not None}
@@ -295,7 +295,7 @@ class BufferCore:
         source_time: Time,
         fixed_frame: str,
     ) -> list[str]:
-        """Return the frames from the source over the fixed frame to the target."""
+        """Return the chain of frames from the source via the fixed frame to the target."""
         with self._lock:
             self._check_full('chain', target_frame, source_frame, fixed_frame)
             below = self._frames(fixed_frame, source_frame, nanoseconds(source_time))
@@ -303,11 +303,11 @@ class BufferCore:
         return [*below, *above[1:]]
 
     def _warn(self, text: str) -> None:
-        """Say what is wrong with a transform."""
+        """Log a warning about a transform."""
         logging.getLogger('tf2').warning(text)
 
     def _take(self, readings: Iterable[Reading], authority: str, is_static: bool) -> None:
-        """Take names and numbers of transforms."""
+        """Insert transforms given as frame names and numbers."""
         for parent, child, stamp_ns, pose in readings:
             self._insert(
                 parent.lstrip('/'), child.lstrip('/'), stamp_ns, pose, authority, is_static
@@ -343,12 +343,12 @@ class BufferCore:
         self._store.check(call, target_frame=target, source_frame=source, fixed_frame=fixed)
 
     def _pose(self, target: str, source: str, time_ns: int) -> tuple[int, Pose]:
-        """Return the time that is meant, and the pose then."""
+        """Return the actual time (0 is the latest common one) and the pose at that time."""
         time_ns = time_ns or self._store.common_time_ns(target, source)
         return time_ns, self._store.pose(target, source, time_ns)
 
     def _find(self, target: str, source: str, time_ns: int) -> None:
-        """Raise unless there is a way between two frames."""
+        """Raise an exception if two frames are not connected at a time."""
         time_ns = time_ns or self._store.common_time_ns(target, source)
         self._store.route(target, source, time_ns)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why there is no transform."""
+"""Exceptions of failed lookups."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = [
 
 
 class TransformException(Exception):
-    """The base of all reasons why there is no transform."""
+    """Base class of all tf2 exceptions."""
 
 
 class ConnectivityException(TransformException):
@@ -22,16 +22,16 @@ class ConnectivityException(TransformException):
 
 
 class LookupException(TransformException):
-    """There is no such frame."""
+    """The frame does not exist."""
 
 
 class ExtrapolationException(TransformException):
-    """The buffer has the frames, but not at that time."""
+    """The requested time is outside the buffered samples of a frame."""
 
 
 class InvalidArgumentException(TransformException):
-    """A name of a frame that cannot be one, or a quaternion that is no rotation."""
+    """A frame name or a quaternion is invalid."""
 
 
 class TimeoutException(TransformException):
-    """The time to wait is over."""
+    """The timeout has expired."""

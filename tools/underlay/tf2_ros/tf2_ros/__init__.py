@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms between frames over time, in nodes: buffer, listener and broadcasters."""
+"""ROS interface of tf2: transform buffer, listener and broadcasters."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let a node work in a thread of its own."""
+"""Spin a node in its own thread."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ _TIMEOUT_S = 10.0
 
 class Background:
     """
-    Spins a node in a thread until it is stopped, at the latest when the program ends.
+    Spins a node in a thread until it is stopped or the program ends.
 
     Parameters
     ----------
     node
-        What is spun, with an executor of its own.
+        The node to spin, with its own executor.
 
     Attributes
     ----------
     stop
-        Ends the thread and shuts the executor down when called; also runs when this object is
-        garbage collected.
+        Callable that ends the thread and shuts the executor down; also runs when this object
+        is garbage collected.
 
     """
 
@@ -54,9 +54,9 @@ def _spin(executor: SingleThreadedExecutor, stop: threading.Event) -> None:
 def _stop(
     executor: SingleThreadedExecutor, stop: threading.Event, thread: threading.Thread
 ) -> None:
-    """End the thread, and then the executor: rclpy's breaks if it is shut down while it spins."""
+    """End the thread before the executor: rclpy's fails if it is shut down while spinning."""
     stop.set()
     if thread is not threading.current_thread():
-        executor.create_task(lambda: None)  # it looks up from its waiting
+        executor.create_task(lambda: None)  # wakes up the executor
         thread.join(_TIMEOUT_S)
         executor.shutdown(0.0)

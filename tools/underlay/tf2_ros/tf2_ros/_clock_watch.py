@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why nothing happens when a node waits for a time that nobody tells."""
+"""Warn about nodes with `use_sim_time` that receive no time on `/clock`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def watch_clock(node: Node) -> None:
     Parameters
     ----------
     node
-        The node whose clock is checked; it gets a timer for that if it follows `/clock`.
+        The node whose clock is checked; a timer is added to it if it follows `/clock`.
 
     """
     if not node.get_clock().ros_time_is_active:

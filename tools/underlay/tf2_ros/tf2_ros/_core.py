@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What this package hands on from tf2_py."""
+"""Re-exports from tf2_py."""
 
 from tf2_py import (
     BufferCore,

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How late transforms come, and how often."""
+"""Statistics of the delay and rate of transforms."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-# Messages do not say which node has sent them.
+# Messages do not contain the node that published them.
 AUTHORITY = '<no authority available>'
 
 
 @dataclass
 class Delays:
-    """The delays of one frame or broadcaster."""
+    """Delay statistics of a frame or broadcaster."""
 
     count: int = 0
     sum_s: float = 0.0
@@ -38,13 +38,13 @@ class Delays:
         return self.sum_s / self.count if self.count else 0.0
 
     def __str__(self) -> str:
-        """Return both figures, as tf2_monitor shows them."""
+        """Format the mean and the maximum delay as in tf2_monitor."""
         return f'Average Delay: {self.mean_s:.6g}, Max Delay: {self.longest_s:.6g}'
 
 
 @dataclass
 class Traffic:
-    """What has come since the beginning of a period."""
+    """Transforms received since the start of a period."""
 
     frames: dict[str, Delays] = field(default_factory=dict)
     total: Delays = field(default_factory=Delays)
@@ -74,7 +74,7 @@ def report(traffic: Traffic, static: Iterable[str], chain: list[str], duration_s
     Parameters
     ----------
     traffic
-        What was received during the period.
+        The transforms received during the period.
     static
         Child frames of `/tf_static`, which are listed with a delay of 0.
     chain

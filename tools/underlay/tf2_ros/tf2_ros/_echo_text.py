@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A transform in words, as tf2_echo prints it."""
+"""Format transforms for tf2_echo."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def echo_text(message: Any, precision: int) -> str:
 
 
 def _euler(rotation: Any, degrees: bool = False) -> list[float]:
-    """Return roll, pitch and yaw; at a pitch of 90 degrees only their sum is certain."""
+    """Return roll, pitch and yaw; in gimbal lock (pitch 90 degrees) they are not unique."""
     import warnings
 
     with warnings.catch_warnings():
@@ -55,7 +55,7 @@ def _euler(rotation: Any, degrees: bool = False) -> list[float]:
 
 
 def _time(stamp: Any) -> str:
-    """Return a time with nanoseconds; that of what does not move is just 0.0."""
+    """Format a time with nanoseconds; that of static transforms is 0.0."""
     if not stamp.sec and not stamp.nanosec:
         return '0.0'
     return f'{stamp.sec}.{stamp.nanosec:09d}'

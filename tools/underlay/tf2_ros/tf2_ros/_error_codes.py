@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exceptions of tf2 as codes of messages, and back."""
+"""Convert tf2 exceptions to TF2Error messages and back."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _CODES = {
 
 def to_message(error: TransformException) -> TF2Error:
     """
-    Convert an exception of tf2 to a `tf2_msgs/TF2Error`.
+    Convert a tf2 exception to a `tf2_msgs/TF2Error`.
 
     Parameters
     ----------
     error
-        The exception; a type without a code of its own becomes TRANSFORM_ERROR.
+        The exception; types without their own error code become TRANSFORM_ERROR.
 
     """
     code = _CODES.get(type(error), TF2Error.TRANSFORM_ERROR)
@@ -38,7 +38,7 @@ def to_message(error: TransformException) -> TF2Error:
 
 def raise_error(message: TF2Error) -> None:
     """
-    Raise the exception that a `tf2_msgs/TF2Error` stands for, if any.
+    Raise the tf2 exception that corresponds to a `tf2_msgs/TF2Error`, if any.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The executor of the programs of this environment: rclpy's EventsExecutor, made reliable.
+Executor of the programs of this environment: rclpy's EventsExecutor, made reliable.
 
-It waits for a third of the CPU time of SingleThreadedExecutor, but is experimental in Jazzy: it
-refuses guard conditions, fails if a callback wants information about a message, pays no heed to
-callback groups, fires no timers in a wait without a timeout, crashes when a task of its only
-node fails, and takes a whole processor while a coroutine waits.
+It needs a third of the CPU time of SingleThreadedExecutor, but is experimental in Jazzy: it
+rejects guard conditions, fails if a callback requests message info, ignores callback groups,
+fires no timers while it waits without a timeout, crashes when a task of its only node fails, and
+uses an entire CPU core while a coroutine waits.
 """
 
 from __future__ import annotations
@@ -30,17 +30,17 @@ _WAIT_S = 1.0
 
 
 class _NoNode:
-    """A node with nothing to do: beside it, an error of a task is raised and not a crash."""
+    """Dummy node without entities; in its presence, task errors are raised instead of a crash."""
 
     executor = None
     subscriptions = timers = clients = services = guards = waitables = ()
 
 
 class _Executor(_rclpy.EventsExecutor):
-    """An executor of events whose tasks sleep while they wait."""
+    """Events executor whose tasks do not busy-wait."""
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Any:
-        """Run a callback, or a coroutine function until its end, from any thread."""
+        """Create a task for a callback or a coroutine function, from any thread."""
         if not inspect.iscoroutinefunction(callback):
             return super().create_task(callback, *args, **kwargs)
         end: Future[Any] = Future(executor=self)
@@ -48,7 +48,7 @@ class _Executor(_rclpy.EventsExecutor):
         return end
 
     def _resume(self, coroutine: Coroutine[Any, Any, Any], end: Future[Any]) -> None:
-        """Run a coroutine until it waits; go on when what it waits for is done."""
+        """Run a coroutine until it waits; resume it when the awaited future is done."""
         try:
             coroutine.send(None)
         except StopIteration as stop:
@@ -69,7 +69,7 @@ class _Executor(_rclpy.EventsExecutor):
 
 
 def _awaited(coroutine: Any) -> Future[Any] | None:
-    """Return the future for which a coroutine waits; what it yields does not tell in Jazzy."""
+    """Return the future that a coroutine awaits; the yielded value is not the future in Jazzy."""
     while inspect.iscoroutine(coroutine):
         coroutine = coroutine.cr_await
     frame = getattr(coroutine, 'gi_frame', None)
@@ -84,7 +84,7 @@ def make_executor(context: Context | None = None) -> Executor:
     Parameters
     ----------
     context
-        The context that wakes it on shutdown; by default that of the process.
+        The context whose shutdown wakes the executor; by default that of the process.
 
     """
     context = context or rclpy.get_default_context()
@@ -102,7 +102,7 @@ def spin_until(executor: Executor, stop: Future[None], context: Context | None =
     Parameters
     ----------
     executor
-        What runs the callbacks, from `make_executor`.
+        The executor, from `make_executor`.
     stop
         Ends spinning when it is done; may be set from any thread.
     context

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The QoS of the topics of transforms."""
+"""QoS profiles of the topics `/tf` and `/tf_static`."""
 
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-# A robot has many broadcasters, and none must be lost when a listener is late.
+# A robot has many broadcasters; a slow listener must not lose their messages.
 DYNAMIC = QoSProfile(depth=100)
-# Late comers get what was said before they came, of each publisher.
+# Late joiners receive the last message of each publisher.
 STATIC_LISTENER = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 # Each message holds all static transforms of its publisher.
 STATIC_BROADCASTER = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What packages have registered for their types: how to transform and to convert them."""
+"""Registry of functions that transform and convert objects, by type."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ EntryT = TypeVar('EntryT')
 
 
 class TypeException(Exception):
-    """Nobody has registered how to transform or convert objects of a type."""
+    """No transform or conversion is registered for a type."""
 
 
 class TransformRegistration:
-    """How objects of a type are transformed. All instances share the entries."""
+    """Registry of transform functions by type. All instances share the entries."""
 
     _transforms: dict[type, Transform] = {}
 
@@ -29,14 +29,14 @@ class TransformRegistration:
         key
             The type.
         callback
-            Takes an object of the type and a `TransformStamped`, returns the transformed object.
+            Accepts an object of the type and a `TransformStamped`; returns the transformed object.
 
         """
         self._transforms[key] = callback
 
     def get(self, key: type) -> Transform:
         """
-        Look up the function that transforms objects of a type.
+        Return the function that transforms objects of a type.
 
         Parameters
         ----------
@@ -53,7 +53,7 @@ class TransformRegistration:
 
 
 class ConvertRegistration:
-    """How objects of a type become others. All instances share the entries."""
+    """Registry of conversions by type. All instances share the entries."""
 
     _from_messages: dict[type, Conversion] = {}
     _to_messages: dict[type, Conversion] = {}
@@ -68,7 +68,7 @@ class ConvertRegistration:
         key
             The type of the result.
         callback
-            Takes a message, returns an object of the type.
+            Accepts a message; returns an object of the type.
 
         """
         self._from_messages[key] = callback
@@ -80,9 +80,9 @@ class ConvertRegistration:
         Parameters
         ----------
         key
-            The type that is converted.
+            The type to convert.
         callback
-            Takes an object of the type, returns a message.
+            Accepts an object of the type; returns a message.
 
         """
         self._to_messages[key] = callback
@@ -96,14 +96,14 @@ class ConvertRegistration:
         key
             The types converted from and to.
         callback
-            Takes an object of the first type, returns one of the second.
+            Accepts an object of the first type; returns one of the second type.
 
         """
         self._conversions[key] = callback
 
     def get_from_msg(self, key: type) -> Conversion:
         """
-        Look up the conversion from a message to objects of a type.
+        Return the conversion from a message to objects of a type.
 
         Parameters
         ----------
@@ -120,12 +120,12 @@ class ConvertRegistration:
 
     def get_to_msg(self, key: type) -> Conversion:
         """
-        Look up the conversion of objects of a type to a message.
+        Return the conversion of objects of a type to a message.
 
         Parameters
         ----------
         key
-            The type that is converted.
+            The type to convert.
 
         Raises
         ------
@@ -137,7 +137,7 @@ class ConvertRegistration:
 
     def get_convert(self, key: tuple[type, type]) -> Conversion | None:
         """
-        Look up the direct conversion between two types.
+        Return the direct conversion between two types.
 
         Parameters
         ----------

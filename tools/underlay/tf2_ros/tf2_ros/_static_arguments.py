@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments of static_transform_publisher."""
+"""Command line arguments of static_transform_publisher."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ OLD_STYLE_WARNING = 'Old-style arguments are deprecated; see --help for new-styl
 
 @dataclass(frozen=True)
 class StaticTransform:
-    """Where a frame is in another one."""
+    """Pose of a child frame in its parent frame."""
 
     frame_id: str
     child_frame_id: str
@@ -47,8 +47,8 @@ def parsed(arguments: Sequence[str]) -> StaticTransform:
     Parameters
     ----------
     arguments : Sequence[str]
-        The words after the program name, without those for ROS; options or the old positional
-        style.
+        The arguments after the program name, without ROS arguments; options or the old
+        positional style.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def parsed(arguments: Sequence[str]) -> StaticTransform:
     Raises
     ------
     SystemExit
-        Help was asked for, or the arguments are invalid, which a message on stderr explains.
+        Help was requested, or the arguments are invalid, which a message on stderr explains.
 
     """
     parser = _parser()
@@ -87,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _refuse_unknown_options(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    """End with a question if an option does not exist, before one is missed that it stands for."""
+    """Exit with a suggestion on unknown options, before argparse reports missing ones."""
     known = ['--help', '--frame-id', '--child-frame-id', *(f'--{name}' for name in _NUMBERS)]
     for word in arguments:
         option = word.partition('=')[0]
@@ -119,7 +119,7 @@ def _old_style(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Sta
 
 
 def _ends_with_period(arguments: Sequence[str]) -> bool:
-    """Tell if a number follows the two frames."""
+    """Whether a period follows the two frames, as in ROS 1."""
     return len(arguments) - 1 in _OLD_STYLE and [_is_number(word) for word in arguments[-4:]] == [
         True,
         False,
@@ -202,7 +202,7 @@ def _number(text: str) -> float:
 
 
 def _joined(arguments: Sequence[str]) -> list[str]:
-    """Join options of numbers with their values, which may look like options (-1e-3)."""
+    """Join numeric options with their values, which may look like options (-1e-3)."""
     words = list(arguments)
     joined = []
     while words:

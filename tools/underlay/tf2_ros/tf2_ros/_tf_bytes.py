@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Transforms out of the bytes of messages, without the messages.
+Fast deserialization of transforms, without message objects.
 
-To make the message of 23 transforms takes rclpy 0.3 ms, which a listener pays for all that moves.
-A broadcaster sends the same names again and again, so that all numbers are at the same places.
+rclpy takes 0.3 ms to deserialize a message with 23 transforms, which a listener would spend on
+each message. As a broadcaster always sends the same names, all numbers are at the same offsets.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ __all__ = ['TfReader']
 _NS_PER_S = 10**9
 _ORDERS = {b'\x00\x00': '>', b'\x00\x01': '<'}
 _MAX_LAYOUTS = 100
-_FIELDS = 13  # of a transform: the stamp, two names with their lengths, and seven numbers
-_BEGIN = 16  # of the first name, after the encapsulation, the count and a stamp
+_FIELDS = 13  # per transform: the stamp, two names with their lengths, and seven numbers
+_BEGIN = 16  # offset of the first name, after the encapsulation header, the count and a stamp
 
 
 class TfReader:
-    """Reads serialized messages of transforms."""
+    """Deserializer of `tf2_msgs/TFMessage` with a cache of message layouts."""
 
     def __init__(self) -> None:
-        """Create a reader that knows no layouts."""
+        """Create a reader with an empty cache of layouts."""
         self._layouts: dict[tuple[int, bytes], _Layout] = {}
 
     def read(self, data: bytes) -> list[Reading]:
@@ -66,7 +66,7 @@ class TfReader:
 
 
 def _end_of_names(data: bytes, order: str) -> int:
-    """Return where the names of the first transform end; they tell robots apart."""
+    """Return the offset after the names of the first transform, which distinguish robots."""
     (parent,) = struct.unpack_from(f'{order}I', data, _BEGIN)
     child_at = _BEGIN + _aligned(4 + parent, 4)
     (child,) = struct.unpack_from(f'{order}I', data, child_at)
@@ -74,10 +74,10 @@ def _end_of_names(data: bytes, order: str) -> int:
 
 
 class _Layout:
-    """Where the numbers are in messages with the same names."""
+    """Offsets of the numbers in messages with the same frame names."""
 
     def __init__(self, data: bytes, order: str) -> None:
-        """Take a message."""
+        """Determine the layout of a message."""
         (count,) = struct.unpack_from(f'{order}I', data, 4)
         parts, at = [order, '4xI'], 4
         texts: list[bytes] = []
@@ -100,7 +100,7 @@ class _Layout:
         self._names = list(zip(map(_name, parents), map(_name, children)))
 
     def read(self, data: bytes) -> list[Reading] | None:
-        """Return the transforms of a message, or None if it has other names."""
+        """Return the transforms of a message, or None if its frame names differ."""
         values = self._unpack(data)
         given = values[3::_FIELDS], values[5::_FIELDS]
         texts = values[4::_FIELDS], values[6::_FIELDS]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait until a buffer knows enough."""
+"""Wait until transforms are available in a buffer."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _LOOK_S = 0.1
 
 class Waiting:
     """
-    Threads and futures that wait for transforms.
+    Registry of threads and futures that wait for transforms.
 
     Parameters
     ----------
     is_alive
-        Threads stop waiting as soon as this returns False, as after a shutdown of ROS.
+        Threads stop waiting as soon as this returns False, such as after a ROS shutdown.
 
     """
 
@@ -37,9 +37,9 @@ class Waiting:
         Parameters
         ----------
         check
-            Whether the buffer can answer; called again after each change of the buffer.
+            Whether the transform is available; called again after each change of the buffer.
         timeout_s
-            Longest time to block, in s of the wall clock.
+            The maximum time to block, in s of wall clock time.
 
         """
         end_s = time.monotonic() + timeout_s
@@ -61,9 +61,9 @@ class Waiting:
         Parameters
         ----------
         check
-            Whether the buffer can answer; called again after each change of the buffer.
+            Whether the transform is available; called again after each change of the buffer.
         future
-            What is completed; it is dropped if it has been canceled or completed before.
+            The future to complete; it is dropped if it was canceled or completed before.
 
         """
         with self._changed:
@@ -71,7 +71,7 @@ class Waiting:
         self._settle()
 
     def announce(self) -> None:
-        """Say that the buffer has changed."""
+        """Notify waiting threads and futures that the buffer has changed."""
         self._feeding_thread = threading.get_ident()
         if self._threads:
             with self._changed:
@@ -80,7 +80,7 @@ class Waiting:
             self._settle()
 
     def blocks_itself(self) -> bool:
-        """Tell if it is this thread that fills the buffer, so that it must not wait."""
+        """Whether the calling thread is the one that fills the buffer, and so must not block."""
         return self._feeding_thread == threading.get_ident()
 
     def _settle(self) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What arguments of programs are made to."""
+"""Argparse types for command line arguments."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ def number_in(low: float, high: float, what: str) -> Callable[[str], float]:
     Parameters
     ----------
     low, high
-        The range, both ends included.
+        The range, including both limits.
     what
-        What the number is, with its unit, for the error message: 'rate in Hz'.
+        Description of the number, with its unit, for the error message: 'rate in Hz'.
 
     Returns
     -------
     Callable
-        Converts the text of an argument to a number, or raises `argparse.ArgumentTypeError`.
+        Converts an argument to a number, or raises `argparse.ArgumentTypeError`.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The transforms of a node."""
+"""Transform buffer of a node."""
 
 from __future__ import annotations
 
@@ -34,49 +34,49 @@ _BLOCKED = (
 )
 
 QUIET_S = 60.0
-"""Two simulators in a domain make the time jump with every message of /clock: it is said once."""
+"""Period between warnings: with two simulators, each `/clock` message is a time jump."""
 
 
 def _tell_of_jump(buffer: ref[Buffer], time_jump: Any) -> None:
-    """Let a buffer forget what was before a jump of the time, if there still is one."""
+    """Forward a time jump to a buffer, unless it has been garbage collected."""
     told = buffer()
     if told is not None:
         told.time_jump_callback(time_jump)
 
 
 def _end(jumps: Any) -> None:
-    """Hear of jumps no longer; the clock may be gone already."""
+    """Unregister a jump callback; its clock may have been destroyed already."""
     with suppress(InvalidHandle):
         jumps.unregister()
 
 
 class Question(NamedTuple):
-    """What is asked of a buffer: it can answer, or says why not."""
+    """Query of a buffer: whether a transform is available, or the reason why not."""
 
     method: Callable[..., tuple[bool, str]]
     arguments: tuple[Any, ...]
 
     def ask(self) -> tuple[bool, str]:
-        """Ask now."""
+        """Run the query now."""
         return self.method(*self.arguments)
 
     @property
     def frames(self) -> list[str]:
-        """Return the frames that it is about."""
+        """Return the frames of the query."""
         return [argument for argument in self.arguments if isinstance(argument, str)]
 
 
 class Buffer(BufferCore, BufferInterface):
     """
-    A BufferCore that can wait, and that is cleared when time jumps back.
+    BufferCore that supports waiting and is cleared when time jumps back.
 
     Parameters
     ----------
     cache_time
-        How much of the past is kept; 10 s by default.
+        The length of the buffer, as a duration; 10 s by default.
     node
-        The node that offers the frames as service `tf2_frames`, and whose clock is followed; none
-        by default.
+        The node that offers the service `tf2_frames` and whose clock is monitored; none by
+        default.
 
     Raises
     ------
@@ -107,7 +107,7 @@ class Buffer(BufferCore, BufferInterface):
         Parameters
         ----------
         node
-            The node whose clock and context count.
+            The node whose clock and context are monitored.
 
         """
         if self._node is not None:
@@ -116,8 +116,8 @@ class Buffer(BufferCore, BufferInterface):
         threshold = JumpThreshold(
             min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
         )
-        # rcl keeps the address of the handle, which must not outlive it; and the handle must not
-        # keep the buffer alive.
+        # rcl stores the address of the handle, so the callback must be unregistered before the
+        # handle is destroyed; and the handle must not keep the buffer alive.
         myself = ref(self)
         jumps = node.get_clock().create_jump_callback(
             threshold, post_callback=partial(_tell_of_jump, myself)
@@ -126,7 +126,7 @@ class Buffer(BufferCore, BufferInterface):
 
     def time_jump_callback(self, time_jump: Any) -> None:
         """
-        Clear all transforms except the static ones after a jump of time, and log a warning.
+        Clear all transforms except static ones after a time jump, and log a warning.
 
         Parameters
         ----------
@@ -148,7 +148,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Look up the transform that takes data from the source frame to the target frame.
+        Look up the transform that maps data from the source frame to the target frame.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class Buffer(BufferCore, BufferInterface):
         time
             The time of the transform; 0 is the latest time at which the whole chain is known.
         timeout
-            How long to wait for it, in wall clock time; by default not at all.
+            The maximum time to wait for it, in wall clock time; by default no wait.
 
         Returns
         -------
@@ -170,7 +170,7 @@ class Buffer(BufferCore, BufferInterface):
         Raises
         ------
         TransformException
-            There is no such transform; the subclass and the text say why.
+            The transform is not available; the subclass and the message state why.
 
         """
         arguments = (target_frame, source_frame, time)
@@ -196,9 +196,9 @@ class Buffer(BufferCore, BufferInterface):
         source_frame, source_time
             The frame of the data, and its time; 0 is the latest.
         fixed_frame
-            The frame that does not move between the two times.
+            The frame that is assumed to be fixed between the two times.
         timeout
-            How long to wait for it, in wall clock time; by default not at all.
+            The maximum time to wait for it, in wall clock time; by default no wait.
 
         Returns
         -------
@@ -209,7 +209,7 @@ class Buffer(BufferCore, BufferInterface):
         Raises
         ------
         TransformException
-            There is no such transform; the subclass and the text say why.
+            The transform is not available; the subclass and the message state why.
 
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
@@ -233,12 +233,12 @@ class Buffer(BufferCore, BufferInterface):
         target_frame, source_frame, time, timeout
             As for `lookup_transform`.
         return_debug_tuple
-            Whether to return the reason too.
+            Whether to also return the reason for a failure.
 
         Returns
         -------
         bool or tuple of bool and str
-            Whether it succeeds; with `return_debug_tuple` also why it does not, '' if it does.
+            Whether it succeeds; with `return_debug_tuple`, also the reason for a failure or ''.
 
         """
         arguments = (target_frame, source_frame, time)
@@ -263,12 +263,12 @@ class Buffer(BufferCore, BufferInterface):
         target_frame, target_time, source_frame, source_time, fixed_frame, timeout
             As for `lookup_transform_full`.
         return_debug_tuple
-            Whether to return the reason too.
+            Whether to also return the reason for a failure.
 
         Returns
         -------
         bool or tuple of bool and str
-            Whether it succeeds; with `return_debug_tuple` also why it does not, '' if it does.
+            Whether it succeeds; with `return_debug_tuple`, also the reason for a failure or ''.
 
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
@@ -287,7 +287,7 @@ class Buffer(BufferCore, BufferInterface):
         Returns
         -------
         Future
-            Its result is True; cancel it to stop waiting.
+            The future, with result True; cancel it to stop waiting.
 
         """
         arguments = (target_frame, source_frame, time)
@@ -312,7 +312,7 @@ class Buffer(BufferCore, BufferInterface):
         Returns
         -------
         Future
-            Its result is True; cancel it to stop waiting.
+            The future, with result True; cancel it to stop waiting.
 
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
@@ -322,7 +322,7 @@ class Buffer(BufferCore, BufferInterface):
         self, target_frame: str, source_frame: str, time: Time
     ) -> TransformStamped:
         """
-        Await the transform that takes data from the source frame to the target frame.
+        Await the transform that maps data from the source frame to the target frame.
 
         Parameters
         ----------
@@ -371,7 +371,7 @@ class Buffer(BufferCore, BufferInterface):
     def _look_up(
         self, look_up: Callable[[], TransformStamped], question: Question, timeout: Duration
     ) -> TransformStamped:
-        """Return the transform at once, or when it comes in time."""
+        """Return the transform, after waiting for it up to the timeout."""
         timeout_s = nanoseconds(timeout) / 1e9
         if timeout_s <= 0.0:
             return look_up()
@@ -398,13 +398,13 @@ class Buffer(BufferCore, BufferInterface):
         return future
 
     def _wake(self, future: Future) -> None:
-        """Let callbacks go on that await a future; another thread may have filled the buffer."""
+        """Wake the executor to resume callbacks; another thread may have filled the buffer."""
         executor = self._node.executor if self._node else None
         if executor is not None:
             executor.wake()
 
     def _answers(self, question: Question) -> bool:
-        """Tell if there is an answer; a reason why not takes longer than all transforms."""
+        """Whether the transform is available; the cheap check for known frames comes first."""
         return self._knows(*question.frames) and question.ask()[0]
 
     def _is_alive(self) -> bool:

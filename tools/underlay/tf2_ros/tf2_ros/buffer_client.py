@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ask another node, a buffer server, for transforms."""
+"""Client of a buffer server, which looks up transforms in another node."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ _SPIN = (
 
 class BufferClient(BufferInterface):
     """
-    Looks transforms up in the buffer of another node, through its action; calls block until then.
+    Action client that looks up transforms in the buffer of another node; calls block.
 
     Parameters
     ----------
     node
         The node that sends the requests; another thread must spin it.
     ns
-        The name of the server's action; that of the program `buffer_server` is tf2_buffer_server.
+        The action name of the server; that of the program `buffer_server` is tf2_buffer_server.
     check_frequency
-        How often to check whether the server is there, in Hz.
+        The rate of checks whether the server is available, in Hz.
     timeout_padding
-        How much longer than its timeout a look-up may take, for the communication.
+        Additional time for communication, on top of the lookup timeout.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class BufferClient(BufferInterface):
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Look up the transform that takes data from the source frame to the target frame.
+        Look up the transform that maps data from the source frame to the target frame.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class BufferClient(BufferInterface):
         time
             The time of the transform; 0 is the latest time at which the whole chain is known.
         timeout
-            How long the server waits for it; by default not at all.
+            The maximum time for which the server waits for it; by default no wait.
 
         Returns
         -------
@@ -93,9 +93,9 @@ class BufferClient(BufferInterface):
         Raises
         ------
         TimeoutException
-            The server is not there, or has not answered within the timeout and the padding.
+            The server is not available, or has not responded within the timeout plus padding.
         TransformException
-            The server has no such transform; the subclass and the text say why.
+            The transform is not available on the server; the subclass and the message state why.
 
         """
         goal = _goal(target_frame, source_frame, time, timeout)
@@ -120,9 +120,9 @@ class BufferClient(BufferInterface):
         source_frame, source_time
             The frame of the data, and its time; 0 is the latest.
         fixed_frame
-            The frame that does not move between the two times.
+            The frame that is assumed to be fixed between the two times.
         timeout
-            How long the server waits for it; by default not at all.
+            The maximum time for which the server waits for it; by default no wait.
 
         Returns
         -------
@@ -133,9 +133,9 @@ class BufferClient(BufferInterface):
         Raises
         ------
         TimeoutException
-            The server is not there, or has not answered within the timeout and the padding.
+            The server is not available, or has not responded within the timeout plus padding.
         TransformException
-            The server has no such transform; the subclass and the text say why.
+            The transform is not available on the server; the subclass and the message state why.
 
         """
         goal = _goal(target_frame, source_frame, source_time, timeout)
@@ -193,7 +193,7 @@ class BufferClient(BufferInterface):
         return True
 
     def _answer(self, goal: LookupTransform.Goal) -> TransformStamped:
-        """Return the server's answer to a goal."""
+        """Send a goal to the server and return the resulting transform."""
         allowed_s = (nanoseconds(goal.timeout) + nanoseconds(self.timeout_padding)) / 1e9
         end_s = wall_clock.monotonic() + allowed_s
         self._wait_for_server(end_s, allowed_s)
@@ -217,7 +217,7 @@ class BufferClient(BufferInterface):
             wall_clock.sleep(1.0 / self.check_frequency)
 
     def _wait(self, future: Future, end_s: float, allowed_s: float) -> Any:
-        """Return the result of a future, which another thread provides."""
+        """Wait for the result of a future that is completed by another thread."""
         is_done = threading.Event()
         future.add_done_callback(lambda _: is_done.set())
         if not is_done.wait(max(0.0, end_s - wall_clock.monotonic())):

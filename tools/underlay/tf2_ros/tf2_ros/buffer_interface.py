@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What can be asked of transforms, wherever they are kept."""
+"""Common interface of transform buffers, local or remote."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ __all__ = [
 
 
 class NotImplementedException(Exception):
-    """A subclass lacks a method."""
+    """A method is not implemented by a subclass."""
 
     def __init__(self, method: str = 'This method') -> None:
         super().__init__(f'{method} is for a subclass to implement')
 
 
 class BufferInterface:
-    """Asks for transforms and applies them; subclasses know the transforms."""
+    """Interface to look up and apply transforms; subclasses provide the transforms."""
 
     def __init__(self) -> None:
-        """Create the object."""
+        """Create the interface, with access to the registered types."""
         self.registration = TransformRegistration()
 
     def transform(
@@ -59,7 +59,7 @@ class BufferInterface:
         target_frame
             The frame of the result.
         timeout
-            How long to wait for the transform; by default not at all.
+            The maximum time to wait for the transform; by default no wait.
         new_type
             The type of the result, if not that of the object.
 
@@ -73,7 +73,7 @@ class BufferInterface:
         TypeException
             The object has no header, or no package has registered its type or the conversion.
         TransformException
-            There is no such transform.
+            The transform is not available.
 
         """
         do_transform = self._do_transform_of(object_stamped)
@@ -100,9 +100,9 @@ class BufferInterface:
         target_frame, target_time
             The frame of the result, and its time.
         fixed_frame
-            The frame that does not move between the time of the header and the target time.
+            The frame that is assumed to be fixed between the header time and the target time.
         timeout
-            How long to wait for the transform; by default not at all.
+            The maximum time to wait for the transform; by default no wait.
         new_type
             The type of the result, if not that of the object.
 
@@ -116,7 +116,7 @@ class BufferInterface:
         TypeException
             The object has no header, or no package has registered its type or the conversion.
         TransformException
-            There is no such transform.
+            The transform is not available.
 
         """
         do_transform = self._do_transform_of(object_stamped)
@@ -127,7 +127,7 @@ class BufferInterface:
         return _converted(do_transform(object_stamped, transform), new_type)
 
     def _do_transform_of(self, object_stamped: Any) -> Any:
-        """Return the function that transforms an object with a header, or TypeException."""
+        """Return the registered transform function; raise a TypeException without a header."""
         kind = type(object_stamped)
         if hasattr(object_stamped, 'header'):
             return self.registration.get(kind)
@@ -145,7 +145,7 @@ class BufferInterface:
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Look up the transform between two frames; for subclasses to implement.
+        Look up the transform between two frames; to be implemented by subclasses.
 
         Parameters
         ----------
@@ -156,7 +156,7 @@ class BufferInterface:
         time
             The time of the transform; 0 is the latest.
         timeout
-            How long to wait for it.
+            The maximum time to wait for it.
 
         Returns
         -------
@@ -166,7 +166,7 @@ class BufferInterface:
         Raises
         ------
         NotImplementedException
-            The subclass lacks this method.
+            The subclass does not implement this method.
 
         """
         raise NotImplementedException('lookup_transform')
@@ -181,7 +181,7 @@ class BufferInterface:
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Look up the transform between two frames at two times; for subclasses to implement.
+        Look up the transform between two frames at two times; to be implemented by subclasses.
 
         Parameters
         ----------
@@ -190,9 +190,9 @@ class BufferInterface:
         source_frame, source_time
             The frame of the data, and its time; 0 is the latest.
         fixed_frame
-            The frame that does not move between the two times.
+            The frame that is assumed to be fixed between the two times.
         timeout
-            How long to wait for it.
+            The maximum time to wait for it.
 
         Returns
         -------
@@ -202,7 +202,7 @@ class BufferInterface:
         Raises
         ------
         NotImplementedException
-            The subclass lacks this method.
+            The subclass does not implement this method.
 
         """
         raise NotImplementedException('lookup_transform_full')
@@ -215,7 +215,7 @@ class BufferInterface:
         timeout: Duration = Duration(),
     ) -> Any:
         """
-        Check whether `lookup_transform` succeeds; for subclasses to implement.
+        Check whether `lookup_transform` succeeds; to be implemented by subclasses.
 
         Parameters
         ----------
@@ -225,7 +225,7 @@ class BufferInterface:
         Raises
         ------
         NotImplementedException
-            The subclass lacks this method.
+            The subclass does not implement this method.
 
         """
         raise NotImplementedException('can_transform')
@@ -240,7 +240,7 @@ class BufferInterface:
         timeout: Duration = Duration(),
     ) -> Any:
         """
-        Check whether `lookup_transform_full` succeeds; for subclasses to implement.
+        Check whether `lookup_transform_full` succeeds; to be implemented by subclasses.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ class BufferInterface:
         Raises
         ------
         NotImplementedException
-            The subclass lacks this method.
+            The subclass does not implement this method.
 
         """
         raise NotImplementedException('can_transform_full')
@@ -258,16 +258,16 @@ class BufferInterface:
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802
     """
-    Set the header of an object, and return the same object.
+    Set the header of an object and return the object.
 
     Parameters
     ----------
     obj
-        What gets the attribute `header`.
+        The object whose attribute `header` is set.
     stamp
-        Its time, a `builtin_interfaces/Time`.
+        The timestamp, a `builtin_interfaces/Time`.
     frame_id
-        Its frame.
+        The frame.
 
     """
     from std_msgs.msg import Header
@@ -280,13 +280,13 @@ def convert(a: Any, b_type: type) -> Any:
     """
     Convert an object to another type by the registered conversions.
 
-    A direct conversion is preferred to one by way of a message. An object that is of the type
-    already is copied.
+    A direct conversion is preferred over one via a message. Objects that already have the type are
+    copied.
 
     Parameters
     ----------
     a
-        The object, which stays as it is.
+        The object, which is not modified.
     b_type
         The type of the result.
 

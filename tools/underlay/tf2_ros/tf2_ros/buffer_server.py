@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look transforms up for other nodes: a class, and a program, `ros2 run tf2_ros buffer_server`."""
+"""Action server for transform lookups, also a program: `ros2 run tf2_ros buffer_server`."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _CACHE_S = 120.0
 
 class BufferServer:
     """
-    Offers a buffer as an action, which each BufferClient asks instead of listening itself.
+    Action server that offers a buffer to each BufferClient, which needs no listener of its own.
 
     Parameters
     ----------
     buffer
-        Where transforms are looked up.
+        The buffer in which transforms are looked up.
     node
         The node that offers the action.
     ns
@@ -53,11 +53,11 @@ class BufferServer:
         )
 
     def destroy(self) -> None:
-        """Offer the action no longer."""
+        """Destroy the action server."""
         self._server.destroy()
 
     async def _execute(self, goal: Any) -> Any:
-        """Answer a goal: at once, as soon as the transform is known, or at the end of its time."""
+        """Execute a goal: respond when its transform is available or its timeout expires."""
         from tf2_py import TransformException
         from tf2_ros._error_codes import to_message
 
@@ -75,7 +75,7 @@ class BufferServer:
         return result
 
     def _questions(self, request: Any) -> tuple[partial[Any], Future]:
-        """Return the look-up of a goal, and the future of its success."""
+        """Return the lookup of a goal, and a future that is done when it would succeed."""
         frames = (request.target_frame, request.source_frame)
         if not request.advanced:
             arguments: tuple[Any, ...] = (*frames, request.source_time)
@@ -88,7 +88,7 @@ class BufferServer:
         return partial(self._buffer.lookup_transform_full_core, *arguments), waiting
 
     async def _end_of(self, goal: Any, waiting: Future) -> None:
-        """Wait until a goal's transform is known, its time is over, or it is cancelled."""
+        """Wait until the transform of a goal is available, it times out, or it is canceled."""
         from rclpy.clock import Clock, ClockType
         from rclpy.task import Future
         from tf2_py._messages import nanoseconds
@@ -113,7 +113,7 @@ class BufferServer:
         del self._waits[bytes(goal.goal_id.uuid)]
 
     def _cancel(self, goal: Any) -> Any:
-        """Let a goal be cancelled."""
+        """Accept the cancellation of a goal and end its wait."""
         from rclpy.action import CancelResponse
 
         wait = self._waits.get(bytes(goal.goal_id.uuid))
@@ -124,17 +124,17 @@ class BufferServer:
 
 def make_node(words: list[str]) -> Node:
     """
-    Create the node of the program buffer_server, which listens and offers its buffer.
+    Create the node of the program buffer_server: a listener whose buffer is offered as an action.
 
     Parameters
     ----------
     words
-        The command line without the arguments for ROS; must be empty.
+        The command line without ROS arguments; must be empty.
 
     Raises
     ------
     ValueError
-        There are arguments.
+        There are command line arguments.
 
     """
     from rclpy.duration import Duration
@@ -157,7 +157,7 @@ def make_node(words: list[str]) -> Node:
 
 
 def main() -> int:
-    """Run the program."""
+    """Run the program; return the exit status."""
     return run_node(make_node)
 
 

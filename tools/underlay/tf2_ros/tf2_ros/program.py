@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The body of programs that are nodes: they end well on SIGINT and SIGTERM."""
+"""Main functions of ROS programs, with a clean shutdown on SIGINT and SIGTERM."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ def run_node(
     make_node: Callable[[list[str]], Node], arguments: Sequence[str] | None = None
 ) -> int:
     """
-    Run a program whose work is to spin one node.
+    Run a program that spins a single node.
 
-    A ValueError while the node is made, or a parameter that ROS rejects, is one message on stderr
-    and status 1.
+    A ValueError from creating the node, or a parameter that ROS rejects, results in one message on
+    stderr and exit status 1.
 
     Parameters
     ----------
     make_node
-        Creates the node from the command line without the arguments for ROS.
+        Creates the node from the command line without ROS arguments.
     arguments : Sequence[str] | None
-        The command line with the program's name; by default that of the process.
+        The command line including the program name; by default that of the process.
 
     Returns
     -------
@@ -69,26 +69,26 @@ def run(
     arguments: Sequence[str] | None = None,
 ) -> int:
     """
-    Run the work of a program between the start and the shutdown of ROS.
+    Run the work of a program between the initialisation and the shutdown of ROS.
 
     SIGINT and SIGTERM are blocked while the work runs, so that they interrupt nothing (`spin`
-    waits for them), and ignored afterwards. A thread that is older, as those of numpy, may get
-    them all the same, and hands them over.
+    waits for them), and ignored afterwards. Threads created earlier, such as those of numpy, may
+    still receive them; they are forwarded to the main thread.
 
     Parameters
     ----------
     parse
-        Makes the arguments of `work` from the words that are not for ROS.
+        Parses the command line without ROS arguments into the argument of `work`.
     work
-        Runs while ROS does; may return an exit status.
+        Called while ROS is initialised; may return an exit status.
     arguments : Sequence[str] | None
-        The command line with the program's name; by default that of the process.
+        The command line including the program name; by default that of the process.
 
     Returns
     -------
     int
-        The exit status: that of `work`, 0 if it returns None, 1 if ROS cannot be started or the
-        disk is full, 141 if nobody reads the output any longer.
+        The exit status: that of `work`, 0 if it returns None, 1 if ROS cannot be initialised or
+        the disk is full, 141 for a broken pipe on the standard output.
 
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
@@ -96,7 +96,7 @@ def run(
     try:
         return _run(parse, work, list(sys.argv if arguments is None else arguments))
     finally:
-        # Who is impatient sends several, and the process has nothing left to do but to end.
+        # Further signals are ignored, as the process is about to exit anyway.
         _handle(signal.SIG_IGN)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
@@ -107,7 +107,7 @@ def _handle(handler: Callable[[int, object], None] | signal.Handlers) -> None:
 
 
 def _hand_over(number: int, _: object) -> None:
-    """Send a signal that another thread has got to the main thread, which waits for it."""
+    """Forward a signal received by another thread to the main thread, which waits for it."""
     signal.pthread_kill(threading.main_thread().ident or 0, number)
 
 
@@ -135,7 +135,7 @@ def _run(
 
 
 def _reason(error: RuntimeError) -> str:
-    """Say why ROS cannot be used, and what to do."""
+    """Explain why ROS cannot be initialised, with advice."""
     if 'initialize logging' in str(error):
         return (
             f'The log cannot be written: {error}. Set ROS_LOG_DIR, or HOME, to a folder that can '
@@ -148,10 +148,10 @@ def _reason(error: RuntimeError) -> str:
 
 
 def _status_of_lost_output(error: OSError) -> int:
-    """Drop what nobody reads or no disk has room for; raise other errors again."""
+    """Return the exit status after a broken pipe or a full disk; re-raise other errors."""
     if error.errno not in (errno.EPIPE, errno.ENOSPC):
         raise error
-    # The interpreter would try once more at the end, and complain.
+    # Otherwise the interpreter would flush again at exit, and report another error.
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if error.errno == errno.EPIPE:
         return BROKEN_PIPE_STATUS
@@ -161,23 +161,22 @@ def _status_of_lost_output(error: OSError) -> int:
 
 def spin(node: Node, timeout_s: float | None = None) -> bool:
     """
-    Spin a node in a thread of its own until SIGINT, SIGTERM or a timeout.
+    Spin a node in its own thread until SIGINT, SIGTERM or a timeout.
 
-    Its `companions`, further nodes that it has made for itself, are spun with it, if it has any. A
-    callback that does not return within 3 s after the end is not waited for: the process exits
-    with status 1.
+    Its `companions`, if any (additional nodes that it created for itself), are spun as well. If a
+    callback does not return within 3 s after the end, the process exits with status 1.
 
     Parameters
     ----------
     node
-        What is spun; an error in one of its callbacks ends spinning, and is raised here.
+        The node to spin; an error in one of its callbacks ends spinning and is raised here.
     timeout_s
-        Longest time to spin, in s; by default there is no limit.
+        The maximum time to spin, in s; unlimited by default.
 
     Returns
     -------
     bool
-        Whether a signal to stop has come.
+        Whether a stop signal was received.
 
     """
     from rclpy.task import Future
@@ -199,7 +198,7 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
 
 
 def _leave(node: Node) -> None:
-    """End the process although a callback runs; nothing else could end that."""
+    """Exit the process while a callback is running, which cannot be ended otherwise."""
     sys.stderr.write(
         f"The node '{node.get_name()}' was busy in a callback for {_END_S:g} s after the signal "
         'to stop, and was ended.\n'
@@ -216,15 +215,15 @@ def wait_for_signal(timeout_s: float | None) -> bool:
     Parameters
     ----------
     timeout_s
-        Longest time to wait, in s; 0 only looks, None waits without limit.
+        The maximum time to wait, in s; 0 polls without blocking, None waits indefinitely.
 
     Returns
     -------
     bool
-        Whether a signal has come in time.
+        Whether a signal was received in time.
 
     """
-    # Now and then a look for one that another thread has got.
+    # Wake up periodically to run the handler of a signal that another thread has received.
     end_s = None if timeout_s is None else time.monotonic() + timeout_s
     left_s = _LOOK_S
     while left_s > 0.0:
@@ -235,7 +234,7 @@ def wait_for_signal(timeout_s: float | None) -> bool:
 
 
 def _work(node: Node, stop: Future[None], failures: list[Exception]) -> None:
-    """Let a node work; a failure is for the main thread to raise."""
+    """Spin a node and its companions; an error is stored for the main thread to raise."""
     from tf2_ros._executing import make_executor, spin_until
 
     executor = make_executor()

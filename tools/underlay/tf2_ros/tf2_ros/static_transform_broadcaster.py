@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where frames are that do not move."""
+"""Broadcaster for static transforms."""
 
 from __future__ import annotations
 
@@ -25,8 +25,7 @@ class StaticTransformBroadcaster:
     node
         The node that publishes.
     qos
-        QoS profile instead of the usual one, which is reliable and transient local with a depth of
-        1.
+        The QoS profile; by default reliable and transient local with a depth of 1.
 
     Attributes
     ----------
@@ -42,15 +41,15 @@ class StaticTransformBroadcaster:
 
     def sendTransform(self, transform: Transforms) -> None:  # noqa: N802
         """
-        Publish static transforms, together with all that were sent before.
+        Publish static transforms, together with all transforms sent before.
 
         Parameters
         ----------
         transform
-            One or several; each replaces an earlier one with the same child frame.
+            One or several transforms; each replaces an earlier one with the same child frame.
 
         """
-        # The caller may fill the same message again.
+        # The caller may reuse the same message.
         sent = deepcopy(as_list(transform))
         self._transforms.update({item.child_frame_id: item for item in sent})
         self.pub_tf.publish(TFMessage(transforms=list(self._transforms.values())))

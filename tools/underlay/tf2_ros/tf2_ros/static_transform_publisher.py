@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish where a frame is in another one: `ros2 run tf2_ros static_transform_publisher`."""
+"""Publish a static transform: `ros2 run tf2_ros static_transform_publisher`."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 
 def main() -> int:
-    """Run the program."""
+    """Run the program; return the exit status."""
     return run(parsed, _publish)
 
 
 def _publish(transform: StaticTransform) -> None:
-    """Publish the transform as long as the program runs."""
+    """Publish the transform until the program is stopped."""
     from rclpy.node import Node
     from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 

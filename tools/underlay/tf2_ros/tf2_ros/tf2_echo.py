@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Print the transform between two frames again and again: `ros2 run tf2_ros tf2_echo`."""
+"""Print the transform between two frames periodically: `ros2 run tf2_ros tf2_echo`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _MOST_DIGITS = 15
 
 
 def main() -> int:
-    """Run the program."""
+    """Run the program; return the exit status."""
     return run(_parser().parse_args, _echo)
 
 
@@ -48,7 +48,7 @@ def _digits(text: str) -> int:
 
 class Echo:
     """
-    Waits for a transform, then prints it at a rate.
+    Waits for a transform, then prints it at a fixed rate.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Echo:
     Attributes
     ----------
     node
-        The node that is to be spun.
+        The node, to be spun by the caller.
 
     """
 
@@ -77,7 +77,7 @@ class Echo:
         self._timer = self.node.create_timer(_LOOK_S, self._look, clock=self._clock)
 
     def _look(self) -> None:
-        """Print for the first time, or say every second what is missing."""
+        """Print the first transform, or log every second why it is not available."""
         from rclpy.time import Time
 
         source, target = self._args.source_frame, self._args.target_frame
@@ -92,7 +92,7 @@ class Echo:
             self.node.get_logger().info(f'Waiting for transform {source} ->  {target}: {reason}')
 
     def _print(self) -> None:
-        """Print the latest transform, or why there is none."""
+        """Print the latest transform, or the reason why it is not available."""
         from rclpy.time import Time
         from tf2_py import TransformException
         from tf2_ros._echo_text import echo_text

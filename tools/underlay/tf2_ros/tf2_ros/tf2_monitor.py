@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Print how late and how often transforms come: `ros2 run tf2_ros tf2_monitor`."""
+"""Print delays and rates of transforms: `ros2 run tf2_ros tf2_monitor`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _PERIOD_S = 10.0
 
 
 def main() -> int:
-    """Run the program."""
+    """Run the program; return the exit status."""
     return run(_arguments, _monitor)
 
 
@@ -48,7 +48,7 @@ def _parser() -> argparse.ArgumentParser:
 
 class Monitor:
     """
-    Counts transforms, and prints a report of each period.
+    Measures the delay and rate of transforms and prints a report for each period.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Monitor:
     Attributes
     ----------
     node
-        The node that is to be spun.
+        The node, to be spun by the caller.
 
     """
 
@@ -84,7 +84,7 @@ class Monitor:
         print(f'Gathering data on {what} for {args.period:g} seconds...', flush=True)
 
     def _take(self, message: Any) -> None:
-        """Count the transforms of a message, and keep them."""
+        """Record the delays of the transforms of a message, and buffer them."""
         now_s = self._now_s()
         for transform in message.transforms:
             self._buffer.set_transform(transform, AUTHORITY)
@@ -95,13 +95,13 @@ class Monitor:
             self._add_net_delay(now_s)
 
     def _take_static(self, message: Any) -> None:
-        """Keep transforms that hold at all times; they are never late."""
+        """Buffer static transforms, which have no delay."""
         for transform in message.transforms:
             self._buffer.set_transform_static(transform, AUTHORITY)
             self._static.add(transform.child_frame_id)
 
     def _add_net_delay(self, now_s: float) -> None:
-        """Count how old the newest transform between the two frames is."""
+        """Record the age of the latest transform between the two frames."""
         from tf2_py import TransformException
 
         try:
@@ -112,7 +112,7 @@ class Monitor:
             self._traffic.net.add(now_s - common_time.nanoseconds / 1e9)
 
     def _print(self) -> None:
-        """Print what has come since the last report."""
+        """Print the statistics since the last report."""
         from tf2_py import TransformException
 
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where frames are that move."""
+"""Broadcaster for transforms of moving frames."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class TransformBroadcaster:
     node
         The node that publishes.
     qos
-        QoS profile instead of the usual one, which is reliable with a depth of 100.
+        The QoS profile; by default reliable with a depth of 100.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class TransformBroadcaster:
         Parameters
         ----------
         transform
-            One or several: the pose of the child frame in the frame of the header, at its time.
+            One or several transforms: the pose of the child frame in the header frame at a time.
 
         """
         self.pub_tf.publish(TFMessage(transforms=as_list(transform)))
@@ -53,7 +53,7 @@ class TransformBroadcaster:
 
 def as_list(transforms: Transforms) -> list[TransformStamped]:
     """
-    Make a list of one transform or several.
+    Convert one or several transforms to a list.
 
     Parameters
     ----------

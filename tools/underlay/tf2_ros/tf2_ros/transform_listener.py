@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fill a buffer with what is published."""
+"""Listener that fills a buffer with published transforms."""
 
 from __future__ import annotations
 
@@ -22,29 +22,29 @@ _AUTHORITY = 'default_authority'
 
 class TransformListener:
     """
-    Subscribes to `/tf` and `/tf_static`, and inserts the transforms into a buffer.
+    Subscribes to `/tf` and `/tf_static` and inserts the transforms into a buffer.
 
     Parameters
     ----------
     buffer
-        What is filled; a `Buffer` also follows the clock of the node.
+        The buffer to fill; a `Buffer` also monitors the clock of the node.
     node
         The node that subscribes.
     spin_thread
-        Whether to spin the node in a thread of its own.
+        Whether to spin the node in its own thread.
     qos
-        QoS profile for `/tf` instead of the usual one, which is reliable with a depth of 100.
+        The QoS profile for `/tf`; by default reliable with a depth of 100.
     static_qos
-        The same for `/tf_static`, where the usual one is also transient local.
+        The QoS profile for `/tf_static`; by default also transient local.
     static_only
-        Whether to leave `/tf` out.
+        Whether to subscribe to `/tf_static` only.
 
     Attributes
     ----------
     tf_sub, tf_static_sub
-        The subscriptions; None if there is none.
+        The subscriptions; None if not subscribed.
     group
-        Their callback group.
+        The callback group of the subscriptions.
 
     """
 
@@ -75,7 +75,7 @@ class TransformListener:
         """
         Insert the transforms of moving frames into the buffer.
 
-        A subclass that overrides this gets the messages of `/tf`.
+        Subclasses may override this to receive the messages of `/tf`.
 
         Parameters
         ----------
@@ -90,7 +90,7 @@ class TransformListener:
         """
         Insert static transforms into the buffer.
 
-        A subclass that overrides this gets the messages of `/tf_static`.
+        Subclasses may override this to receive the messages of `/tf_static`.
 
         Parameters
         ----------
@@ -102,7 +102,7 @@ class TransformListener:
             self.buffer.set_transform_static(transform, _AUTHORITY)
 
     def unregister(self) -> None:
-        """Subscribe no longer, and end the thread."""
+        """Destroy the subscriptions and end the thread."""
         if self._background is not None:
             self._background.stop()
             self._background = None
@@ -112,11 +112,11 @@ class TransformListener:
         self.tf_sub = self.tf_static_sub = None
 
     def _group(self) -> ReentrantCallbackGroup:
-        """Return the group of the subscriptions."""
+        """Create the callback group of the subscriptions."""
         return ReentrantCallbackGroup()
 
     def _is_plain(self) -> bool:
-        """Tell if nobody wants to see the messages on their way to the buffer."""
+        """Whether nothing is overridden, so that messages need not be deserialized by rclpy."""
         from tf2_py import BufferCore
 
         names = 'set_transform', 'set_transform_static'
@@ -143,11 +143,11 @@ class TransformListener:
         )
 
     def _take(self, reader: TfReader, is_static: bool, data: bytes) -> None:
-        """Take the transforms of a message that nobody has made out of its bytes."""
+        """Insert the transforms of a serialized message into the buffer."""
         self.buffer._take(reader.read(data), _AUTHORITY, is_static)
 
     def _forget_at_jumps(self) -> None:
-        """Let a Buffer know the clock of the node; a BufferCore knows no clocks."""
+        """Make a Buffer monitor the clock of the node; a BufferCore has no clock."""
         follow = getattr(self.buffer, 'follow_clock_of', None)
         if follow is not None:
             follow(self.node)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tree of the frames as a drawing."""
+"""Tools that draw the tf tree."""
 
 from __future__ import annotations
 

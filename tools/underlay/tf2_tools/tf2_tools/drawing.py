@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write a graph, and draw it: by graphviz as a PDF, without it as an SVG."""
+"""Write the frame graph and render it as a PDF with Graphviz, or else as an SVG."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _LOOK_S = 0.1
 
 def write_graph(path: str, graph: str) -> str:
     """
-    Write the graph of the frames as PATH.gv, and create its folder.
+    Write the frame graph as PATH.gv; create its directory if needed.
 
     Parameters
     ----------
     path
         The path without extension.
     graph
-        The graph in the language of Graphviz.
+        The graph in the DOT language of Graphviz.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def write_graph(path: str, graph: str) -> str:
     Raises
     ------
     OSError
-        It cannot be written.
+        The file cannot be written.
 
     """
     os.makedirs(os.path.dirname(path) or '.', exist_ok=True)
@@ -44,20 +44,20 @@ def write_graph(path: str, graph: str) -> str:
 
 
 def has_graphviz() -> bool:
-    """Whether graphviz's program `dot` is installed."""
+    """Whether the program `dot` of Graphviz is installed."""
     return shutil.which('dot') is not None
 
 
 def write_tree(path: str, frames: Frames) -> str:
     """
-    Draw the tree of the frames as PATH.svg.
+    Draw the frame tree as PATH.svg.
 
     Parameters
     ----------
     path
         The path without extension.
     frames
-        What `Buffer.all_frames_as_yaml` says of each frame that has a parent.
+        The parsed output of `Buffer.all_frames_as_yaml`: the entry of each frame with a parent.
 
     Returns
     -------
@@ -67,7 +67,7 @@ def write_tree(path: str, frames: Frames) -> str:
     Raises
     ------
     OSError
-        It cannot be written.
+        The file cannot be written.
 
     """
     with open(f'{path}.svg', 'w', encoding='utf-8') as file:
@@ -84,13 +84,13 @@ def draw(path: str, is_stopped: Callable[[], bool]) -> str:
     path
         The path without extension.
     is_stopped
-        Polled every 0.1 s while Graphviz works, which is killed when it returns True, or after 60
-        s.
+        Polled every 0.1 s while Graphviz runs; Graphviz is killed when this returns True, or
+        after 60 s.
 
     Returns
     -------
     str
-        Why the file was not rendered; '' if it was.
+        The reason why the file was not rendered; '' on success.
 
     """
     command = ['dot', '-Tpdf', f'{path}.gv', '-o', f'{path}.pdf']
@@ -104,7 +104,7 @@ def draw(path: str, is_stopped: Callable[[], bool]) -> str:
 
 
 def _problem(process: subprocess.Popen[str], path: str, is_stopped: Callable[[], bool]) -> str:
-    """Wait until graphviz has drawn, for a while; return what went wrong, or ''."""
+    """Wait for Graphviz with a timeout; return the error message, or '' on success."""
     end_s = time.monotonic() + _TIMEOUT_S
     while True:
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the tree of the frames as an SVG, which any browser shows, without graphviz."""
+"""Draw the frame tree as an SVG, which any browser can show, without Graphviz."""
 
 from __future__ import annotations
 
@@ -20,38 +20,38 @@ Frames = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Row:
-    """A frame in the drawing: below its parent, and further to the right."""
+    """Row of a frame in the drawing, below its parent and indented."""
 
     frame: str
     depth: int
     parent_row: int
-    """The number of the parent's row, -1 for a root."""
+    """The row index of the parent, -1 for a root."""
     detail: str
 
     @property
     def x(self) -> int:
-        """Return where its box begins, in pixels."""
+        """Return the left edge of the box, in pixels."""
         return _MARGIN + self.depth * _INDENT
 
     @property
     def width(self) -> float:
-        """Return the width of its box, in pixels."""
+        """Return the width of the box, in pixels."""
         return len(self.frame) * _LETTER + 20
 
 
 def tree_svg(frames: Frames) -> str:
     """
-    Draw the trees of the frames as an SVG, one frame a row.
+    Draw the frame trees as an SVG, one frame per row.
 
     Parameters
     ----------
     frames
-        What `Buffer.all_frames_as_yaml` says of each frame that has a parent.
+        The parsed output of `Buffer.all_frames_as_yaml`: the entry of each frame with a parent.
 
     Returns
     -------
     str
-        The text of the SVG.
+        The SVG document.
 
     """
     rows = list(_rows(frames)) or [Row('no tf data', 0, -1, '')]
@@ -70,7 +70,7 @@ def tree_svg(frames: Frames) -> str:
 
 
 def _rows(frames: Frames) -> Iterator[Row]:
-    """Yield the rows depth first; frames that go round in a circle begin anywhere."""
+    """Yield the rows depth-first; loops of frames start at an arbitrary frame."""
     children: dict[str, list[str]] = {}
     for frame in sorted(frames):
         children.setdefault(str(frames[frame]['parent']), []).append(frame)
@@ -89,7 +89,7 @@ def _rows(frames: Frames) -> Iterator[Row]:
 
 
 def _detail(facts: Mapping[str, Any] | None) -> str:
-    """Return what is known of the transform to the parent."""
+    """Format the broadcaster, rate and times of the transform to the parent."""
     if facts is None:
         return ''
     if not facts['buffer_length']:

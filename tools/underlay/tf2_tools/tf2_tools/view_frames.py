@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the tree of the frames: `ros2 run tf2_tools view_frames`."""
+"""Draw the tf tree: `ros2 run tf2_tools view_frames`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _WAIT_S = 5.0
 
 
 def main() -> int:
-    """Run the program."""
+    """Run the program; return the exit status."""
     return run(_parser().parse_args, _view)
 
 
@@ -45,7 +45,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _view(args: argparse.Namespace) -> int:
-    """Listen, write the files, and return the exit status."""
+    """Listen to transforms, write the files and return the exit status."""
     import rclpy
     from tf2_ros.buffer import Buffer
     from tf2_ros.transform_listener import TransformListener

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a URDF says about a robot."""
+"""Robot model of a URDF."""
 
 from urdf.following import check_for_loops, followed
 from urdf.joint import Joint, Limits, Mimic, Origin

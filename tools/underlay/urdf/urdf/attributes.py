@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read attributes of elements, with errors that say where they are."""
+"""Parse XML attributes, with errors that state the location."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def child(element: XmlElement, tag: str, where: str) -> XmlElement:
     element
         The parent element.
     tag
-        The kind of the child.
+        The tag name of the child.
     where
-        What the parent element is, for the error message: "joint 'hip'".
+        Description of the parent element, for the error message: "joint 'hip'".
 
     Raises
     ------
     UrdfError
-        There is no such child.
+        The child element is missing.
 
     """
     found = element.find(tag)
@@ -46,11 +46,11 @@ def text(element: XmlElement, name: str, where: str) -> str:
     Parameters
     ----------
     element
-        The element that has it.
+        The element with the attribute.
     name
-        The attribute.
+        The attribute name.
     where
-        What the element is, for the error message: "<parent> of joint 'hip'".
+        Description of the element, for the error message: "<parent> of joint 'hip'".
 
     Raises
     ------
@@ -71,18 +71,18 @@ def number(element: XmlElement, name: str, where: str, default: float) -> float:
     Parameters
     ----------
     element
-        The element that has it.
+        The element with the attribute.
     name
-        The attribute.
+        The attribute name.
     where
-        What the element belongs to, for the error message: "joint 'hip'".
+        Description of the owner of the element, for the error message: "joint 'hip'".
     default
-        What is returned if the attribute is missing.
+        The value if the attribute is missing.
 
     Raises
     ------
     UrdfError
-        The attribute is not one finite number.
+        The attribute is not a single finite number.
 
     """
     given = element.attributes.get(name)
@@ -101,13 +101,13 @@ def vector(element: XmlElement | None, name: str, where: str, default: Vector) -
     Parameters
     ----------
     element
-        The element that has it, if there is one.
+        The element with the attribute, if any.
     name
-        The attribute.
+        The attribute name.
     where
-        What the element belongs to, for the error message: "joint 'hip'".
+        Description of the owner of the element, for the error message: "joint 'hip'".
     default
-        What is returned if the element or the attribute is missing.
+        The value if the element or the attribute is missing.
 
     Raises
     ------
@@ -126,14 +126,14 @@ def vector(element: XmlElement | None, name: str, where: str, default: Vector) -
 
 def origin_of(element: XmlElement, where: str) -> Origin:
     """
-    Read the `<origin>` of an element; without one it is the identity.
+    Parse the `<origin>` of an element; the default is the identity.
 
     Parameters
     ----------
     element
         The joint, visual or collision.
     where
-        What the element is, for the error message: "joint 'hip'".
+        Description of the element, for the error message: "joint 'hip'".
 
     Returns
     -------
@@ -151,7 +151,7 @@ def origin_of(element: XmlElement, where: str) -> Origin:
 
 
 def _numbers(given: str) -> list[float] | None:
-    """Return the numbers of a text, or None if it has anything else."""
+    """Parse finite numbers separated by spaces; None if the text is invalid."""
     try:
         numbers = [float(word) for word in given.split()]
     except ValueError:

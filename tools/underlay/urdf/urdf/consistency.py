@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the links of a robot form one tree, and that its joints follow what is there."""
+"""Validate that the links of a robot form one tree and that its mimic joints are valid."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def check_consistency(model: RobotModel) -> None:
     Raises
     ------
     UrdfError
-        It has no links, or is not consistent.
+        The robot has no links, or is not consistent.
 
     """
     if not model.links:
@@ -76,7 +76,7 @@ def _check_one_parent(model: RobotModel) -> None:
 
 
 def _check_one_root(model: RobotModel) -> None:
-    """Check that exactly one link is nobody's child, and that all others hang from it."""
+    """Check that there is exactly one root link, and that all other links are below it."""
     children = {joint.child for joint in model.joints}
     roots = [link for link in model.links if link.name not in children]
     if len(roots) > 1:
@@ -97,7 +97,7 @@ def _check_one_root(model: RobotModel) -> None:
 
 
 def _below(model: RobotModel, roots: set[str]) -> set[str]:
-    """Return the links that hang from some links, these included."""
+    """Return the links in the subtrees of the given root links, including the roots."""
     children: dict[str, list[str]] = {}
     for joint in model.joints:
         children.setdefault(joint.parent, []).append(joint.child)
@@ -110,7 +110,7 @@ def _below(model: RobotModel, roots: set[str]) -> set[str]:
 
 
 def _check_mimics(model: RobotModel) -> None:
-    """Check that what a joint mimics is there, moves, and does not mimic that joint itself."""
+    """Check that mimicked joints exist and move, and that mimic joints form no loops."""
     by_name = {joint.name: joint for joint in model.joints}
     mimics = model.mimics
     for name, mimic in mimics.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Suggestions for a misspelt name."""
+"""Suggestions for misspelt names."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ def closest(name: str, known: Iterable[str]) -> str | None:
     Parameters
     ----------
     name
-        What was written.
+        The misspelt name.
     known
-        The names that exist.
+        The existing names.
 
     Returns
     -------
     str or None
-        None if no name is similar enough (0.75 by `difflib`).
+        The name; None if no name is similar enough (ratio 0.75 of `difflib`).
 
     """
     from difflib import get_close_matches
@@ -38,9 +38,9 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     Parameters
     ----------
     name
-        What was written.
+        The misspelt name.
     known
-        The names that exist.
+        The existing names.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Joints that follow others, which may follow others again."""
+"""Resolve chains of mimic joints."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ def followed(name: str, mimics: Mapping[str, Mimic], known: Container[str]) -> M
     Parameters
     ----------
     name
-        The joint; if it is known, it follows itself.
+        The joint name; a known joint resolves to itself.
     mimics
-        What each mimic joint follows, by name.
+        The mimic relations by joint name.
     known
         The joints whose positions are known.
 
@@ -48,12 +48,12 @@ def check_for_loops(mimics: Mapping[str, Mimic]) -> None:
     Parameters
     ----------
     mimics
-        What each mimic joint follows, by name.
+        The mimic relations by joint name.
 
     Raises
     ------
     ValueError
-        There is a loop; the text is the names of its joints, joined by ' -> '.
+        There is a loop; the message contains the names of its joints, joined by ' -> '.
 
     """
     for name in mimics:

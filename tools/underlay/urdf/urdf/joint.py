@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a URDF says about a joint."""
+"""Joints of a robot model."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ __all__ = ['KINDS', 'LIMITED', 'MOVING', 'Joint', 'Limits', 'Mimic', 'Origin', '
 Vector = tuple[float, float, float]
 LIMITED = ('revolute', 'prismatic')
 MOVING = (*LIMITED, 'continuous')
-"""The kinds of joints whose position is one number."""
+"""The joint types with a scalar position (one degree of freedom)."""
 KINDS = (*MOVING, 'fixed', 'floating', 'planar')
 
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a joint is in the frame of its parent link: metres; roll, pitch, yaw in radians."""
+    """Pose in the frame of the (parent) link: xyz in metres; roll, pitch, yaw in radians."""
 
     xyz: Vector = (0.0, 0.0, 0.0)
     rpy: Vector = (0.0, 0.0, 0.0)
@@ -24,7 +24,7 @@ class Origin:
 
 @dataclass(frozen=True)
 class Limits:
-    """How far a joint goes, in radians or metres."""
+    """Position limits of a joint, in radians or metres."""
 
     lower: float
     upper: float
@@ -32,7 +32,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Mimic:
-    """A joint's position is `multiplier` times that of another joint, plus `offset`."""
+    """Mimic relation: the position is `multiplier` times that of another joint, plus `offset`."""
 
     joint: str
     multiplier: float = 1.0
@@ -41,7 +41,7 @@ class Mimic:
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint between two links; the axis has length 1."""
+    """A joint between two links; the axis is a unit vector."""
 
     name: str
     kind: str
@@ -53,12 +53,12 @@ class Joint:
     soft_limits: Limits | None = None
     mimic: Mimic | None = None
     max_velocity: float | None = None
-    """The speed that it may have, in radians or metres per second."""
+    """The velocity limit, in radians or metres per second; None if unlimited or unknown."""
     max_effort: float | None = None
-    """The torque or force that it may have, in newton metres or newtons."""
+    """The effort limit, in newton metres or newtons; None if unlimited or unknown."""
     line: int | None = field(default=None, compare=False)
 
     @property
     def moves(self) -> bool:
-        """Tell if its position is one number, which joint states give."""
+        """Whether the joint has a scalar position, as in joint states."""
         return self.kind in MOVING

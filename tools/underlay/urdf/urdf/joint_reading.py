@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read one joint of a URDF."""
+"""Parse the joints of a URDF."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def read_joint(element: XmlElement) -> Joint:
     Raises
     ------
     UrdfError
-        Something is missing or invalid.
+        An attribute or child element is missing or invalid.
 
     """
     name = text(element, 'name', 'this <joint>')
@@ -60,7 +60,7 @@ def _kind(element: XmlElement, where: str) -> str:
 
 
 def _axis(element: XmlElement, where: str) -> Vector:
-    """Return the axis with length 1; it is x if none is given."""
+    """Parse and normalize the axis; the default is x."""
     axis = element.find('axis')
     x, y, z = vector(axis, 'xyz', where, Joint.axis)
     length = math.hypot(x, y, z)
@@ -70,13 +70,13 @@ def _axis(element: XmlElement, where: str) -> Vector:
 
 
 def _limits(element: XmlElement, where: str) -> Limits:
-    """Return the limits; one that is not given is zero."""
+    """Parse the position limits; a missing one is zero."""
     limit = child(element, 'limit', where)
     return Limits(number(limit, 'lower', where, 0.0), number(limit, 'upper', where, 0.0))
 
 
 def _maximum(element: XmlElement, name: str, where: str) -> float | None:
-    """Return how fast or strong a joint may be; who does not know writes 0, or infinity."""
+    """Parse the velocity or effort limit; 0 and infinity mean unlimited or unknown."""
     limit = element.find('limit')
     if limit is None or 'inf' in limit.attributes.get(name, '').lower():
         return None
@@ -85,7 +85,7 @@ def _maximum(element: XmlElement, name: str, where: str) -> float | None:
 
 
 def _soft_limits(element: XmlElement, where: str) -> Limits | None:
-    """Return the limits of the safety controller; one that is not given does not limit."""
+    """Parse the soft limits of the safety controller; a missing one is infinite."""
     safety = element.find('safety_controller')
     if safety is None:
         return None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Where the child link of a joint is in the frame of its parent link.
+Forward kinematics of single joints: the pose of the child link in the parent link.
 
-Each joint on its own: what composes transforms along the tree is tf. Most of the work is done once
-for a joint, as rotations about its axis are linear in the sine and cosine of half the angle.
+Transforms are composed along the tree by tf, not here. Most of the work is done once per joint, as
+rotations about its axis are linear in the sine and cosine of half the angle.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ def joint_motion(joint: Joint) -> Callable[[float], Pose]:
     Parameters
     ----------
     joint
-        A joint of any kind; one that is fixed, floating or planar stays at its origin.
+        A joint of any type; fixed, floating and planar joints stay at their origin.
 
     Returns
     -------
     Callable
-        Takes the position (rad or m), returns the pose of the child link in the frame of the
-        parent link: translation in m, quaternion x, y, z, w.
+        Maps the position (rad or m) to the pose of the child link in the frame of the parent
+        link: translation in m, quaternion x, y, z, w.
 
     """
     rotation = rotation_of(joint.origin.rpy)
@@ -47,7 +47,7 @@ def joint_motion(joint: Joint) -> Callable[[float], Pose]:
 
 
 def _turning(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float], Pose]:
-    """Return the motion of a joint that turns about an axis."""
+    """Return the motion of a revolute or continuous joint."""
     px, py, pz = at
     ax, ay, az, aw = rotation
     bx, by, bz, bw = product(rotation, (*axis, 0.0))
@@ -60,7 +60,7 @@ def _turning(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float]
 
 
 def _sliding(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float], Pose]:
-    """Return the motion of a joint that moves along an axis."""
+    """Return the motion of a prismatic joint."""
     px, py, pz = at
     dx, dy, dz = rotate(rotation, axis)
 
@@ -112,7 +112,7 @@ def rotate(rotation: Quaternion, vector: Vector) -> Vector:
 
 def product(left: Quaternion, right: Quaternion) -> Quaternion:
     """
-    Multiply two quaternions: the rotation that is `right` first and then `left`, about fixed axes.
+    Multiply two quaternions: rotate by `right`, then by `left`, about fixed axes.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a URDF."""
+"""Parse a URDF."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def parse_urdf(text: str, source: str = 'robot_description') -> RobotModel:
     text
         The XML, with xacro expanded.
     source
-        Where the text is from, for error messages: a file, or the name of a parameter.
+        The source of the text, for error messages: a file or a parameter name.
 
     Raises
     ------
     UrdfError
-        The text is no valid URDF; the error has the reason, the line and the source.
+        The text is not a valid URDF; the error contains the reason, the line and the source.
 
     """
     try:
@@ -48,7 +48,7 @@ def parse_urdf(text: str, source: str = 'robot_description') -> RobotModel:
 
 def read_urdf_file(path: str) -> str:
     """
-    Read the text of a file, as UTF-8.
+    Read a text file, encoded in UTF-8.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def read_urdf_file(path: str) -> str:
     Raises
     ------
     UrdfError
-        It cannot be read.
+        The file cannot be read.
 
     """
     try:
@@ -70,7 +70,7 @@ def read_urdf_file(path: str) -> str:
 
 
 def _robot_element(text: str) -> XmlElement:
-    """Parse the XML and check what is outermost."""
+    """Parse the XML and check the root element."""
     if not text.strip():
         raise UrdfError('The robot description is empty. Pass the text of a URDF.')
     if not text.lstrip('\ufeff \t\r\n').startswith('<'):
@@ -82,7 +82,7 @@ def _robot_element(text: str) -> XmlElement:
 
 
 def _no_xml(text: str) -> str:
-    """Explain a text that cannot be XML: most often the name of a file."""
+    """Explain a text that cannot be XML, most often a file name."""
     shown = repr(text if len(text) <= 60 else f'{text[:57]}...')
     if len(text.splitlines()) == 1 and os.path.splitext(text)[1] in ('.urdf', '.xacro', '.xml'):
         return (
@@ -94,7 +94,7 @@ def _no_xml(text: str) -> str:
 
 
 def _read(robot: XmlElement) -> RobotModel:
-    """Read links and joints; those inside other elements, as <transmission>, do not count."""
+    """Parse links and joints, except those nested in other elements such as <transmission>."""
     _check_expanded(robot)
     materials = read_materials(robot)
     return RobotModel(
@@ -116,7 +116,7 @@ def _link(element: XmlElement, materials: Mapping[str, Color]) -> Link:
 
 
 def _check_expanded(robot: XmlElement) -> None:
-    """Refuse a xacro file that nobody has expanded."""
+    """Reject unexpanded xacro files."""
     for element in robot.children:
         if element.tag.startswith('xacro:'):
             raise UrdfError(
@@ -127,6 +127,6 @@ def _check_expanded(robot: XmlElement) -> None:
 
 
 def _origin_of(text: str) -> str:
-    """Say which xacro file a text was expanded from: its author knows only that one."""
+    """Return a hint at the xacro file that the text was expanded from, or ''."""
     found = XACRO_MARK.search(text[:2000])
     return f' (The line is one of what xacro made from {found[1]}.)' if found else ''

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a URDF says about a robot."""
+"""Robot model of a URDF."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['Link', 'RobotModel']
 
 @dataclass(frozen=True)
 class Link:
-    """A link with its bodies, and the line that defines it."""
+    """A link with its visuals and collisions, and the line that defines it."""
 
     name: str
     visuals: tuple[Shape, ...] = ()
@@ -23,7 +23,7 @@ class Link:
 
 @dataclass(frozen=True)
 class RobotModel:
-    """A robot: its links and joints in the order of the URDF, which form one tree."""
+    """Robot model: a tree of links and joints, in the order of the URDF."""
 
     name: str
     links: tuple[Link, ...]
@@ -31,22 +31,22 @@ class RobotModel:
 
     @property
     def root(self) -> str:
-        """Return the link that is nobody's child."""
+        """Return the name of the root link."""
         children = {joint.child for joint in self.joints}
         return next(link.name for link in self.links if link.name not in children)
 
     @property
     def moving_joints(self) -> tuple[Joint, ...]:
-        """Return the joints whose position is one number."""
+        """Return the joints with a scalar position."""
         return tuple(joint for joint in self.joints if joint.moves)
 
     @property
     def mimics(self) -> dict[str, Mimic]:
-        """Return which joints follow others, by name."""
+        """Return the mimic relations by joint name."""
         return {joint.name: joint.mimic for joint in self.moving_joints if joint.mimic}
 
     def describe(self) -> str:
-        """Return the robot in words."""
+        """Return a human-readable summary of the robot."""
         moving = len(self.moving_joints)
         counts = [
             f'{_count(len(self.links), "link")} below {self.root!r}',
@@ -59,5 +59,5 @@ class RobotModel:
 
 
 def _count(number: int, noun: str) -> str:
-    """Return a number with its noun."""
+    """Format a number with a singular or plural noun."""
     return f'{number} {noun}' + ('' if number == 1 else 's')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a URDF says about the looks and the outlines of links."""
+"""Visual and collision shapes of links."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Color = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class Box:
-    """A box about its origin: lengths along x, y and z in metres."""
+    """A box, centred at its origin: lengths along x, y and z in metres."""
 
     size: Vector
 
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A cylinder about its origin, along z; in metres."""
+    """A cylinder along z, centred at its origin; in metres."""
 
     radius: float
     length: float
@@ -31,7 +31,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Capsule:
-    """A cylinder of a length along z between two half spheres; in metres."""
+    """A capsule: a cylinder of `length` along z between two hemispheres; in metres."""
 
     radius: float
     length: float
@@ -39,14 +39,14 @@ class Capsule:
 
 @dataclass(frozen=True)
 class Sphere:
-    """A sphere about its origin; in metres."""
+    """A sphere, centred at its origin; in metres."""
 
     radius: float
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """A file, as the URDF names it (`package://...`), and how it is scaled along x, y and z."""
+    """A mesh: the file as in the URDF (`package://...`), and the scale along x, y and z."""
 
     file: str
     scale: Vector = (1.0, 1.0, 1.0)
@@ -57,7 +57,7 @@ Geometry = Union[Box, Capsule, Cylinder, Mesh, Sphere]
 
 @dataclass(frozen=True)
 class Shape:
-    """One of the bodies of a link; without a colour, whoever shows it chooses."""
+    """Visual or collision shape of a link; without a colour, the viewer chooses one."""
 
     geometry: Geometry
     origin: Origin = field(default_factory=Origin)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the bodies of the links of a URDF."""
+"""Parse the visual and collision shapes of a URDF."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['read_materials', 'read_shapes']
 
 def read_materials(robot: XmlElement) -> dict[str, Color]:
     """
-    Collect the colours of all named materials, of the robot and of its links.
+    Collect the colours of all named materials of the robot and its links.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def read_materials(robot: XmlElement) -> dict[str, Color]:
     Returns
     -------
     dict[str, Color]
-        The colours by the names of their materials; the robot's own prevail over those of links.
+        The colours by material name; those of the robot take precedence over those of links.
 
     Raises
     ------
@@ -53,9 +53,9 @@ def read_shapes(
     tag
         'visual' or 'collision'.
     where
-        What the link is, for error messages: "link 'pelvis'".
+        Description of the link, for error messages: "link 'pelvis'".
     materials
-        The colours of `read_materials`.
+        The colours from `read_materials`.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def _shape(element: XmlElement, where: str, materials: Mapping[str, Color]) -> S
 
 
 def _color(material: XmlElement) -> Color | None:
-    """Return the colour that a material has itself."""
+    """Parse the colour of a material, if it has one itself."""
     element = material.find('color')
     if element is None:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""XML that knows its lines."""
+"""XML elements with line numbers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['XmlElement', 'parse_xml']
 
 @dataclass
 class XmlElement:
-    """An element, and the line on which it starts."""
+    """An XML element and the line on which it starts."""
 
     tag: str
     attributes: dict[str, str]
@@ -22,29 +22,29 @@ class XmlElement:
 
     def find(self, tag: str) -> XmlElement | None:
         """
-        Find the first child element of a kind.
+        Find the first child element with a tag.
 
         Parameters
         ----------
         tag
-            The kind.
+            The tag name.
 
         Returns
         -------
         XmlElement or None
-            None if there is none.
+            The element, or None if there is none.
 
         """
         return next((child for child in self.children if child.tag == tag), None)
 
     def find_all(self, tag: str) -> list[XmlElement]:
         """
-        List the child elements of a kind, without those deeper inside.
+        List the direct child elements with a tag.
 
         Parameters
         ----------
         tag
-            The kind.
+            The tag name.
 
         """
         return [child for child in self.children if child.tag == tag]
@@ -52,7 +52,7 @@ class XmlElement:
 
 def parse_xml(text: str) -> XmlElement:
     """
-    Parse XML to elements that know their lines.
+    Parse XML into elements with line numbers.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def parse_xml(text: str) -> XmlElement:
 
 
 def _explained(error: expat.ExpatError, open_elements: list[XmlElement]) -> UrdfError:
-    """Name the element that is open where the XML goes wrong; that is where to look."""
+    """Create an error that names the element that is open where the XML is invalid."""
     what = expat.ErrorString(error.code)
     inside = open_elements[-1]
     where = f' It is inside <{inside.tag}> of line {inside.line}.' if inside.tag else ''

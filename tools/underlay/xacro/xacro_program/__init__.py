@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program `xacro`: PyPI's xacro, with errors that name file, line, cause and a way out."""
+"""The program `xacro`: xacro from PyPI, with errors that state file, line, cause and a fix."""
 
 from __future__ import annotations
 

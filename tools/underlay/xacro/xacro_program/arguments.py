@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notice arguments that a file does not know."""
+"""Detect arguments that a xacro file does not declare."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from collections.abc import Mapping
 
 class WatchedArguments(dict[str, str]):
     """
-    The arguments of a file; they note which names it declares or uses.
+    Arguments of a xacro file, which record the names that the file declares or uses.
 
     Parameters
     ----------
     given
-        Those of the command line, by their names.
+        The command line arguments by name.
 
     """
 
@@ -31,7 +31,7 @@ class WatchedArguments(dict[str, str]):
         return super().__getitem__(name)
 
     def unknown(self) -> list[str]:
-        """Return a sentence for each given argument that has not been asked for."""
+        """Return a message for each given argument that was never accessed."""
         return [_sentence(name, self._asked) for name in self._given if name not in self._asked]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why xacro has stopped, and what was meant perhaps."""
+"""Explain errors of xacro, with suggestions."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _NAMESPACE = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
 def explain(error: BaseException, trail: Trail) -> str:
     """
-    Explain the cause of an error, with a suggestion if there is one.
+    Explain the cause of an error, with a suggestion if available.
 
     Parameters
     ----------
     error
-        What xacro raised.
+        The exception that xacro raised.
     trail
-        What xacro was doing at that time.
+        The state of xacro at the time of the error.
 
     """
     root = root_of(error)
@@ -50,7 +50,7 @@ def _join(sentence: str, advice: str) -> str:
 
 
 def _broken_xml(error: BrokenXmlError, trail: Trail) -> str:
-    """Explain where XML is not well-formed."""
+    """Explain why XML is not well-formed."""
     text = f'broken XML: {error.reason}'
     if error.reason == 'unbound prefix':
         return f'{text}. The first element declares what stands before a colon: {_NAMESPACE}'
@@ -87,7 +87,7 @@ def _missing_key(error: BaseException, trail: Trail) -> str:
 
 
 def _bad_syntax(error: SyntaxError, trail: Trail) -> str:
-    """Explain what is no Python expression."""
+    """Explain a syntax error in a Python expression."""
     if '{' in trail.code[2:]:
         return f'{error.msg}. An expression ends at the first }}: write dict(a=1) for {{...}}'
     return str(error.msg)
@@ -136,7 +136,7 @@ def _taken_blocks(match: re.Match[str], trail: Trail) -> str:
 
 
 def _names(table: object) -> Iterable[str]:
-    """Return the names in a table of xacro and in those around it."""
+    """Return the names in a symbol table of xacro and in its parents."""
     names: list[str] = []
     while isinstance(table, dict):
         names += [str(name) for name in table]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line of xacro."""
+"""Command line interface of xacro."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ def main(argv: Optional[list[str]] = None) -> int:
     Parameters
     ----------
     argv
-        The arguments without the program; None takes those of the process.
+        The arguments without the program name; None for those of the process.
 
     Returns
     -------
     int
-        The exit code: 0, 1 for an error in the files or in writing, 2 for one in an argument.
+        The exit code: 0 on success, 1 for errors in files or output, 2 for invalid arguments.
 
     Raises
     ------
     SystemExit
-        There is not exactly one file, or an option is unknown.
+        The number of files is not one, or an option is unknown.
 
     """
     try:
@@ -64,7 +64,7 @@ def _expand(path: str, options: Any, arguments: WatchedArguments) -> str:
 
 
 def _fail(error: Exception, path: str, options: Any) -> int:
-    """Show an error, with its traceback if one was asked for."""
+    """Print an error, with its traceback if requested; return the exit code."""
     from xacro_program.report import report
 
     print(report(error, path), file=sys.stderr)

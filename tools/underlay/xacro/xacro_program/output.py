@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write the result, all or nothing."""
+"""Write the output atomically."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import Optional
 
 def write_output(text: str, path: Optional[str]) -> None:
     """
-    Write the result to a file, atomically, or to the standard output.
+    Write the output to a file, atomically, or to the standard output.
 
     Parameters
     ----------
     text
-        The result.
+        The output.
     path
-        The file, whose folder is created if need be; None is the standard output.
+        The file, whose directory is created if needed; None for the standard output.
 
     Raises
     ------
     OSError
-        It cannot be written.
+        The output cannot be written.
 
     """
     if path is None:

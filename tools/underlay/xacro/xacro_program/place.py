@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where something stands in a file."""
+"""Source locations in XML files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ KEY = 'place'
 
 
 class Place(NamedTuple):
-    """The start of an element, or something within it."""
+    """Source location of an element, or of text in it."""
 
     file: str
     line: int
@@ -23,14 +23,14 @@ class Place(NamedTuple):
 
     def of(self, code: str, in_tag: bool) -> Place:
         """
-        Return the place of a piece of code in the element, or this place if it is not found.
+        Locate an expression in the element; return this place if it is not found.
 
         Parameters
         ----------
         code
-            The code, with `${...}` or `$(...)` around it.
+            The expression, including `${...}` or `$(...)`.
         in_tag
-            Whether it stands in the tag of the element, as attributes do, and not below it.
+            Whether the expression is in the tag of the element, as in attributes, not below it.
 
         """
         with open(self.file, 'rb') as source:
@@ -47,14 +47,14 @@ class Place(NamedTuple):
 
 
 class PlacedText(str):
-    """The text of an attribute, which knows the place of its element wherever it is passed on."""
+    """Attribute text that carries the source location of its element."""
 
     __slots__ = ('place',)
     place: Place
 
 
 class _ToClones:
-    """Gives clones of an element, such as the bodies of macros, the element's place."""
+    """User data handler that copies the place of an element to its clones (macro bodies)."""
 
     def handle(self, operation: int, key: str, data: Any, source: Any, clone: Any) -> None:
         clone.setUserData(key, data, self)
@@ -65,14 +65,14 @@ _TO_CLONES = _ToClones()
 
 def put_place(element: Any, place: Place) -> None:
     """
-    Store the place of an element in the element itself; clones get it, too.
+    Store the place of an element in the element itself; it is copied to clones.
 
     Parameters
     ----------
     element
         The DOM element.
     place
-        Where it begins in its file.
+        The start of the element in its file.
 
     """
     element.setUserData(KEY, place, _TO_CLONES)
@@ -80,7 +80,7 @@ def put_place(element: Any, place: Place) -> None:
 
 def place_of(node: Any) -> Optional[Place]:
     """
-    Return the place of the closest element that has one, from a node upwards; None without any.
+    Return the place of a node or its closest ancestor that has one; None if there is none.
 
     Parameters
     ----------

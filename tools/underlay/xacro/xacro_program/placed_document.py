@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read XML so that each element and attribute knows its place."""
+"""Parse XML with source locations of elements and attributes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class BrokenXmlError(Exception):
     """A file is not well-formed XML."""
 
     def __init__(self, place: Place, reason: str, inside: str) -> None:
-        """Create it with the innermost open element, empty if there is none."""
+        """Create the error; `inside` is the innermost open element, or empty."""
         super().__init__(reason)
         self.place = place
         self.reason = reason
@@ -26,14 +26,14 @@ class BrokenXmlError(Exception):
 
 
 class _PlacedBuilder(expatbuilder.ExpatBuilderNS):
-    """Builds a document of a file; its elements know their places."""
+    """DOM builder that stores the source location in each element."""
 
     def __init__(self, path: str) -> None:
         super().__init__()
         self._path = path
 
     def start_element_handler(self, name: str, attributes: list[str]) -> None:
-        """Add an element."""
+        """Add an element with its source location."""
         parser = self.getParser()
         line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
         place = Place(self._path, line, column, parser.CurrentByteIndex)
@@ -44,14 +44,14 @@ class _PlacedBuilder(expatbuilder.ExpatBuilderNS):
         put_place(self.curNode, place)
 
     def open_element(self) -> str:
-        """Return the element that is open and where it begins, empty if there is none."""
+        """Describe the innermost open element and its line; empty if there is none."""
         place = place_of(self.curNode)
         return f'<{self.curNode.nodeName}> of line {place.line}' if place else ''
 
 
 def parse_placed(path: str) -> Any:
     """
-    Parse an XML file into a DOM document whose elements know their places.
+    Parse an XML file into a DOM document with source locations.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def parse_placed(path: str) -> Any:
     BrokenXmlError
         The file is not well-formed.
     OSError
-        It cannot be read.
+        The file cannot be read.
 
     """
     builder = _PlacedBuilder(path)
@@ -78,7 +78,7 @@ def parse_placed(path: str) -> Any:
 
 @contextlib.contextmanager
 def placed_documents() -> Iterator[None]:
-    """Have xacro read all its files so while this is active."""
+    """Patch xacro to parse all files with source locations while this context is active."""
     original = xacro.parse
 
     def parse(inp: Any, filename: Optional[str] = None) -> Any:

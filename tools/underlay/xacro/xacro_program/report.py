@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say what went wrong, where, and how xacro came there."""
+"""Format errors of xacro with their location, cause and trace."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from xacro_program.trail import Trail
 
 def report(error: BaseException, path: str) -> str:
     """
-    Format an error in the expansion of a file: where it is, its cause, and how xacro came there.
+    Format an error in the expansion of a file: its location, cause and trace.
 
     Parameters
     ----------
     error
-        What xacro raised.
+        The exception that xacro raised.
     path
-        The file that is expanded, for an error without a place.
+        The file that is expanded, for errors without a location.
 
     """
     trail = Trail(error)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find out what xacro was doing when it stopped, from the frames of its error."""
+"""Reconstruct the state of xacro at an error from the frames of its traceback."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _LISTED = 8
 
 
 class Step(NamedTuple):
-    """How xacro came from one place to the next."""
+    """A step of the expansion: an include, a macro call or the use of a property."""
 
     what: str
     place: Optional[Place]
@@ -26,26 +26,26 @@ class Step(NamedTuple):
 
 class Trail:
     """
-    The path of xacro to the place of an error.
+    Trace of the expansion that led to an error.
 
     Parameters
     ----------
     error
-        What xacro raised; the frames of it, and of the errors that it was raised for, are
-        followed.
+        The exception that xacro raised; its traceback and those of the exceptions in its
+        context are analysed.
 
     Attributes
     ----------
     place
-        The element or attribute that was being expanded last, None if it is not known.
+        The element or attribute that was being expanded last; None if unknown.
     code
-        The expression that failed, such as `${x}`; empty if it is none.
+        The expression that failed, such as `${x}`; empty if there is none.
     in_tag
-        Whether that stands in the tag of the element, not below it.
+        Whether the expression is in the tag of the element, not below it.
     symbols, macros
-        The tables of names at that place.
+        The symbol tables at that place.
     macro
-        The macro that was being called last, None if there is none.
+        The macro that was being called last; None if there is none.
 
     """
 
@@ -66,13 +66,13 @@ class Trail:
             self.place = root.place
 
     def exact_place(self) -> Optional[Place]:
-        """Return the place, of the failing expression if that is known."""
+        """Return the place of the failing expression if known, else of its element."""
         if self.place is None or not self.code:
             return self.place
         return self.place.of(self.code, self.in_tag)
 
     def steps(self) -> list[str]:
-        """Return how the place was reached, from the last step to the first."""
+        """Return the steps that led to the place, most recent first."""
         steps = [step for step in self._steps if step.place is not None]
         if steps and steps[-1].place == self.place:
             steps.pop()
@@ -118,12 +118,12 @@ class Trail:
 
 def root_of(error: BaseException) -> BaseException:
     """
-    Return the error that xacro has wrapped, perhaps several times.
+    Return the original error, which xacro may have wrapped several times.
 
     Parameters
     ----------
     error
-        What xacro raised.
+        The exception that xacro raised.
 
     """
     while isinstance(error, xacro.XacroException) and error.exc is not None:
@@ -132,7 +132,7 @@ def root_of(error: BaseException) -> BaseException:
 
 
 def _frames(error: Optional[BaseException]) -> Iterator[FrameType]:
-    """Yield the frames of xacro, the outermost first."""
+    """Yield the stack frames of xacro, outermost first."""
     last = None
     while error is not None:
         traceback = error.__traceback__

@@ -23,14 +23,14 @@ WIDEST = 1e4
 
 class Board:
     """
-    The sliders of all joints that follow no other one, by limb.
+    The sliders of all independent joints, grouped by limb.
 
     Parameters
     ----------
     model
         The robot.
     joints
-        Its joint states, which the sliders set and follow.
+        Its joint states, which the sliders set and display.
 
     Attributes
     ----------
@@ -60,17 +60,17 @@ class Board:
 
     def found(self, text: str) -> list[Limb]:
         """
-        Search for joints by words.
+        Search for joints by keywords.
 
         Parameters
         ----------
         text
-            Words, all of which must be part of the name of a joint or the title of its limb.
+            Keywords, each of which must occur in the name of a joint or the title of its limb.
 
         Returns
         -------
         list of Limb
-            The limbs with the joints that match; all for an empty text.
+            The limbs with the matching joints; all limbs for an empty text.
 
         """
         words = text.lower().split()
@@ -86,12 +86,12 @@ class Board:
         return found
 
     def centre(self) -> None:
-        """Move all joints to where they are by default."""
+        """Move all joints to their default positions."""
         for slider in self.sliders.values():
             slider.move(slider.default)
 
     def zero(self) -> None:
-        """Move all joints to 0, or as near as their limits allow."""
+        """Move all joints to 0, or to the nearest limit."""
         for slider in self.sliders.values():
             slider.move(0.0)
 
@@ -102,7 +102,7 @@ class Board:
         Parameters
         ----------
         random
-            The source of random numbers.
+            The random number generator.
 
         """
         for slider in self.sliders.values():
@@ -114,12 +114,12 @@ class Board:
 
     def apply(self, pose: Pose) -> list[str]:
         """
-        Move joints to a saved pose, as far as their limits allow.
+        Move joints to a saved pose, clamped to their limits.
 
         Parameters
         ----------
         pose
-            Positions by joint, in rad or m.
+            Positions by joint name, in rad or m.
 
         Returns
         -------
@@ -145,7 +145,7 @@ class Board:
 
 
 def _scale(joint: Joint, free: FreeJoint) -> Scale:
-    """Return the scale of a slider, which is useful also where limits are not meant as such."""
+    """Return the scale of a slider, with a usable range even where the limits are huge."""
     is_angle = joint.kind != 'prismatic'
     lower, upper = sorted((free.lower, free.upper))
     if upper - lower <= WIDEST:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A joint that a slider moves, and that may be moved by others."""
+"""A joint whose position is set by a slider and possibly by other sources."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ __all__ = ['JointSlider']
 
 class JointSlider:
     """
-    What the slider of a joint shows.
+    The slider of a joint.
 
-    The slider that a person moves shows already what it is to show. So `news` is only what others
-    have changed, and nothing that the person does comes back to be done again.
+    A slider that a user drags already shows its new value. Therefore, `news` reports only changes
+    from other sources, and user input is not echoed.
 
     Parameters
     ----------
     name
         The joint.
     joint
-        Its state, which is set.
+        The state of the joint, which the slider sets.
     scale
-        The limits, and how positions are rounded.
+        The limits and the rounding of positions.
     default
-        The position that is shown as long as none is known, in rad or m.
+        The position shown while none is known, in rad or m.
 
     """
 
@@ -40,22 +40,22 @@ class JointSlider:
 
     @property
     def position(self) -> float:
-        """Return where the joint is, in radians or metres."""
+        """Return the joint position, in rad or m."""
         return self.default if self._joint.position is None else self._joint.position
 
     @property
     def shown(self) -> float:
-        """Return where the slider is to be."""
+        """Return the value that the slider should display."""
         return self.scale.shown(self.position)
 
     def give(self, shown: float) -> None:
         """
-        Move the joint to where a person has dragged the slider.
+        Move the joint to the position to which a user has dragged the slider.
 
         Parameters
         ----------
         shown
-            The value of the slider, in rad or m; one that is not finite is ignored.
+            The value of the slider, in rad or m; non-finite values are ignored.
 
         """
         if isfinite(shown):
@@ -75,7 +75,7 @@ class JointSlider:
         self._joint.position = self.scale.within(position)
 
     def news(self) -> float | None:
-        """Return where the slider is to be, if it is not there as far as it is known; once."""
+        """Return the value of the slider if it has changed since the last call, else None."""
         shown = self.shown
         if shown == self._seen:
             return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The joints of a robot, grouped by limb."""
+"""Grouping of the joints of a robot by limb."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from urdf import Joint, RobotModel
 __all__ = ['Limb', 'limbs']
 
 MANY = (*SIDELESS, 'hand')
-"""Kinds whose branches belong together, such as the fingers of a hand."""
+"""Kinds of limbs whose branches form one group, such as the fingers of a hand."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Limb:
 
     def label(self, name: str) -> str:
         """
-        Shorten the name of a joint for a slider below the title of the limb.
+        Shorten the name of a joint for a slider under the title of the limb.
 
         Parameters
         ----------
@@ -43,7 +43,7 @@ class Limb:
         Returns
         -------
         str
-            The name without the side with which it begins.
+            The name without the prefix for the side.
 
         """
         return short_name(name, self.side)
@@ -51,7 +51,7 @@ class Limb:
 
 @dataclass(frozen=True)
 class _Group:
-    """Which group a joint is in: the side, the kind, and the joint with which a branch begins."""
+    """Key of a group of joints: the side, the kind and the first joint of a branch."""
 
     side: str | None
     kind: str | None
@@ -67,15 +67,15 @@ def limbs(model: RobotModel, names: Container[str]) -> list[Limb]:
     """
     Group joints by limb.
 
-    The words of a name tell the side and the kind of limb; what it does not tell is as for the
-    joint before it on the same branch.
+    The side and the kind of limb are derived from the words of the joint name. Whatever the name
+    lacks is inherited from the preceding joint on the same branch.
 
     Parameters
     ----------
     model
         The robot.
     names
-        The joints that are grouped; others are left out.
+        The joints to group; others are left out.
 
     Returns
     -------
@@ -100,7 +100,7 @@ def limbs(model: RobotModel, names: Container[str]) -> list[Limb]:
 
 
 def _groups(model: RobotModel) -> dict[str, _Group]:
-    """Return the group of each moving joint."""
+    """Compute the group of each movable joint."""
     above = {joint.child: joint for joint in model.joints}
     before = {joint.name: _moving_before(joint, above) for joint in model.moving_joints}
     branches = Counter(parent.name for parent in before.values() if parent)
@@ -121,7 +121,7 @@ def _groups(model: RobotModel) -> dict[str, _Group]:
 
 
 def _moving_before(joint: Joint, above: dict[str, Joint]) -> Joint | None:
-    """Return the next joint towards the root that moves."""
+    """Return the nearest movable joint towards the root."""
     parent = above.get(joint.parent)
     while parent is not None and not parent.moves:
         parent = above.get(parent.parent)
@@ -129,7 +129,7 @@ def _moving_before(joint: Joint, above: dict[str, Joint]) -> Joint | None:
 
 
 def _group(name: str, before: _Group | None, is_fork: bool) -> _Group:
-    """Return the group of a joint, which may be that of the joint before it."""
+    """Return the group of a joint, possibly that of the preceding joint."""
     words = words_of(name)
     kind = kind_of(words)
     side = side_of(words, kind)
@@ -140,11 +140,11 @@ def _group(name: str, before: _Group | None, is_fork: bool) -> _Group:
             side = before.side
         if (side, kind) == (before.side, before.kind) and (kind is not None or not is_fork):
             return before
-    # Both hands, and what is on both sides, are told apart by the side.
+    # Hands, and other limbs that exist on both sides, are distinguished by the side.
     return _Group(side, kind, None if kind in MANY or side is not None else name)
 
 
 def _common(names: Sequence[str]) -> str:
-    """Return how the names of a group begin, or else the first one."""
+    """Return the common prefix of the names of a group, or the first name."""
     same = takewhile(lambda letters: len(set(letters)) == 1, zip(*names))
     return ''.join(letters[0] for letters in same).rstrip('_-./') or names[0]

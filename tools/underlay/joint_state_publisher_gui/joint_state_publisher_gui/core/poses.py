@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Poses of a robot that are kept in a file."""
+"""Saved poses of a robot, stored in a file."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ import yaml
 __all__ = ['Pose', 'PoseError', 'Poses', 'pose_file']
 
 Pose = Mapping[str, float]
-"""Positions in radians or metres by joint."""
+"""Positions in rad or m by joint name."""
 LONGEST_NAME = 60
 LARGEST_FILE = 4_000_000
 LARGEST = 1e12
 
 
 class PoseError(ValueError):
-    """Poses that cannot be read or kept, with the reason."""
+    """Raised if poses cannot be read or saved."""
 
 
 def pose_file(robot: str, folder: Path) -> Path:
     """
-    Build the path of the file for the poses of a robot.
+    Build the path of the pose file of a robot.
 
     Parameters
     ----------
     robot
-        The name of the robot, with any characters.
+        The name of the robot; any characters are allowed.
     folder
-        The folder for the files of all robots.
+        The folder of the pose files of all robots.
 
     """
     return folder / f'{quote(robot, safe=" ()")}.yaml'
@@ -42,7 +42,7 @@ def pose_file(robot: str, folder: Path) -> Path:
 
 class Poses:
     """
-    Named poses in a file, which is read each time, as others may write it too.
+    Named poses in a file, which is read on every access because others may write it too.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Poses:
         self.file = file
 
     def read(self) -> dict[str, Pose]:
-        """Return the poses, or raise PoseError; none if there is no file."""
+        """Read the poses, or raise PoseError; empty if the file does not exist."""
         try:
             if self.file.stat().st_size > LARGEST_FILE:
                 raise self._broken(f'it is larger than {LARGEST_FILE // 1_000_000} MB')
@@ -70,14 +70,14 @@ class Poses:
 
     def save(self, name: str, pose: Pose) -> str:
         """
-        Save a pose, in place of one with the same name.
+        Save a pose, replacing one of the same name.
 
         Parameters
         ----------
         name
             Its name; spaces around it are removed.
         pose
-            Positions by joint, in rad or m.
+            Positions by joint name, in rad or m.
 
         Returns
         -------
@@ -113,7 +113,7 @@ class Poses:
         Returns
         -------
         bool
-            Whether there was one.
+            Whether the pose existed.
 
         Raises
         ------
@@ -148,7 +148,7 @@ class Poses:
         )
 
     def _write(self, poses: Mapping[str, Pose]) -> None:
-        """Replace the file as a whole, so that nobody ever sees a part of it."""
+        """Replace the file atomically, so that no reader sees a partial file."""
         text = yaml.safe_dump(
             {name: dict(pose) for name, pose in poses.items()},
             sort_keys=False,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a slider shows the positions of a joint."""
+"""Conversion between joint positions and slider values."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ __all__ = ['Scale']
 DECIMALS = 3
 MOST_DECIMALS = 9
 STEPS = 100
-"""How many places a slider has at least between its ends."""
+"""Minimum number of steps of a slider."""
 
 
 @dataclass(frozen=True)
 class Scale:
     """
-    Positions from one limit to another in radians or metres, and those that a slider shows.
+    Range of a slider between the limits of a joint, in rad or m, with its rounding.
 
-    A slider shows few decimals, so that its ends are within the limits; who moves it to an end
-    means the limit.
+    A slider shows few decimals, and its ends are rounded to lie within the limits; moving it to an
+    end selects the exact limit.
     """
 
     lower: float
@@ -29,7 +29,7 @@ class Scale:
 
     @property
     def decimals(self) -> int:
-        """Return how many decimals are shown: more than usual only within narrow limits."""
+        """Return the number of decimals; it exceeds the default only for narrow limits."""
         width = self.upper - self.lower
         if width <= 0.0:
             return MOST_DECIMALS
@@ -37,7 +37,7 @@ class Scale:
 
     @property
     def step(self) -> float:
-        """Return the distance between two places of the slider."""
+        """Return the increment of the slider."""
         return float(10.0**-self.decimals)
 
     @property
@@ -46,7 +46,7 @@ class Scale:
         if self.upper - self.lower < self.step:
             return self.lower, self.upper
         factor = 10**self.decimals
-        # What is a limit but for the last bits of its binary form is shown as it is written.
+        # The tolerance absorbs floating-point error, so that a limit is shown as it was written.
         first, last = self.lower * factor, self.upper * factor
         return ceil(first - 1e-6) / factor, floor(last + 1e-6) / factor
 
@@ -77,7 +77,7 @@ class Scale:
 
     def meant(self, shown: float) -> float:
         """
-        Convert the value of the slider to the position that a person means: at an end, the limit.
+        Convert the value of the slider to a position; the ends map to the exact limits.
 
         Parameters
         ----------
@@ -104,7 +104,7 @@ class Scale:
         return f'{round(number)}°' if self.is_angle else f'{round(number)}\u00a0mm'
 
     def describe(self) -> str:
-        """Return the limits in both units."""
+        """Format the limits in both units."""
         unit = 'rad' if self.is_angle else 'm'
         return (
             f'{self.lower:.{self.decimals}f} to {self.upper:.{self.decimals}f} {unit} '

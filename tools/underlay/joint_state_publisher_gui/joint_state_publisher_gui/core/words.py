@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the words in the name of a joint say about it."""
+"""Derivation of limb and side from the words in joint names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ KINDS = {
     'wheels': 'wheel caster',
     'torso': 'torso waist spine chest trunk back abdomen',
 }
-"""Kinds of limbs with the words that mean them; the first kind with a word in a name counts."""
+"""Kinds of limbs with their keywords; the first kind with a keyword in the name applies."""
 SIDES = {'left': 'left', 'right': 'right', 'l': 'left', 'r': 'right'}
 CORNERS = {
     f'{end}{side}': f'{name} {SIDES[side]}'
@@ -46,17 +46,17 @@ def words_of(name: str) -> list[str]:
 
 def kind_of(words: Sequence[str]) -> str | None:
     """
-    Find the kind of limb that words mean.
+    Find the kind of limb that matches the words of a joint name.
 
     Parameters
     ----------
     words
-        The words of a joint's name, in lower case.
+        The words of the joint name, in lower case.
 
     Returns
     -------
     str or None
-        A key of `KINDS`, the first one with a matching word; None if there is none.
+        A key of `KINDS`, the first one with a matching word; None if no word matches.
 
     """
     for kind, known in KINDS.items():
@@ -67,19 +67,19 @@ def kind_of(words: Sequence[str]) -> str | None:
 
 def side_of(words: Sequence[str], kind: str | None) -> str | None:
     """
-    Find the side, or the corner of a robot with four legs, that words mean.
+    Find the side, or the corner of a quadruped, that matches the words of a joint name.
 
     Parameters
     ----------
     words
-        The words of a joint's name, in lower case.
+        The words of the joint name, in lower case.
     kind
-        The kind of limb; one in `SIDELESS` has no side.
+        The kind of limb; kinds in `SIDELESS` have no side.
 
     Returns
     -------
     str or None
-        Such as 'left' or 'front right'; None if no word means a side.
+        For example 'left' or 'front right'; None if no word denotes a side.
 
     """
     if kind in SIDELESS:
@@ -87,7 +87,7 @@ def side_of(words: Sequence[str], kind: str | None) -> str | None:
     for place, word in enumerate(words):
         if word in CORNERS:
             return CORNERS[word]
-        # A single letter means a side only where names begin or end.
+        # A single letter denotes a side only at the start or end of a name.
         if word in SIDES and (len(word) > 1 or place in (0, len(words) - 1)):
             return ' '.join([*(end for end in ENDS if end in words), SIDES[word]])
     return None
@@ -95,14 +95,14 @@ def side_of(words: Sequence[str], kind: str | None) -> str | None:
 
 def short_name(name: str, side: str | None) -> str:
     """
-    Strip the side from the beginning of a joint's name.
+    Strip the side from the start of a joint name.
 
     Parameters
     ----------
     name
-        The name, such as `left_knee`.
+        The name, for example `left_knee`.
     side
-        The side in the title of its group; a name that begins with another one stays as it is.
+        The side in the title of the group; names that start with another side are unchanged.
 
     """
     first, _, rest = name.partition('_')

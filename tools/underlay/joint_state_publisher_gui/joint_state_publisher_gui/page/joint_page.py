@@ -27,23 +27,23 @@ WARNED_FRAMES = 100
 
 class JointPage:
     """
-    The widgets of the page; all is done in the thread of the node.
+    The widgets of the page; all work is done in the thread of the node.
 
-    What is set in one frame reaches browsers together.
+    All changes of one frame are sent to the browsers together.
 
     Parameters
     ----------
     server
         The viser server of the page.
     queue
-        Takes the callbacks of widgets to the thread of the node.
+        Transfers the callbacks of widgets to the thread of the node.
     poses_folder
-        The folder of the files with saved poses.
+        The folder of the saved poses.
 
     Attributes
     ----------
     poses, sliders
-        The saved poses and the sliders; None as long as no robot is shown.
+        The saved poses and the sliders; None while no robot is shown.
     notice, warnings
         The status line, and the warnings below it.
 
@@ -65,7 +65,7 @@ class JointPage:
 
     def show(self, board: Board) -> None:
         """
-        Show the sliders of a robot, in place of those of an earlier one.
+        Show the sliders of a robot, replacing those of the previous one.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class JointPage:
 
     def warn(self, *sentences: str) -> None:
         """
-        Show warnings for the next 100 refreshes, since their cause may be gone after that.
+        Show warnings for the next 100 refreshes, since their cause may be gone afterwards.
 
         Parameters
         ----------
@@ -101,7 +101,7 @@ class JointPage:
         self._warned_frames = WARNED_FRAMES
 
     def refresh(self) -> None:
-        """Show what has changed."""
+        """Update the widgets that have changed."""
         if self.sliders is None:
             return
         with self._server.atomic():
@@ -111,7 +111,7 @@ class JointPage:
                 self.warnings.say()
 
     def _post_while(self, folder: GuiFolderHandle) -> Post:
-        """Return what has done what belongs to a folder, as long as the folder is there."""
+        """Return a function that posts work, which runs only while the folder is shown."""
 
         def do(work: Callable[[], None]) -> None:
             if self._folder is folder:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences in the page."""
+"""Messages on the page."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ STYLE = 'padding:0.1em 0.8em 0.6em; font-size:0.85em; line-height:1.35; overflow
 
 class Notice:
     """
-    A place in the page for messages, which may contain names from anywhere.
+    A text area on the page for messages, which may contain arbitrary names.
 
     Parameters
     ----------
     gui
-        Where the widget is added, at the current place; the message is empty at first.
+        Where the widget is added, at the current position; the message is empty at first.
 
     """
 
@@ -32,7 +32,7 @@ class Notice:
 
     @property
     def content(self) -> str:
-        """Return what is said, in HTML."""
+        """Return the messages as HTML."""
         return str(self._html.content)
 
     def say(self, *sentences: str) -> None:
@@ -42,8 +42,8 @@ class Notice:
         Parameters
         ----------
         *sentences
-            The messages, one a line; at most 6 are shown, cut at 400 characters. None clears the
-            place.
+            The messages, one per line; at most 6 are shown, each truncated to 400 characters.
+            Without messages, the area is cleared.
 
         """
         lines = [line[:LONGEST_LINE] for line in sentences]

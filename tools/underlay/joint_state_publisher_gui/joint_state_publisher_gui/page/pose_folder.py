@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The saved poses in the page."""
+"""The folder of saved poses on the page."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ NONE = '(none is saved)'
 
 class PoseFolder:
     """
-    The widgets that save, load and delete poses.
+    The widgets to save, load and delete poses.
 
     Parameters
     ----------
     gui
-        Where the folder is added, at the current place.
+        Where the folder is added, at the current position.
     post
         Runs the callbacks of widgets in the thread of the node.
     board
-        The sliders that a pose is taken from and applied to.
+        The sliders from which a pose is saved and to which it is applied.
     poses
         The file of the poses.
     notice
-        Where results and errors are shown.
+        The notice that shows results and errors.
 
     """
 
@@ -58,14 +58,14 @@ class PoseFolder:
         self._try(work.get(label, self._list))
 
     def _try(self, do: Callable[[], None]) -> None:
-        """Do something with the file, or say why it cannot be done."""
+        """Run a file operation, and show an error message if it fails."""
         try:
             do()
         except PoseError as error:
             self._notice.say(str(error))
 
     def _list(self) -> None:
-        """Offer the poses of the file."""
+        """Update the list of saved poses from the file."""
         names = tuple(self._poses.read()) or (NONE,)
         if self.saved.options != names:
             self.saved.options = names

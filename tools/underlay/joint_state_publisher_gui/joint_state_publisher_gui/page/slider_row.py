@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A slider in the page."""
+"""A joint slider on the page."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ if TYPE_CHECKING:
 __all__ = ['SliderRow']
 
 FIGURE_SPACE = '\u2007'
-MINUS = '\u2212'  # viser lets lines end after the other one
+MINUS = '\u2212'  # viser may break lines after the ASCII hyphen
 LENGTH = len('-180°')
 SETTLED = 5
-"""After how many frames without input the page is made to agree."""
+"""Number of frames without input after which the page is synchronised."""
 
 
 class SliderRow:
     """
-    The slider of a joint with its value, its limits and, in the label, the other unit.
+    The slider of a joint with its value, its limits and, in the label, the value in another unit.
 
     Parameters
     ----------
     gui
-        Where the slider is added, at the current place.
+        Where the slider is added, at the current position.
     post
         Runs the callbacks of the slider in the thread of the node.
     slider
-        What it shows and moves.
+        The joint that it displays and moves.
     label
-        The name of the joint, as it is shown.
+        The displayed name of the joint.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class SliderRow:
         on_input(post, self.handle, self._take)
 
     def refresh(self) -> None:
-        """Show where the joint is."""
+        """Update the slider to the position of the joint."""
         news = self.slider.news()
         self._quiet += 1
         if news is not None or self._quiet == SETTLED:
@@ -75,6 +75,6 @@ class SliderRow:
         self.slider.give(shown)
 
     def _text(self) -> str:
-        """Return a label of one length, so that lines do not break anew while the joint moves."""
+        """Return a label of constant length, so that lines do not rewrap while the joint moves."""
         words = self.slider.scale.in_words(self.slider.position)
         return f'{self._label} {words.replace("-", MINUS).ljust(LENGTH, FIGURE_SPACE)}'

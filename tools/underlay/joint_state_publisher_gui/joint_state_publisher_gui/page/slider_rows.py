@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The sliders in the page."""
+"""The joint sliders on the page."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ __all__ = ['SliderRows']
 
 MOST_ROWS = 200
 OPEN_ROWS = 12
-"""Groups are open at first as long as they have no more joints than this together."""
+"""Groups are expanded initially as long as they have at most this many joints in total."""
 
 
 class SliderRows:
     """
-    Groups of sliders, and a field that searches for joints.
+    Groups of sliders, and a search field for joints.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class SliderRows:
     post
         Runs the callbacks of widgets in the thread of the node.
     parent
-        The folder in which the field and the sliders are added.
+        The folder in which the search field and the sliders are added.
     board
         The sliders of the robot.
 
@@ -50,16 +50,16 @@ class SliderRows:
             self._area = server.gui.add_folder(None)
         on_input(post, self.search, self._search)
         self.rows: list[SliderRow] = []
-        """The rows that are there."""
+        """The current rows."""
         self._search('')
 
     def refresh(self) -> None:
-        """Follow what has moved the joints, but not the person at the page."""
+        """Update the sliders whose joints were moved by other sources than the user."""
         for row in self.rows:
             row.refresh()
 
     def _search(self, text: str) -> None:
-        """Show only what is searched for; all for an empty text."""
+        """Show only the joints that match; all for an empty text."""
         found = self._board.found(text)
         with self._server.atomic():
             self._area.remove()
@@ -72,7 +72,7 @@ class SliderRows:
                 self._say_what_is_missing(sum(len(limb.joints) for limb in found))
 
     def _say_what_is_missing(self, count: int) -> None:
-        """Say why there are no sliders, or not all that were found."""
+        """Show a message if there are no sliders, or fewer than joints found."""
         notice = Notice(self._server.gui)
         if not self._board.sliders:
             notice.say('This robot has no joint that can be moved.')
@@ -82,7 +82,7 @@ class SliderRows:
             notice.say(f'{len(self.rows)} of {count} joints are shown. Search for the others.')
 
     def _add(self, limb: Limb) -> None:
-        """Add a group, which is open if it is not far down."""
+        """Add a group, expanded if it is near the top."""
         names = limb.joints[: MOST_ROWS - len(self.rows)]
         if not names:
             return

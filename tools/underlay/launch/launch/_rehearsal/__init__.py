@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Visit a launch description without starting anything, and show what was found."""
+"""Dry run: visit a launch description without starting anything, and show the result."""

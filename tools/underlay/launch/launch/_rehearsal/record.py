@@ -1,27 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What a rehearsal notes about one action.
+Record of one action in a dry run.
 
-As data (`ros2 launch --dry-run --json`) each action has these keys, of which those that do not
-apply are left out; new ones may be added:
+As data (`ros2 launch --dry-run --json`) each action has these keys; those that do not apply are
+left out, and new ones may be added:
 
-action      the name of its class; `launch` for the whole, which has also `status`
-error       of the whole: the text of what has failed
+action      the name of its class; `launch` for the root, which also has `status`
+error       of the root: the error message
 file, line  where the launch file creates it
 condition   expression, expanded (text or null) and value (true, false; null: not known yet)
-actions     what was visited below it, a list of actions
-waiting     a list of `for`, an event in words, and `actions`, which are described, not visited
+actions     the list of actions visited below it
+waiting     a list of `for`, a description of an event, and `actions`, described but not visited
 name, value, is_default, text, path, namespace, function, scoped, forwarding, reason, event,
 source, target
-            what the action sets, logs, includes, calls or emits
+            the values that the action sets, logs, includes, calls or emits
 label, argv, shell, cwd, environment
-            of a process; the environment has what differs from that of the launcher (null: unset)
+            of a process; the environment has the differences to that of the launcher (null: unset)
 transition  of the event ChangeState
-command     of a process that waits: its words, described
+command     of a process that waits: the descriptions of its words
 node_name, node_namespace, parameter_files, parameters, remappings
             of a node; the parameters are those that it sees, from all files and dictionaries
 target_container, composable_nodes
-            the container, and for each node that it loads package, plugin and what a node has
+            the container, and for each loaded node package, plugin and the keys of a node
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from launch._call_site import CallSite
 
 @dataclass
 class ConditionRecord:
-    """A condition: what it asks, what that expanded to, and the answer (None: not known yet)."""
+    """A condition: its expression, the expanded text, and the value (None: not known yet)."""
 
     expression: str
     expanded: Optional[str]
@@ -43,7 +43,7 @@ class ConditionRecord:
 
 @dataclass
 class Record:
-    """An action, with all that came of it."""
+    """Record of an action, with its facts, children and waiting entities."""
 
     action: str
     call_site: Optional[CallSite] = None
@@ -53,7 +53,7 @@ class Record:
     waiting: list[tuple[str, list[Record]]] = field(default_factory=list)
 
     def as_data(self) -> dict[str, Any]:
-        """Return it as plain data; the keys stand above."""
+        """Return the record as plain data, with the keys listed in the module docstring."""
         data: dict[str, Any] = {'action': self.action}
         if self.call_site is not None:
             data.update(file=self.call_site.file_name, line=self.call_site.line)

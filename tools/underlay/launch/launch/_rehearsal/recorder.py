@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Watch a visit and keep what happens as a tree."""
+"""Record a visit as a tree of actions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SCOPES = frozenset(
 
 
 class Recorder(VisitObserver):
-    """Makes a record of each action; what is no action belongs to the one around it."""
+    """Observer that records each action; other entities belong to the enclosing action."""
 
     def __init__(self) -> None:
         self.root = Record('launch')
@@ -40,7 +40,7 @@ class Recorder(VisitObserver):
         Parameters
         ----------
         entity
-            The entity; one that is no action shares the record of the action around it.
+            The entity; a non-action shares the record of the enclosing action.
 
         """
         record = self._open[-1]
@@ -64,7 +64,7 @@ class Recorder(VisitObserver):
 
     def expanded(self, text: str) -> None:
         """
-        Keep what an expression became for the record of its condition.
+        Store an expanded expression for the record of its condition.
 
         Parameters
         ----------
@@ -104,14 +104,14 @@ class Recorder(VisitObserver):
 
     def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
         """
-        Record what the action that is being visited leaves waiting for an event.
+        Record the entities that the visited action leaves waiting for an event.
 
         Parameters
         ----------
         event
-            The event in words.
+            A description of the event.
         entities
-            What is visited when it comes; only actions are recorded.
+            The entities that are visited on the event; only actions are recorded.
 
         """
         records = [_outline(each) for each in entities if isinstance(each, Action)]
@@ -119,7 +119,7 @@ class Recorder(VisitObserver):
 
     def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
         """
-        Compare the environment of a process with that at the start of the rehearsal.
+        Compare the environment of a process with that at the start of the dry run.
 
         Parameters
         ----------
@@ -141,7 +141,7 @@ class Recorder(VisitObserver):
 
 
 def _outline(action: Action) -> Record:
-    """Return the record of an action that is not visited, as far as it can be described."""
+    """Return the record of an unvisited action, as far as it is known."""
     record = Record(type(action).__name__, action.call_site, facts=action._outline())
     if action.condition is not None:
         record.condition = ConditionRecord(_described(action.condition), None, None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Visit what a launch service is to visit, without starting anything."""
+"""Dry run of a launch service, without starting anything."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def rehearse(service: LaunchService) -> tuple[Record, int]:
     """
     Visit the launch description of a service without starting anything.
 
-    The tasks of processes are made, but the loop never runs them: they are canceled. Nothing is
+    The tasks of processes are created, but canceled before the event loop runs them. Nothing is
     written to log files.
 
     Parameters

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Show the records of a rehearsal as text for people."""
+"""Format the records of a dry run as human-readable text."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _IN_THE_HEAD = (
 
 def tree_lines(record: Record) -> Iterator[str]:
     """
-    Format the records of a rehearsal as lines of text.
+    Format the records of a dry run as lines of text.
 
     Parameters
     ----------
@@ -60,13 +60,13 @@ def _lines(record: Record, indent: str) -> Iterator[str]:
 
 
 def _head(record: Record) -> str:
-    """Return the line that names an action, with the facts that are short."""
+    """Format the head line of an action, with its short facts."""
     place = '' if record.call_site is None else f'  ({_short(record.call_site)})'
     return f'{record.action}{_summary(record.facts)}{place}'
 
 
 def _summary(facts: Mapping[str, Any]) -> str:
-    """Return what an action sets, or else the one fact that tells most."""
+    """Format the value that an action sets, or else its most significant fact."""
     if 'value' in facts:
         default = ' (the default)' if facts.get('is_default') else ''
         return f" {facts['name']} = '{_cut(facts['value'])}'{default}"
@@ -87,7 +87,7 @@ def _condition(condition: ConditionRecord) -> str:
 
 
 def _fact(name: str, value: Any, indent: str) -> Iterator[str]:
-    """Yield the lines of a fact; nothing for one that is empty or goes without saying."""
+    """Yield the lines of a fact; none if it is empty or has its usual value."""
     if value is None or value in ({}, []) or (name in _USUAL and value):
         return
     label = name.replace('_', ' ')
@@ -113,13 +113,13 @@ def _variable(name: str, value: Optional[str]) -> str:
 
 
 def _cut(text: str) -> str:
-    """Return a text, or the beginning of one that is as long as the model of a robot."""
+    """Truncate a string that is too long, such as a robot description."""
     text = ' '.join(text.split())
     return text if len(text) <= _LONG else f'{text[:_LONG]}... ({len(text)} characters)'
 
 
 def _wrapped(text: str, indent: str) -> list[str]:
-    """Return a text in lines that fit on a terminal; long words stay whole."""
+    """Wrap a string to the width of a terminal without breaking long words."""
     lines = []
     for line in text.splitlines() or ['']:
         lines += textwrap.wrap(

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start processes, read what they write, and see to it that they end."""
+"""Start processes, read their output, and make sure that they terminate."""

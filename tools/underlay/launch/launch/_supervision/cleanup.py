@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The program that ends what a killed launch has left, and removes its files.
+Program that terminates the orphaned processes of a killed launch, and removes its files.
 
-A guard runs it by its path, `cleanup.py ID MARK START_TICKS`, and writes to its standard input the
-groups in one line, and behind it the path of one file a line.
+A guard runs it by its path, `cleanup.py ID MARK START_TICKS`, and writes to its standard input one
+line of process group ids, followed by one file path per line.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ _LOOK_EVERY_S = 0.05
 
 def main(launch_id: str, mark: str, start_ticks: str) -> None:
     """
-    End what is left of a launch, with one signal after the other, and remove its files.
+    Terminate the remaining processes of a launch with escalating signals; remove its files.
 
     Process groups and files are read from the standard input.
 
     Parameters
     ----------
     launch_id, mark, start_ticks
-        As for `Family`; the numbers as decimal texts.
+        As for `Family`; the numbers as decimal strings.
 
     """
     groups, *files = sys.stdin.read().splitlines()
@@ -43,7 +43,7 @@ def main(launch_id: str, mark: str, start_ticks: str) -> None:
 
 
 def _end_with(family: Family, number: signal.Signals, patience_s: float) -> bool:
-    """Send a signal to all, also to those that come meanwhile; return whether none is left."""
+    """Send a signal to all members, including new ones; return whether none is left."""
     end_s = time.monotonic() + patience_s
     told: set[Member] = set()
     while left := family.members():
@@ -58,7 +58,7 @@ def _end_with(family: Family, number: signal.Signals, patience_s: float) -> bool
 
 
 def _wait_for_end(members: list[Member], patience_s: float) -> None:
-    """Wait until one of these has ended, and a moment for the others."""
+    """Wait until one of the members has exited, and briefly for the others."""
     poll = select.poll()
     descriptors = []
     for member in members:
@@ -78,7 +78,7 @@ def _remove(file: str) -> None:
     try:
         os.unlink(file)
     except OSError:
-        pass  # it was never made, or is gone
+        pass  # it was never created, or is already removed
 
 
 if __name__ == '__main__':

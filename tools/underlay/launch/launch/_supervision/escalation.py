@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End a process, gently first."""
+"""Termination of a process with escalating signals."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ import signal
 
 class Escalation:
     """
-    Ends a process: sends SIGINT, some time later SIGTERM, and at last SIGKILL.
+    Termination of a process: SIGINT, then SIGTERM and SIGKILL after timeouts.
 
     Parameters
     ----------
     label
         The label of the process, for the log.
     logger
-        The logger that says what is sent.
+        The logger for the signals that are sent.
     send
         Sends a signal to the process.
     sigterm_timeout
-        The seconds from SIGINT to SIGTERM, as a text.
+        The time from SIGINT to SIGTERM in s, as a string.
     sigkill_timeout
-        The seconds from then to SIGKILL, as a text.
+        The time from SIGTERM to SIGKILL in s, as a string.
 
     Raises
     ------
@@ -71,7 +71,7 @@ class Escalation:
         ]
 
     def cancel(self) -> None:
-        """Send nothing more, because the process has ended."""
+        """Cancel the pending signals after the process has exited."""
         for timer in self._timers:
             timer.cancel()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notice at once that a child process has ended."""
+"""Watch for the exit of child processes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def watch_exit(
     loop: asyncio.AbstractEventLoop,
 ) -> asyncio.Future[int]:
     """
-    Watch for the end of a child process, and reap it.
+    Watch for the exit of a child process, and reap it.
 
     Parameters
     ----------
@@ -66,13 +66,13 @@ def _watch_in_thread(
     loop: asyncio.AbstractEventLoop,
     future: asyncio.Future[int],
 ) -> None:
-    """Wait in a thread, where the system cannot tell the event loop of a child's end."""
+    """Wait for the child in a thread, if no pidfd can be opened."""
 
     def wait() -> None:
         code = child.wait()
         try:
             loop.call_soon_threadsafe(_finish, future, code)
-        except RuntimeError:  # the loop is closed: nobody waits any more
+        except RuntimeError:  # the loop is closed; no one is waiting
             pass
 
     threading.Thread(target=wait, name=f'wait for {child.pid}', daemon=True).start()

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Tell which processes a launch has started, directly or through others.
+Identify the processes that a launch has started, directly or indirectly.
 
-Whatever a process does, leave its group and its session or lose its parent, two things pass from
-it to all that it starts: its resource limits and its environment. A launch marks its processes
-with the soft limit RLIMIT_LOCKS, which Linux has not enforced since 2.4.25 and hands down all the
-same: one call reads it, a program whose environment was cleared keeps it, and nobody sees a
-variable that he has not set. Where the limit cannot be set, or there is no room in it for one more
-launch in a launch, the variable `ROS_LAUNCH_ID` is the mark.
+Even if a process leaves its group and session or loses its parent, its descendants inherit its
+resource limits and its environment. A launch marks its processes with the soft limit RLIMIT_LOCKS,
+which Linux has not enforced since 2.4.25 but still passes on: it is read with one call, survives
+a cleared environment, and users see no variable that they have not set. If the limit cannot be
+set, or has no room for another nested launch, the variable `ROS_LAUNCH_ID` is the mark.
 
-This module needs the standard library only, as what cleans up behind a killed launch uses it too.
+This module needs the standard library only, as the clean-up after a killed launch also uses it.
 """
 
 from __future__ import annotations
@@ -28,11 +27,11 @@ ID_VARIABLE = 'ROS_LAUNCH_ID'
 """The launches that a process belongs to, from the outermost to the innermost."""
 
 DETACHED_VARIABLE = 'ROS_LAUNCH_DETACHED'
-"""A process in whose environment this is not empty may outlive the launch that it comes from."""
+"""A process in whose environment this is set and not empty may outlive its launch."""
 
 _RLIMIT_LOCKS = 10  # the `resource` module has no name for it
 _RUN_BITS = 8
-_LAUNCH_BITS = 22 + _RUN_BITS  # ids of processes have 22 bits at most
+_LAUNCH_BITS = 22 + _RUN_BITS  # process ids have 22 bits at most
 _INIT = 1  # the parent of orphans; in a container that may be the launch
 _MOST_LOOKS = 50
 _runs = count()
@@ -40,19 +39,18 @@ _runs = count()
 
 class Family:
     """
-    The processes of one run of a launch, here or in another process.
+    Processes of one run of a launch, in this process or another one.
 
     Parameters
     ----------
     launch_id
-        Names the run in the variable `ROS_LAUNCH_ID`.
+        Identifies the run in the variable `ROS_LAUNCH_ID`.
     mark
-        The soft limit RLIMIT_LOCKS that its processes have; 0 if they have the variable only.
+        The soft limit RLIMIT_LOCKS that its processes have; 0 if they only have the variable.
     start_ticks
-        When the process of the run was started, in clock ticks since the system was; no member is
-        older.
+        The start time of the process of the run, in clock ticks since boot; no member is older.
     sessions
-        All that is in these sessions belongs to the family as well.
+        All processes in these sessions also belong to the family.
 
     """
 
@@ -68,7 +66,7 @@ class Family:
 
     @classmethod
     def of_new_run(cls) -> Family:
-        """Return the family of a new run in this process."""
+        """Create the family of a new run in this process."""
         pid, run = os.getpid(), next(_runs)
         start_ticks = _start_ticks(pid)
         return cls(f'{pid}.{start_ticks}.{run}', _new_mark(pid, run), start_ticks)
@@ -77,9 +75,9 @@ class Family:
 
     def environment(self, environment: Mapping[str, str]) -> dict[str, str]:
         """
-        Mark the environment with which a process of this launch is started.
+        Mark the environment of a process of this launch.
 
-        A launch that may outlive the one around it does not hand this permission down.
+        A launch that may outlive the enclosing one does not pass this permission on.
 
         Parameters
         ----------
@@ -101,13 +99,13 @@ class Family:
 
     @contextmanager
     def marking(self) -> Iterator[None]:
-        """Mark what is started meanwhile."""
+        """Mark the processes that are started within a context."""
         with _limit(self.mark) if self.mark else _unchanged():
             yield
 
     def detaches(self, environment: Mapping[str, str]) -> bool:
         """
-        Whether a process with this environment is to outlive the launch.
+        Whether a process with this environment may outlive the launch.
 
         Parameters
         ----------
@@ -122,10 +120,11 @@ class Family:
 
     def members(self) -> list[Member]:
         """
-        Return the processes of the launch that live and are not to outlive it.
+        Return the running processes of the launch that must not outlive it.
 
-        Of what forks and ends all the time, each process has gone when it is looked at. If one of
-        those that were seen has, others may have come: there is nobody only if nobody went.
+        Processes that keep forking and exiting may be gone when they are examined. If a candidate
+        is gone, others may have appeared, so the search is repeated: there is no member only if
+        all candidates still exist.
         """
         for _ in range(_MOST_LOOKS):
             candidates = self._candidates()
@@ -146,7 +145,7 @@ class Family:
         Returns
         -------
         list of Member
-            Those whose parents, grandparents and so on lead to the process.
+            The members that have the process among their ancestors.
 
         """
         members = self.members()
@@ -158,7 +157,7 @@ class Family:
             ancestors |= more
 
     def _candidates(self) -> list[int]:
-        """Return the ids of the processes at which it is worth while to look, at little cost."""
+        """Return the ids of processes that may be members, by an inexpensive pre-selection."""
         pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
         if not self.mark or self._sessions:
             return pids
@@ -182,10 +181,11 @@ class Family:
 
     def _member_by_mark(self, process: Member, *, has_inner_id: bool) -> Optional[Member]:
         """
-        Return a process whose variable does not name this launch if it has the mark.
+        Return a process whose variable does not name this launch, if it has the mark.
 
-        What a program with threads starts at the instant in which `marking` is in force has the
-        mark too. It is told by its parent: a process of the launch has one elsewhere, or is known.
+        Processes that other threads start while `marking` is in force have the mark, too. They are
+        recognised by their parent, this process; those of the launch have another one or are
+        known.
         """
         marks = _marks_of(process.pid)
         if not self.mark or self.mark not in marks or process.parent == os.getpid() != _INIT:
@@ -195,7 +195,7 @@ class Family:
 
 @contextmanager
 def unmarked() -> Iterator[None]:
-    """Let what is started meanwhile belong to no launch."""
+    """Start the processes within a context without the mark of any launch."""
     with _limit(resource.RLIM_INFINITY):
         yield
 
@@ -222,10 +222,10 @@ def detached_environment(environment: Mapping[str, str]) -> dict[str, str]:
 
 
 def _new_mark(pid: int, run: int) -> int:
-    """Return the mark of a new run, which begins with that of the launch around it."""
+    """Return the mark of a new run, prefixed with that of the enclosing launch."""
     outer, most = resource.getrlimit(_RLIMIT_LOCKS)
     if most != resource.RLIM_INFINITY or outer >> _LAUNCH_BITS > 0:
-        return 0  # it may not be set, or there is no room for a third one
+        return 0  # setting it is not permitted, or there is no room for a third mark
     own = pid << _RUN_BITS | run % (1 << _RUN_BITS)
     return max(outer, 0) << _LAUNCH_BITS | own
 
@@ -248,10 +248,10 @@ def _unchanged() -> Iterator[None]:
 
 
 def _marks_of(pid: int) -> tuple[int, ...]:
-    """Return the marks of the launch that a process belongs to, and of the one around that."""
+    """Return the marks of the launch that a process belongs to, and of the enclosing launch."""
     try:
         mark = resource.prlimit(pid, _RLIMIT_LOCKS)[0]
-    except OSError:  # it has ended, or is another user's
+    except OSError:  # it has exited, or belongs to another user
         return ()
     return (mark, mark >> _LAUNCH_BITS) if mark > 0 else ()
 
@@ -261,6 +261,6 @@ def _exists(pid: int) -> bool:
 
 
 def _start_ticks(pid: int) -> int:
-    """Return when a process was started, in clock ticks since the system was."""
+    """Return the start time of a process, in clock ticks since boot."""
     with open(f'/proc/{pid}/stat', 'rb') as file:
         return int(file.read().rpartition(b')')[2].split()[19])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End what a process has left behind."""
+"""Terminate the processes that are left in the group of a process after its exit."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _LOOK_EVERY_S = 0.02
 
 async def end_leftovers(group: int, *, was_interrupted: bool) -> None:
     """
-    End the rest of a process group whose leader has ended, with SIGINT, SIGTERM and SIGKILL.
+    Terminate a process group whose leader has exited, with SIGINT, SIGTERM and SIGKILL.
 
     Parameters
     ----------
     group
         The id of the group.
     was_interrupted
-        Whether the group has got SIGINT already; it gets none again then.
+        Whether the group has already received SIGINT; it is not sent again.
 
     """
     for number, patience_s in _STEPS:

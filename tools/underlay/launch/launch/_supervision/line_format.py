@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the lines that a process writes look in the log."""
+"""Format of the output lines of a process in the log."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ _PLACE = '{line}'
 
 class LineFormat:
     """
-    Format of the lines that a process writes, applied to many at once if it allows that.
+    Format of the output lines of a process, applied to many lines at once if possible.
 
     Parameters
     ----------
     text
         The brace-style format, with the fields `line` and `this`.
     this
-        The action, which the field `this` stands for.
+        The action, for the field `this`.
 
     """
 
@@ -50,7 +50,7 @@ class LineFormat:
 
 
 def _frame_of(text: str, this: Any) -> Optional[tuple[str, str]]:
-    """Return what stands before and behind each line, None if the format is no such frame."""
+    """Return the text before and after each line, None if the format is more complex."""
     head, place, tail = text.partition(_PLACE)
     if not place:
         return None

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cut a stream of bytes into lines of text."""
+"""Split a byte stream into lines of text."""
 
 from __future__ import annotations
 
 _LONGEST = 1024 * 1024
-"""A line that goes on for longer is cut here, because it may never end."""
+"""Maximum length of a line in bytes; a longer one is split, as it may never end."""
 
 
 class LineSplitter:
-    """Collects bytes and returns the lines that are complete."""
+    """Splitter that collects bytes and returns complete lines."""
 
     def __init__(self) -> None:
         self._pieces: list[bytes] = []
@@ -16,7 +16,7 @@ class LineSplitter:
 
     def feed(self, data: bytes) -> list[str]:
         """
-        Add bytes, and return the lines that are complete with them.
+        Add bytes, and return the lines that they complete.
 
         Parameters
         ----------
@@ -26,7 +26,7 @@ class LineSplitter:
         Returns
         -------
         list of str
-            The lines without line breaks; one that is longer than 1 MiB is cut.
+            The lines without line breaks; one that is longer than 1 MiB is split.
 
         """
         if b'\n' in data:
@@ -42,7 +42,7 @@ class LineSplitter:
         self._size = len(rest)
 
     def _cut(self) -> list[str]:
-        """Return what there is of a line, but for a character that may be incomplete."""
+        """Return the incomplete line, except for a trailing incomplete UTF-8 character."""
         text = b''.join(self._pieces)
         tail = 1
         while tail < 4 and 0x80 <= text[-tail] < 0xC0:
@@ -52,13 +52,13 @@ class LineSplitter:
         return _decode(text[:end])
 
     def flush(self) -> list[str]:
-        """Return what stands behind the last line break, as a line if there is something."""
+        """Return the text after the last line break as a line, if there is any."""
         rest = b''.join(self._pieces)
         self._keep(b'')
         return _decode(rest) if rest else []
 
 
 def _decode(data: bytes) -> list[str]:
-    """Return the lines as texts; a pseudo terminal adds a carriage return to each."""
+    """Decode lines, and strip the carriage returns that a pseudo terminal adds."""
     lines = data.decode('utf-8', 'replace').split('\n')
     return [line.rstrip('\r') for line in lines] if b'\r' in data else lines

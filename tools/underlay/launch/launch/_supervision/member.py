@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-One process of a launch: what the system tells about it, and how it gets a signal.
+One process of a launch: its state in /proc, and how to send it a signal.
 
-Loaded when there is one to look at, which most launches spare themselves.
+Imported only when there is a process to examine, which most launches avoid.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ class Member:
     """
     A process of a launch.
 
-    :param start_ticks: when it was started, in clock ticks since the system was
+    :param start_ticks: the start time, in clock ticks since boot
     :param is_nested: whether it belongs to a launch that this one has started
     """
 
@@ -32,7 +32,7 @@ class Member:
 
     def of_launch(self, *, nested: bool) -> Member:
         """
-        Copy the member, with what its marks say about its launch.
+        Copy the member, with whether it belongs to a nested launch.
 
         Parameters
         ----------
@@ -43,13 +43,13 @@ class Member:
         return replace(self, is_nested=nested)
 
     def __str__(self) -> str:
-        """Return what the log calls it."""
+        """Format the name and the process id for the log."""
         return f'{self.name} [{self.pid}]'
 
 
 def look_at(pid: int) -> Optional[Member]:
     """
-    Read from /proc what the system tells about a process.
+    Read the state of a process from /proc.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def look_at(pid: int) -> Optional[Member]:
 
 def variables_of(pid: int) -> dict[str, str]:
     """
-    Read from /proc the variables of launch that a process was started with.
+    Read the launch variables in the initial environment of a process from /proc.
 
     Parameters
     ----------
@@ -101,12 +101,12 @@ def variables_of(pid: int) -> dict[str, str]:
 
 def send(member: Member, number: signal.Signals) -> None:
     """
-    Send a signal to a member, and never to another process that has its id by now.
+    Send a signal to a member, but never to another process that has reused its id.
 
     Parameters
     ----------
     member
-        The process; nothing is done if it has ended or is another user's.
+        The process; nothing is done if it has exited or belongs to another user.
     number
         The signal.
 
@@ -130,17 +130,17 @@ def _send_quietly(function: object, target: int, number: signal.Signals) -> None
     try:
         function(target, number)  # type: ignore[operator]
     except (ProcessLookupError, PermissionError):
-        pass  # it has ended, or it has become another user's
+        pass  # it has exited, or belongs to another user
 
 
 def is_alive(member: Member) -> bool:
     """
-    Whether a member has not ended yet.
+    Whether a member is still running.
 
     Parameters
     ----------
     member
-        The process, which is known by its id and the time of its start.
+        The process, identified by its id and its start time.
 
     """
     process = look_at(member.pid)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Clean up behind a launch that was killed.
+Clean up after a launch that was killed.
 
-Two small processes, the guards, wait at the other ends of pipes for what the launch tells them,
-and for its end. None of them is needed: a guard that ends is replaced, one that was stopped is
-woken up by the system at the instant at which the launch dies, and each can do the work alone.
+Two small watchdog processes, the guards, wait at the other ends of pipes for messages of the
+launch, and for its death. They are redundant: a guard that exits is replaced, one that was stopped
+is resumed by the kernel at the moment the launch dies, and each can do the work alone.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from typing import Optional
 from launch._supervision.family import Family, unmarked
 from launch.logging import get_logger
 
-# The shell waits in `read`, and gets on when the launch says 'bye' or dies. It then becomes
-# `cleanup.py`; where that cannot be run, it does what it can itself.
+# The shell blocks in `read` until the launch sends 'bye' or dies. If it dies, the shell runs
+# `cleanup.py`; if that fails, the shell itself kills the groups and removes the files.
 _SCRIPT = """
 trap '' INT TERM HUP QUIT
 python=$1 cleanup=$2 delay=$3
@@ -46,7 +46,7 @@ printf %s "$files" | while IFS= read -r file; do rm -f -- "$file"; done
 """
 _CLEANUP = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'cleanup.py')
 _DELAYS_S = (0, 2.5)
-"""How long the guards wait before they clean up: the second one looks behind the first."""
+"""Delays of the guards in s before they clean up; the second guard is a fallback."""
 _SECOND_AFTER_S = 1.0
 _LONGEST_PAUSE_S = 1.0
 
@@ -55,17 +55,17 @@ _open_pipes: set[int] = set()
 
 class OrphanGuard:
     """
-    Watches over the processes and the files of a launch from outside.
+    Watchdog for the processes and the files of a launch, outside its process.
 
-    Even if the launch is killed, with no chance to do anything, they come to an end.
+    Even if the launch is killed without a chance to clean up, they are terminated and removed.
 
     Parameters
     ----------
     family
         The processes of the launch.
     loop
-        The event loop that replaces guards that have ended; without one there is a single guard,
-        which nobody replaces.
+        The event loop that replaces guards that have exited; without one there is a single guard,
+        which is not replaced.
 
     """
 
@@ -80,11 +80,11 @@ class OrphanGuard:
 
     @property
     def pids(self) -> list[int]:
-        """Return the ids of the watching processes."""
+        """Return the process ids of the guards."""
         return [shell.pid for shell in self._shells.values()]
 
     def start(self) -> None:
-        """Watch from now on, with one process at first, and soon with two."""
+        """Start watching, with one guard at first and a second one shortly after."""
         if self._is_started:
             return
         self._is_started = True
@@ -93,7 +93,7 @@ class OrphanGuard:
 
     def add(self, group: int) -> None:
         """
-        Watch over a process group, whatever may hide its processes.
+        Watch a process group, even if its processes lose their marks.
 
         Parameters
         ----------
@@ -106,7 +106,7 @@ class OrphanGuard:
 
     def remove(self, group: int) -> None:
         """
-        Watch over a process group no longer, as it has ended.
+        Stop watching a process group that has ended.
 
         Parameters
         ----------
@@ -119,12 +119,12 @@ class OrphanGuard:
 
     def add_file(self, path: str) -> None:
         """
-        Watch over a file, which is removed if the launch is killed.
+        Register a file to be removed if the launch is killed.
 
         Parameters
         ----------
         path
-            The absolute path of the file; nothing is done if it has a line break in it.
+            The absolute path of the file; nothing is done if it contains a line break.
 
         """
         if '\n' not in path:
@@ -133,7 +133,7 @@ class OrphanGuard:
             self._tell(f'file {path}\n')
 
     def close(self) -> None:
-        """End the watching processes, as there is nothing left to watch over."""
+        """Stop the guards, as there is nothing left to watch."""
         for timer in self._planned:
             timer.cancel()
         for shell in self._shells.values():
@@ -166,7 +166,7 @@ class OrphanGuard:
             self._loop.add_reader(shell.pidfd, self._replace, number)
 
     def _replace(self, number: int) -> None:
-        """Start another process instead of one that someone has ended."""
+        """Replace a guard that has exited."""
         shell = self._shells.pop(number)
         self._stop_watching(shell)
         shell.close()
@@ -184,10 +184,10 @@ class OrphanGuard:
 
 
 class _Shell:
-    """One of the watching processes, in a session of its own."""
+    """Guard process, in a session of its own."""
 
     def __init__(self, arguments: list[str]) -> None:
-        """Start it; an OSError says that this is not possible."""
+        """Start the guard; raise an OSError if this is not possible."""
         reading_end, self._pipe = os.pipe()
         os.set_blocking(self._pipe, False)
         command = ['/bin/sh', '-c', _SCRIPT, 'guard', sys.executable or 'python3', _CLEANUP]
@@ -218,20 +218,20 @@ class _Shell:
         return self._process.pid
 
     def tell(self, text: str) -> None:
-        """Write to the process; one that someone has ended cannot be told."""
+        """Send text to the guard; ignored if it has exited."""
         try:
             os.write(self._pipe, text.encode('utf-8', 'surrogateescape'))
         except OSError:
             pass
 
     def say_bye(self) -> None:
-        """Let the process end without doing anything, even if someone has stopped it."""
+        """Make the guard exit without cleaning up, even if it was stopped."""
         self._process.send_signal(signal.SIGCONT)
         os.set_blocking(self._pipe, True)
         self.tell('bye\n')
 
     def close(self) -> None:
-        """Wait for the end of the process, which has been told or is dead."""
+        """Wait for the guard to exit, after `say_bye` or its death."""
         _open_pipes.discard(self._pipe)
         os.close(self._pipe)
         self._process.wait()
@@ -240,7 +240,7 @@ class _Shell:
 
 
 def _let_end_wake(reading_end: int, pid: int) -> None:
-    """Have the system send SIGCONT to a process when there is something in a pipe, or its end."""
+    """Make the kernel send SIGCONT to a process when a pipe becomes readable or is closed."""
     fcntl.fcntl(reading_end, fcntl.F_SETOWN, pid)
     fcntl.fcntl(reading_end, fcntl.F_SETSIG, signal.SIGCONT)
     flags = fcntl.fcntl(reading_end, fcntl.F_GETFL)
@@ -255,7 +255,7 @@ def _pidfd(pid: int) -> int:
 
 
 def _close_pipes() -> None:
-    """Let a copy of the launch, such as a worker of multiprocessing, not hide its end."""
+    """Close the inherited pipes in a forked child, so that it does not hide the launch's death."""
     for pipe in _open_pipes:
         os.close(pipe)
     _open_pipes.clear()

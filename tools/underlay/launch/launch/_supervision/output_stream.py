@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read what a process writes."""
+"""Read the output of a process."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ _CHUNKS_AT_THE_END = 64
 
 class OutputStream:
     """
-    Reads a pipe or a pseudo terminal, and hands what comes out of it to a function.
+    Reader of a pipe or a pseudo terminal that passes the data to a callback.
 
-    Nothing is read while the screen is congested, so that whoever writes has to wait.
+    Nothing is read while the screen is congested, so that the writer blocks (back-pressure).
 
     Parameters
     ----------
     loop
         The event loop that watches the descriptor.
     descriptor
-        What is read from; the stream owns it from now on.
+        The file descriptor to read from; the stream takes ownership of it.
     use
         Called with each piece of the output.
 
@@ -52,7 +52,7 @@ class OutputStream:
     def _read_on_from_any_thread(self) -> None:
         try:
             self._loop.call_soon_threadsafe(self._read_on)
-        except RuntimeError:  # the loop is closed: nobody reads any more
+        except RuntimeError:  # the loop is closed; output is no longer read
             pass
 
     def _read_on(self) -> None:
@@ -76,13 +76,13 @@ class OutputStream:
         return True
 
     def drain(self) -> None:
-        """Read what is there now."""
+        """Read the data that is available now."""
         for _ in range(_CHUNKS_AT_THE_END):
             if not self._read():
                 return
 
     def close(self) -> None:
-        """Read no more."""
+        """Stop reading, and close the descriptor."""
         if self._descriptor >= 0:
             self._loop.remove_reader(self._descriptor)
             os.close(self._descriptor)

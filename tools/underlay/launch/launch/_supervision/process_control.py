@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""React to the events that are meant for a process."""
+"""Event handling for the process of an action."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _EVENTS = (ProcessTargetedEvent, ProcessStdin, Shutdown)
 
 class ProcessControl(BaseEventHandler):
     """
-    Event handler that hands the events that are meant for a process to its supervisor.
+    Event handler that forwards the events that target a process to its supervisor.
 
     Parameters
     ----------
     action
-        The action that runs the process, by which its events are told.
+        The action that runs the process, which identifies its events.
     supervisor
         The supervisor of the process.
 
@@ -40,7 +40,7 @@ class ProcessControl(BaseEventHandler):
 
     def matches(self, event: Event) -> bool:
         """
-        Whether an event is meant for the process, or for all.
+        Whether an event targets the process, or all processes.
 
         Parameters
         ----------
@@ -58,7 +58,7 @@ class ProcessControl(BaseEventHandler):
 
     def handle(self, event: Event, context: LaunchContext) -> None:
         """
-        End the process, send it a signal, or write to it, as the event asks for.
+        Terminate the process, send it a signal, or write to it, depending on the event.
 
         Parameters
         ----------

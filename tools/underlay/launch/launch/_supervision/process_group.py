@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Groups of processes: a process and what it has started."""
+"""Process groups: a process and the processes that it has started."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ def send_signal(pid: int, number: signal.Signals) -> None:
     """
     Send a signal to a process that leads its group.
 
-    Signals that end, stop or continue go to the whole group, because the process may be a wrapper
-    around what is meant; others would surprise whoever does not expect them.
+    Signals that terminate, stop or continue go to the whole group, because the process may be a
+    wrapper around the actual program; other signals go to the process alone.
 
     Parameters
     ----------
@@ -32,12 +32,12 @@ def send_signal(pid: int, number: signal.Signals) -> None:
         else:
             os.kill(pid, number)
     except (ProcessLookupError, PermissionError):
-        pass  # it has ended, or it has become another user's
+        pass  # it has exited, or belongs to another user
 
 
 def is_empty(group: int) -> bool:
     """
-    Whether no process of a group is left, apart from dead ones.
+    Whether no process of a group is left, apart from zombies.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def is_empty(group: int) -> bool:
 
 def living_members(group: int) -> list[int]:
     """
-    List the ids of the processes of a group that are not dead.
+    List the ids of the processes of a group, except for zombies.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a process is to be run."""
+"""The options of a process."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ProcessOptions:
-    """The options of a process as its action was given them, with substitutions in some."""
+    """Options of a process as passed to its action, some of them with substitutions."""
 
     shell: bool
     emulate_tty: Any
@@ -37,15 +37,15 @@ class ProcessOptions:
 
     def perform(self, context: LaunchContext, label: str) -> PerformedOptions:
         """
-        Perform all substitutions in the options, in the scope that is open now.
+        Perform all substitutions in the options, in the current scope.
 
-        To be called once, when the action is executed: the process may start, end and start again
-        when this scope has long been closed.
+        Call this once, when the action is executed: the process may start and respawn long after
+        the scope has been closed.
 
         Parameters
         ----------
         context
-            The state of the launch; its configuration `emulate_tty` overrides the option.
+            The launch context; its configuration `emulate_tty` overrides the option.
         label
             The label of the process, for errors.
 
@@ -73,7 +73,7 @@ class ProcessOptions:
         )
 
     def _wants_tty(self, context: LaunchContext) -> bool:
-        """Whether the output is a terminal for the process; a configuration overrides it."""
+        """Whether to emulate a TTY; the launch configuration overrides the option."""
         override = context.launch_configurations.get('emulate_tty')
         if override is None:
             return bool(perform_typed_substitution(context, self.emulate_tty, bool))
@@ -93,7 +93,7 @@ class ProcessOptions:
 
 @dataclass(frozen=True)
 class PerformedOptions:
-    """The options of a process as texts, numbers and booleans; timeouts as they are written."""
+    """Options of a process with performed substitutions; the timeouts remain strings."""
 
     shell: bool
     emulate_tty: bool
@@ -110,12 +110,12 @@ class PerformedOptions:
 
     def may_respawn(self, respawned: int) -> bool:
         """
-        Whether the process is to be started again when it has ended.
+        Whether to respawn the process after it has exited.
 
         Parameters
         ----------
         respawned
-            How many times it has been started again already.
+            How many times it has already been respawned.
 
         """
         return self.respawn and (
@@ -129,7 +129,7 @@ def _timeout(
     keyword: str,
     substitutions: list[Substitution],
 ) -> str:
-    """Perform a timeout, which is a number of seconds."""
+    """Perform a timeout, and check that it is a number of seconds."""
     text = perform_substitutions(context, substitutions)
     try:
         float(text)
@@ -149,7 +149,7 @@ def timeout_substitutions(keyword: str, value: Any) -> list[Substitution]:
     keyword
         The name of the argument, for the error.
     value
-        A number of seconds, or anything that `text_like` takes.
+        A number of seconds, or anything that `text_like` accepts.
 
     Raises
     ------
@@ -167,12 +167,12 @@ def output_substitutions(value: Any) -> Any:
     Parameters
     ----------
     value
-        A dictionary by stream, which is returned as it is, or anything that `text_like` takes.
+        A dictionary by stream, which is returned as it is, or anything that `text_like` accepts.
 
     Returns
     -------
     dict or list of Substitution
-        The dictionary, or what stands for the name of a preset.
+        The dictionary, or the substitutions of the name of a preset.
 
     Raises
     ------

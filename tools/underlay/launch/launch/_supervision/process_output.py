@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is done with the output of a process."""
+"""Logging of the output of a process."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LAST_LINES = 20
 
 class ProcessOutput:
     """
-    Logs the lines that a process writes, and keeps the text if that is wanted.
+    Logger of the output lines of a process, which optionally caches the text.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ class ProcessOutput:
     config
         Where the output goes, as for `normalize_output_config`.
     line_format
-        How its lines look.
+        The format of its lines.
     keep
-        Whether the text is kept for `kept`.
+        Whether the text is cached for `kept`.
 
     Raises
     ------
@@ -56,7 +56,7 @@ class ProcessOutput:
 
     def feed(self, stream: int, data: bytes) -> None:
         """
-        Take bytes from an output stream, and log the lines that are complete.
+        Process bytes from an output stream, and log the lines that they complete.
 
         Parameters
         ----------
@@ -71,19 +71,19 @@ class ProcessOutput:
         self._log(stream, self._splitters[stream].feed(data))
 
     def flush(self) -> None:
-        """Log what stands behind the last line break."""
+        """Log the text after the last line break."""
         for stream, splitter in self._splitters.items():
             self._log(stream, splitter.flush())
 
     def show_last_lines(self) -> None:
-        """Show the last lines that have not been on the screen; they are in the log already."""
+        """Show the last output lines that were logged, but not shown on the screen."""
         for line in self._unseen:
             screen.write_line(f'    {line}')
         self._unseen.clear()
 
     def kept(self, stream: int) -> str:
         """
-        Return all the text of an output stream; it is empty if nothing is kept.
+        Return the cached text of an output stream; empty if it is not cached.
 
         Parameters
         ----------

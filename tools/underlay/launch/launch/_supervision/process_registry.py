@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All the processes of a launch that are running."""
+"""Registry of the running processes of a launch."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 class ProcessRegistry:
     """
-    Knows the running processes and leaves none of them behind, nor what they have started.
+    Registry of running processes that terminates all of them and their descendants.
 
     Parameters
     ----------
@@ -51,14 +51,14 @@ class ProcessRegistry:
 
     async def spawn(self, program: Program, stdout: int, stderr: int) -> Child:
         """
-        Start a program; it is forked if that is faster and makes no difference to it.
+        Start a program; fork it from a template if that is faster and equivalent.
 
         Parameters
         ----------
         program
-            What is started.
+            The program to start.
         stdout, stderr
-            The descriptors that its output goes to.
+            The file descriptors for its output.
 
         Raises
         ------
@@ -86,7 +86,7 @@ class ProcessRegistry:
         return await self._prefork.spawn(program, stdout, stderr)
 
     def hurry(self) -> None:
-        """Wait for no template any more; what is still to be started is executed."""
+        """Stop using the template; programs that are still to be started are executed."""
         if self._prefork is not None:
             self._prefork.close()
 
@@ -99,8 +99,8 @@ class ProcessRegistry:
         process
             The process, which leads its group.
         sigterm_s, sigkill_s
-            The seconds from SIGINT to SIGTERM, and from then to SIGKILL; the largest of all
-            processes are used for what is left at the end.
+            The time from SIGINT to SIGTERM and from SIGTERM to SIGKILL, in s; the maximum over all
+            processes applies to the processes that are left at the end.
 
         """
         self._sigterm_s = max(self._sigterm_s, sigterm_s)
@@ -110,7 +110,7 @@ class ProcessRegistry:
 
     def remove(self, process: RunningProcess) -> None:
         """
-        Forget a process that has ended, with all of its group.
+        Unregister a process that has exited with all of its group.
 
         Parameters
         ----------
@@ -128,12 +128,12 @@ class ProcessRegistry:
     # The end.
 
     def end_remainder(self) -> None:
-        """Begin to end what has left the groups of its processes."""
+        """Start to terminate processes that have left their process groups."""
         if self._has_started:
             self._ending().begin(self._sigterm_s, self._sigkill_s)
 
     async def finish(self) -> None:
-        """Wait until nothing is left, now that all processes have ended."""
+        """Wait until no process is left, after all registered processes have exited."""
         self.hurry()
         if self._has_started and (self._remainder is not None or self.family.members()):
             await self._ending().finish(self._sigterm_s, self._sigkill_s)
@@ -147,7 +147,7 @@ class ProcessRegistry:
         return self._remainder
 
     def close(self) -> None:
-        """Kill what is still running; after an orderly shutdown that is nothing."""
+        """Kill processes that are still running; after an orderly shutdown there are none."""
         self.hurry()
         for process in self._processes:
             process.kill_at_once()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is started, and what starts it."""
+"""Programs, and how to execute them."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from typing import IO, Optional, Protocol
 
 @dataclass(frozen=True)
 class Program:
-    """A command, and what its process finds when it starts."""
+    """Command with the working directory, environment and options of its process."""
 
     command: Sequence[str]
     cwd: Optional[str]
     env: Optional[Mapping[str, str]]
     shell: bool
-    preloader: Optional[str] = None  # the module that knows what such a process imports
-    detached: bool = False  # whether it goes on when the launch ends
-    marking: Callable[[], AbstractContextManager[None]] = nullcontext  # in force at its start
+    preloader: Optional[str] = None  # the module that imports what such a process needs
+    detached: bool = False  # whether it outlives the launch
+    marking: Callable[[], AbstractContextManager[None]] = nullcontext  # entered at its start
 
 
 class Child(Protocol):
@@ -32,10 +32,10 @@ class Child(Protocol):
 
     @property
     def stdin(self) -> Optional[IO[bytes]]:
-        """Return the end to write to of the standard input."""
+        """Return the write end of the standard input pipe."""
 
     def wait(self) -> int:
-        """Wait for the end; return the exit status, negative for a signal."""
+        """Wait for the process to exit; return the exit status, negative for a signal."""
 
 
 Spawn = Callable[[Program, int, int], Awaitable[Child]]
@@ -48,9 +48,9 @@ async def execute(program: Program, stdout: int, stderr: int) -> subprocess.Pope
     Parameters
     ----------
     program
-        What is started.
+        The program to start.
     stdout, stderr
-        The descriptors that its output goes to.
+        The file descriptors for its output.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell which commands run Python, whose output is late unless it is unbuffered."""
+"""Detect commands that run Python, whose output is delayed unless it is unbuffered."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def runs_python(command: Sequence[str], *, shell: bool) -> bool:
     command
         The words; what follows `--ros-args` is left out.
     shell
-        Whether a shell reads the command, and so splits the words at blanks.
+        Whether a shell runs the command, and therefore splits the words at spaces.
 
     """
     words = ' '.join(command).split() if shell else command
@@ -37,7 +37,7 @@ def _is_python(word: str) -> bool:
 
 
 def _interpreter(path: str) -> bytes:
-    """Return the first line of a script, empty for anything else."""
+    """Return the shebang of a script, empty for any other file."""
     try:
         if not os.path.isfile(path):
             return b''

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End what processes have started outside of their groups, when the launch ends."""
+"""Terminate processes outside the supervised groups when the launch ends."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from launch.logging import get_logger
 
 _AFTER_SIGKILL_S = 5.0
 _AT_ONCE_S = 2.0
-_LOOK_EVERY_S = 0.02  # where the system cannot tell of the end of a process
+_LOOK_EVERY_S = 0.02  # if no pidfd can be opened
 _MOST_WATCHED = 64  # at a time, as each of them takes a descriptor
 _MOST_NAMED = 5
 
@@ -26,7 +26,7 @@ Find = Callable[[signal.Signals], list[Member]]
 
 class Remainder:
     """
-    Interrupts, terminates and kills the members of a launch that no supervisor looks after.
+    Escalation of signals to the members of a launch that have no supervisor.
 
     Parameters
     ----------
@@ -45,14 +45,14 @@ class Remainder:
 
     def begin(self, sigterm_s: float, sigkill_s: float) -> None:
         """
-        Send SIGINT to what there is outside of the supervised groups, and schedule the rest.
+        Send SIGINT to processes outside the supervised groups, and schedule the other signals.
 
-        Nothing is done while this is under way already.
+        Does nothing if this is already in progress.
 
         Parameters
         ----------
         sigterm_s, sigkill_s
-            The seconds from SIGINT to SIGTERM, and from then to SIGKILL.
+            The time from SIGINT to SIGTERM and from SIGTERM to SIGKILL, in s.
 
         """
         if self._task is None or self._task.done():
@@ -61,7 +61,7 @@ class Remainder:
 
     async def finish(self, sigterm_s: float, sigkill_s: float) -> None:
         """
-        End all that is left, now that no supervisor is at work any more.
+        Terminate all remaining processes, after all supervisors have finished.
 
         Parameters
         ----------
@@ -75,7 +75,7 @@ class Remainder:
         await end_members(self._left, sigterm_s, sigkill_s)
 
     def _left(self, number: signal.Signals) -> list[Member]:
-        """Return who is to get a signal; a launch that was started here ends its own processes."""
+        """Return the members to signal; a nested launch terminates its own processes."""
         members = self._family.members()
         if self._is_alone.is_set():
             return members
@@ -93,20 +93,20 @@ async def end_members(
     changed: Optional[asyncio.Event] = None,
 ) -> None:
     """
-    Send SIGINT, SIGTERM and SIGKILL, one after the other, until nothing is left.
+    Send SIGINT, SIGTERM and SIGKILL, one after the other, until no member is left.
 
     Parameters
     ----------
     find
-        Called with the signal; returns who is left and is to get it.
+        Called with the signal; returns the remaining members to send it to.
     sigterm_s
-        The seconds from SIGINT to SIGTERM.
+        The time from SIGINT to SIGTERM in s.
     sigkill_s
-        The seconds from then to SIGKILL.
+        The time from SIGTERM to SIGKILL in s.
     interrupted
-        Who has got SIGINT already.
+        The members that have already received SIGINT.
     changed
-        An event that is set when `find` may return others.
+        An event that is set when `find` may return other members.
 
     """
     steps = (
@@ -130,7 +130,7 @@ async def _end_with(
     told: set[Member],
     changed: Optional[asyncio.Event],
 ) -> bool:
-    """Send a signal to all, also to those that come meanwhile; return whether none is left."""
+    """Send a signal to all members, including new ones; return whether none is left."""
     loop = asyncio.get_running_loop()
     end_s = loop.time() + patience_s
     while left := find(number):
@@ -150,7 +150,7 @@ async def _end_with(
 async def _wait(
     members: list[Member], patience_s: float, changed: Optional[asyncio.Event]
 ) -> None:
-    """Wait until these have ended, or until there may be others."""
+    """Wait until the members have exited, or until there may be others."""
     tasks: list[asyncio.Future[Any]] = [asyncio.gather(*map(_ended, members))]
     if changed is not None and not changed.is_set():
         tasks.append(asyncio.ensure_future(changed.wait()))
@@ -164,7 +164,7 @@ async def _wait(
 
 def kill_at_once(family: Family) -> None:
     """
-    Kill all members, as the launch has no time left to wait for them.
+    Kill all members at once, without a graceful termination.
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ def kill_at_once(family: Family) -> None:
 
 
 async def _ended(member: Member) -> None:
-    """Wait for the end of a member."""
+    """Wait for a member to exit."""
     loop = asyncio.get_running_loop()
     try:
         descriptor = os.pidfd_open(member.pid)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A process that was started, with its streams."""
+"""Running process with its streams."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ OnOutput = Callable[[int, bytes], None]
 
 class RunningProcess:
     """
-    A process in a session and a group of its own, with its streams.
+    Running process in a session and a process group of its own, with its streams.
 
     Parameters
     ----------
     child
         The process that was started.
     readers
-        The descriptors of its standard output and error, which are owned from now on; none if it
-        writes to a file.
+        The read ends of its standard output and error, of which it takes ownership; none if the
+        process writes to a file.
     loop
         The event loop that watches them.
     on_output
@@ -63,7 +63,7 @@ class RunningProcess:
 
     def send_signal(self, number: signal.Signals) -> None:
         """
-        Send a signal while the process runs, to its group if the signal ends, stops or continues.
+        Send a signal while the process runs; see `launch._supervision.process_group.send_signal`.
 
         Parameters
         ----------
@@ -76,7 +76,7 @@ class RunningProcess:
 
     def write(self, data: bytes) -> None:
         """
-        Write to the standard input of the process, if it still reads.
+        Write to the standard input of the process, if it is still open.
 
         Parameters
         ----------
@@ -90,7 +90,7 @@ class RunningProcess:
             pass
 
     def drain(self) -> None:
-        """Read what the process has written so far."""
+        """Read the output that is available so far."""
         for stream in self._streams:
             stream.drain()
 
@@ -102,12 +102,12 @@ class RunningProcess:
             self._child.stdin.close()
 
     def let_go(self) -> None:
-        """Watch the process no longer, which goes on."""
+        """Stop watching the process, which continues to run."""
         self.exited.cancel()
         self.close()
 
     def kill_at_once(self) -> None:
-        """Kill the group and wait for the end of the process."""
+        """Kill the process group, and wait for the process to exit."""
         send_signal(self.pid, signal.SIGKILL)
         self._child.wait()
         self.close()
@@ -128,9 +128,9 @@ async def start_process(
     Parameters
     ----------
     program
-        What is started.
+        The program to start.
     spawn
-        Starts it, given the two descriptors that its output goes to.
+        Function that starts it, given the two file descriptors for its output.
     emulate_tty
         Whether the output is a pseudo terminal rather than a pipe.
     loop
@@ -138,7 +138,7 @@ async def start_process(
     on_output
         Called with the number of the stream, 1 or 2, and the bytes.
     output_path
-        The file that the process appends to; without, `on_output` gets all.
+        The file that the process appends its output to; without one, `on_output` receives it.
 
     Raises
     ------
@@ -158,13 +158,13 @@ async def start_process(
 
 
 def _channels(emulate_tty: bool) -> tuple[Sequence[int], Sequence[int]]:
-    """Return the ends to read from and the ends to write to, of two streams."""
+    """Open two pipes or pseudo terminals; return the read ends and the write ends."""
     readers, writers = zip(*[os.openpty() if emulate_tty else os.pipe() for _ in range(2)])
     return readers, writers
 
 
 def _file(path: str) -> tuple[Sequence[int], Sequence[int]]:
-    """Return nothing to read from, and twice a file to write to."""
+    """Open a file for both streams; return no read ends, and two write ends."""
     flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC
     return (), [os.open(path, flags, 0o666) for _ in range(2)]
 

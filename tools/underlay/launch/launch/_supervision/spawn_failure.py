@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why a process could not be started."""
+"""Error messages for processes that could not be started."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def explain_spawn_failure(details: Mapping[str, Any], error: Exception) -> str:
     details
         `cmd` and `cwd` of the process.
     error
-        What was raised when it was to be started.
+        The exception that was raised on start.
 
     Returns
     -------

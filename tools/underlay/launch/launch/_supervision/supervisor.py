@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Watch over the process of an action, from its start to its end."""
+"""Supervise the process of an action, from start to exit."""
 
 from __future__ import annotations
 
@@ -32,27 +32,27 @@ if TYPE_CHECKING:
 
 class Supervisor:
     """
-    Starts a process, reports on it, starts it again if wanted, and ends it on shutdown.
+    Supervisor that starts, monitors and respawns a process, and terminates it on shutdown.
 
     Parameters
     ----------
     action
-        The action that runs the process; it is prepared.
+        The action that runs the process, which is already prepared.
     options
         How the process is to be run.
     context
-        The state of the launch, to which events are emitted.
+        The launch context, to which events are emitted.
     loop
-        The event loop, which starts the process when it gets to it.
+        The event loop that runs the supervision task.
 
     Attributes
     ----------
     output
-        What becomes of the output.
+        The logging of the output.
     return_code
-        How the process has ended, None before that; negative for a signal.
+        The exit status, negative for a signal; None before the process has exited.
     task
-        Done when the process has ended for good.
+        Task that is done when the process has exited and is not respawned.
 
     """
 
@@ -87,13 +87,13 @@ class Supervisor:
 
     @property
     def details(self) -> dict[str, Any]:
-        """Return the facts about the process; `pid` is there when it was started."""
+        """Return the details of the process; `pid` is set once it has started."""
         return self._details
 
-    # What others may ask for.
+    # Requests.
 
     def stop(self) -> None:
-        """End the process, and do not start it again."""
+        """Terminate the process, and do not respawn it."""
         if not self._stopped.done():
             self._stopped.set_result(None)
         if self._process is None:
@@ -102,7 +102,7 @@ class Supervisor:
             self._begin_escalation()
 
     def end_with_launch(self) -> None:
-        """End the process as the launch ends, or let it go if it is to outlive that."""
+        """Terminate the process on shutdown, or stop watching it if it is detached."""
         if self._is_detached and not self._let_go.done():
             self._let_go.set_result(None)
         if not self._is_detached or self._process is None:
@@ -110,7 +110,7 @@ class Supervisor:
 
     def send_signal(self, number: signal.Signals) -> None:
         """
-        Send a signal to the process; one that has ended needs none.
+        Send a signal to the process; do nothing if it has already exited.
 
         Parameters
         ----------
@@ -148,11 +148,11 @@ class Supervisor:
             self._process.write(data)
 
     def _stop_waiting(self) -> None:
-        """Let a start that is under way come to its end soon, if everything is to end."""
+        """Speed up a pending start if the launch is shutting down."""
         if self._context.is_shutdown and self._context._processes is not None:
             self._context._processes.hurry()
 
-    # The life of the process.
+    # Life cycle of the process.
 
     async def _supervise(self) -> None:
         respawned = 0
@@ -170,7 +170,7 @@ class Supervisor:
             await asyncio.wait([self._stopped], timeout=delay)
 
     async def _run_once(self) -> bool:
-        """Run the process to its end; return whether it could be started."""
+        """Run the process until it exits; return False if it failed to start or was let go."""
         process = await self._start()
         if process is None:
             return False
@@ -194,7 +194,7 @@ class Supervisor:
         return processes is not None and processes.family.detaches(self._details['env'])
 
     async def _ends_before_launch(self, process: RunningProcess) -> bool:
-        """Wait for the end of a process or of the launch; return which it is, and let it go."""
+        """Wait for a process or the launch to end; on the latter, let go and return False."""
         await asyncio.wait([process.exited, self._let_go], return_when=asyncio.FIRST_COMPLETED)
         if process.exited.done() or self._stopped.done():
             return True
@@ -225,7 +225,7 @@ class Supervisor:
         return process
 
     def _output_path(self) -> Optional[str]:
-        """Return the file that a detached process writes to, as the launch may end before it."""
+        """Return the output file of a detached process, which may outlive the launch, or None."""
         return launch_config.get_log_file_path(f'{self._label}.log') if self._is_detached else None
 
     def _program(self) -> Program:
@@ -278,13 +278,13 @@ class Supervisor:
             self.output.show_last_lines()
 
     def _note_failure(self, return_code: int) -> None:
-        """Keep the status of the first process that failed, as a shell gives it."""
+        """Record the exit status of the first failed process, as a shell reports it."""
         if self._context._first_failure is None:
             status = 128 - return_code if return_code < 0 else return_code
             self._context._first_failure = status
 
     def _forget(self, process: RunningProcess) -> None:
-        """Let go of a process that has ended; one that has not is left to the registry."""
+        """Release a process that has exited; one that has not is left to the registry."""
         self._process = None
         if process.exited.done():
             process.close()
@@ -314,9 +314,9 @@ class Supervisor:
             self._context._processes.end_remainder()
 
     def _send(self, process: RunningProcess, number: signal.Signals) -> None:
-        """Send a signal to the group of a process, and to what it has started outside of it."""
+        """Send a signal to the group of a process, and to its descendants outside the group."""
         processes = None if self._context.is_shutdown else self._context._processes
-        if processes is None:  # the launch ends all that is outside of the groups itself
+        if processes is None:  # the launch itself terminates all processes outside the groups
             process.send_signal(number)
             return
         self._note_escaped(process, processes.family, number)
@@ -330,7 +330,7 @@ class Supervisor:
     def _note_escaped(
         self, process: RunningProcess, family: Family, number: signal.Signals
     ) -> None:
-        """Find what is outside of the group, while it is known where it comes from."""
+        """Record the descendants outside the group while their ancestry is known."""
         from launch._supervision.member import is_alive
 
         with_nested = number == signal.SIGKILL
@@ -342,7 +342,7 @@ class Supervisor:
         self._escaped = list(dict.fromkeys([*filter(is_alive, self._escaped), *news]))
 
     async def _end_escaped(self) -> None:
-        """End what has got the signals that were meant for the process, but lives on."""
+        """Terminate the descendants that have survived the signals sent to the process."""
         if not self._escaped:
             return
         from launch._supervision.member import is_alive

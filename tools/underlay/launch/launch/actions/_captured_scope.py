@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The scope of an action that comes later."""
+"""Captured scope of actions that are executed later."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 class EnterScope(LaunchDescriptionEntity):
     """
-    Entity that opens a scope with the launch configurations of an earlier time.
+    Entity that opens a scope with captured launch configurations.
 
     Parameters
     ----------
     configurations
-        The launch configurations, which replace those of now.
+        The captured launch configurations, which replace the current ones.
     local_variables
-        The local variables, which are added to those of now; `event` stays.
+        The captured local variables, which are added to the current ones; `event` is kept.
 
     """
 
@@ -35,7 +35,7 @@ class EnterScope(LaunchDescriptionEntity):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context._push_launch_configurations()
@@ -46,16 +46,16 @@ class EnterScope(LaunchDescriptionEntity):
 
 
 class LeaveScope(LaunchDescriptionEntity):
-    """Closes the scope."""
+    """Entity that closes the scope."""
 
     def visit(self, context: LaunchContext) -> None:
         """
-        Restore the launch configurations of before the scope.
+        Restore the launch configurations from before the scope.
 
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context._pop_launch_configurations()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep track of which launch file is being read."""
+"""Track the launch file that is being read."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ _FOLDER = 'current_launch_file_directory'
 
 def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile:
     """
-    Make a launch file the one that is being read.
+    Make a launch file the current one.
 
     Parameters
     ----------
     context
-        The state of the launch; its local variables get the path and the folder of the file.
+        The launch context; its local variables are set to the path and the directory of the file.
     file
         The entry of the include stack.
 
     Returns
     -------
     LeaveLaunchFile
-        The entity that ends this, to be visited after what the file contains.
+        The entity that leaves the file; visit it after the contents of the file.
 
     """
     known = context.get_locals_as_dict()
@@ -45,10 +45,10 @@ def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile
 
 class LeaveLaunchFile(LaunchDescriptionEntity):
     """
-    Makes the including file the one that is being read again.
+    Entity that makes the including file the current one again.
 
-    In ROS 2 Jazzy, ThisLaunchFile and ThisLaunchFileDir go on to stand for the included file; they
-    do so here unless the context is told otherwise.
+    In ROS 2 Jazzy, ThisLaunchFile and ThisLaunchFileDir continue to refer to the included file.
+    They do the same here, unless the context scopes the location.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class LeaveLaunchFile(LaunchDescriptionEntity):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context._open_files = self._open_files

@@ -30,11 +30,11 @@ class AppendEnvironmentVariable(Action):
     name
         The name of the variable.
     value
-        What is added.
+        The value to add.
     prepend
-        Whether it comes before the present value.
+        Whether to prepend rather than append it.
     separator
-        What stands between both, by default that of paths (`:`).
+        The separator between both values, by default that of paths (`:`).
     **kwargs
         Keyword arguments of `Action`.
 
@@ -83,27 +83,27 @@ class AppendEnvironmentVariable(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     @property
     def value(self) -> list[Substitution]:
-        """Return the parts of the value."""
+        """Return the value as a list of substitutions."""
         return self.__value
 
     @property
     def separator(self) -> list[Substitution]:
-        """Return the parts of the separator."""
+        """Return the separator as a list of substitutions."""
         return self.__separator
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Add the value; a variable that is not set becomes the value alone.
+        Append or prepend the value; an unset variable is set to it.
 
         Parameters
         ----------
         context
-            The state of the launch, in which substitutions are performed.
+            The launch context, in which substitutions are performed.
 
         """
         name = perform_substitutions(context, self.__name)

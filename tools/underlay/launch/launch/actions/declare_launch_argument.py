@@ -30,9 +30,9 @@ class DeclareLaunchArgument(Action):
     default_value
         The value if the user sets none; None if the argument must be given.
     description
-        What it is for, for people.
+        The description for the user.
     choices
-        The values that are allowed; None if all are.
+        The allowed values; None if all are allowed.
     **kwargs
         Keyword arguments of `Action`.
 
@@ -41,7 +41,7 @@ class DeclareLaunchArgument(Action):
     TypeError
         An argument has the wrong type; the error names it.
     RuntimeError
-        There are no choices in `choices`, or the default is none of them.
+        `choices` is empty, or the default is not one of them.
 
     """
 
@@ -120,17 +120,17 @@ class DeclareLaunchArgument(Action):
 
     @property
     def default_value(self) -> Optional[list[Substitution]]:
-        """Return the parts of the default, or None if the argument must be given."""
+        """Return the default as a list of substitutions, or None if the argument must be given."""
         return self.__default_value
 
     @property
     def description(self) -> str:
-        """Return what the argument is for."""
+        """Return the description of the argument."""
         return self.__description
 
     @property
     def choices(self) -> Optional[Container[str]]:
-        """Return the values that are allowed, or None if all are."""
+        """Return the allowed values, or None if all are allowed."""
         choices: Optional[Container[str]] = self.__choices
         return choices
 
@@ -144,12 +144,12 @@ class DeclareLaunchArgument(Action):
         Parameters
         ----------
         context
-            The state of the launch, in which the default is performed.
+            The launch context, in which the default is performed.
 
         Raises
         ------
         RuntimeError
-            There is no value, or it is none of the choices.
+            The argument has no value, or it is not one of the choices.
 
         """
         context.launch_configurations.declared.add(self.__name)
@@ -177,7 +177,7 @@ class DeclareLaunchArgument(Action):
 
 
 def _describe(description: Optional[str], choices: Optional[Iterable[str]]) -> str:
-    """Return the description with the choices in it."""
+    """Format the description with the choices."""
     if choices is None:
         return 'no description given' if description is None else description
     if description is None:

@@ -51,7 +51,7 @@ class EmitEvent(Action):
         Parameters
         ----------
         context
-            The state of the launch, with the queue.
+            The launch context, with the queue.
 
         """
         context.emit_event_sync(self.__event)

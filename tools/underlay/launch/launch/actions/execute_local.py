@@ -35,34 +35,34 @@ class ExecuteLocal(Action):
     Parameters
     ----------
     process_description
-        What is executed.
+        The description of the executable.
     shell
-        Whether a shell reads the command line.
+        Whether a shell runs the command line.
     sigterm_timeout
-        The seconds from SIGINT to SIGTERM when the process is to end.
+        The time from SIGINT to SIGTERM in s, when the process is to be terminated.
     sigkill_timeout
-        The seconds from then to SIGKILL.
+        The time from SIGTERM to SIGKILL in s.
     emulate_tty
-        Whether the output is a terminal for the process.
+        Whether to emulate a TTY for the output of the process.
     output
         Where the output goes: screen, log, both, own_log, full, or a dictionary by stream.
     output_format
-        How a line of the output looks: a brace-style format of `line` and `this`, the action.
+        The format of output lines: a brace-style format of `line` and `this`, the action.
     cached_output
-        Whether the output is kept for get_stdout() and get_stderr().
+        Whether the output is cached for get_stdout() and get_stderr().
     log_cmd
         Whether the command line is logged.
     on_exit
-        What is visited, or called, when the process has ended.
+        The entities to visit, or the function to call, when the process has exited.
     respawn
-        Whether the process is started again when it has ended.
+        Whether to respawn the process when it has exited.
     respawn_delay
-        The seconds before that.
+        The delay before the respawn in s.
     respawn_max_retries
-        How many times at most; negative stands for always.
+        The maximum number of respawns; negative for no limit.
     detached
-        Whether the process goes on when the launch ends; it has no standard input then, and writes
-        to a file in the folder of the log (not in ROS 2 Jazzy).
+        Whether the process outlives the launch; it then has no standard input, and writes to a
+        file in the log directory (not in ROS 2 Jazzy).
     **kwargs
         Keyword arguments of `Action`.
 
@@ -74,7 +74,7 @@ class ExecuteLocal(Action):
     """
 
     preloader: Optional[str] = None
-    """The module that knows what Python programs of this kind import; without, none is forked."""
+    """The module that imports what these Python programs need; without it, none is forked."""
 
     def __init__(
         self,
@@ -123,66 +123,66 @@ class ExecuteLocal(Action):
         self.__executed = False
         self.__supervisor: Optional[Supervisor] = None
 
-    # What the action is about.
+    # Properties of the action.
 
     @property
     def process_description(self) -> Executable:
-        """Return the description of what is executed."""
+        """Return the description of the executable."""
         return self.__process_description
 
     @property
     def shell(self) -> bool:
-        """Return whether a shell reads the command line."""
+        """Whether a shell runs the command line."""
         return self.__shell
 
     @property
     def emulate_tty(self) -> Any:
-        """Return whether the output is a terminal, or the substitutions that stand for it."""
+        """Whether to emulate a TTY for the output, as a bool or as substitutions."""
         return self.__emulate_tty
 
     @property
     def output(self) -> Any:
-        """Return where the output goes."""
+        """Return the output configuration."""
         return self.__output
 
     @property
     def name(self) -> Any:
-        """Return the label once it is known, and before the parts of the name."""
+        """Return the label once it is known, until then the substitutions of the name."""
         return self.__process_description.final_name or self.__process_description.name
 
     @property
     def cmd(self) -> Any:
-        """Return the command line once it is known, and before the parts of its words."""
+        """Return the command line once it is known, until then the substitutions of its words."""
         return self.__process_description.final_cmd or self.__process_description.cmd
 
     @property
     def cwd(self) -> Any:
-        """Return the folder once it is known, and before its parts."""
+        """Return the working directory once it is known, until then its substitutions."""
         return self.__process_description.final_cwd or self.__process_description.cwd
 
     @property
     def env(self) -> Any:
-        """Return the environment once it is known, and before its parts."""
+        """Return the environment once it is known, until then its substitutions."""
         return self.__process_description.final_env or self.__process_description.env
 
-    # What became of it.
+    # State of the process.
 
     @property
     def process_details(self) -> Optional[dict[str, Any]]:
-        """Return name, cmd, cwd, env and pid of the process, None before it was executed."""
+        """Return name, cmd, cwd, env and pid of the process, None before the execution."""
         return self.__supervisor.details if self.__supervisor is not None else None
 
     @property
     def return_code(self) -> Optional[int]:
-        """Return how the process ended, None before that."""
+        """Return the exit status of the process, None before it has exited."""
         return self.__supervisor.return_code if self.__supervisor is not None else None
 
     def get_stdout(self) -> str:
-        """Return what the process has written to its standard output, if it is kept."""
+        """Return the cached standard output of the process."""
         return self._kept_output(1)
 
     def get_stderr(self) -> str:
-        """Return what the process has written to its standard error, if it is kept."""
+        """Return the cached standard error of the process."""
         return self._kept_output(2)
 
     def _kept_output(self, stream: int) -> str:
@@ -192,7 +192,7 @@ class ExecuteLocal(Action):
             )
         return '' if self.__supervisor is None else self.__supervisor.output.kept(stream)
 
-    # What it does.
+    # Execution.
 
     def description_of_process(self) -> dict[str, Any]:
         """Return the final name, cmd, cwd and env."""
@@ -206,39 +206,39 @@ class ExecuteLocal(Action):
 
     def prepare(self, context: LaunchContext) -> None:
         """
-        Determine the final command, label, folder and environment of the process.
+        Determine the final command, label, working directory and environment of the process.
 
         Parameters
         ----------
         context
-            The state of the launch, in which substitutions are performed.
+            The launch context, in which substitutions are performed.
 
         """
         self.__process_description.prepare(context, self, shell=self.__shell)
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that are visited when the process has ended."""
+        """Return the entities that are visited when the process has exited."""
         if self.__on_exit is None or callable(self.__on_exit):
             return []
         return list(self.__on_exit)
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """
-        Start the process as soon as all that is being visited is done.
+        Start the process as soon as the current visit is complete.
 
         Parameters
         ----------
         context
-            The state of a running launch, in which substitutions are performed.
+            The context of a running launch, in which substitutions are performed.
 
         Raises
         ------
         RuntimeError
             The action was executed before, or the launch is not running.
         ProgramNotFoundError
-            The program is not there, which is checked before the first process starts.
+            The program does not exist, which is checked before the first process starts.
         ValueError
-            The command is empty, or an option becomes something that cannot be used.
+            The command is empty, or an option resolves to an invalid value.
 
         """
         if self.__executed:
@@ -257,7 +257,7 @@ class ExecuteLocal(Action):
         return None
 
     def _options(self) -> ProcessOptions:
-        """Return the options as they are now: public code changes some after the construction."""
+        """Return the current options: public code modifies some of them after construction."""
         from launch._supervision.process_options import ProcessOptions
 
         return ProcessOptions(
@@ -276,7 +276,7 @@ class ExecuteLocal(Action):
         )
 
     def _check_program(self, context: LaunchContext) -> None:
-        """Raise an error if nothing has been started yet and the program is not there."""
+        """Raise an error if the program does not exist and nothing has been started yet."""
         checks = context._before_start
         if checks is not None and checks.resolves_programs and not self.shell:
             from launch._programs import require_program
@@ -284,7 +284,7 @@ class ExecuteLocal(Action):
             require_program(self.description_of_process())
 
     def _tell(self, observer: VisitObserver) -> None:
-        """Tell who watches what would be started."""
+        """Notify the observer of the process that would be started."""
         details = self.description_of_process()
         observer.note(
             label=details['name'],
@@ -330,12 +330,12 @@ class ExecuteLocal(Action):
             )
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
-        """Return a future that is done when the process has ended for good."""
+        """Return a future that is done when the process has exited and is not respawned."""
         return None if self.__supervisor is None else self.__supervisor.task
 
 
 def _reaction(on_exit: Any) -> list[LaunchDescriptionEntity]:
-    """Return what is visited when the process has ended as a list."""
+    """Normalise the entities to visit when the process has exited to a list."""
     if isinstance(on_exit, LaunchDescriptionEntity):
         return [on_exit]
     entities = list_like('on_exit', on_exit, 'actions, an action or a callable')
@@ -345,7 +345,7 @@ def _reaction(on_exit: Any) -> list[LaunchDescriptionEntity]:
 
 
 def _check_plain_options(shell: Any, respawn_delay: Any, respawn_max_retries: Any) -> None:
-    """Raise an error that names the keyword if an option cannot be used."""
+    """Validate the types of options; errors name the keyword."""
     of_type('shell', shell, (bool,), 'True or False')
     if respawn_delay is not None:
         of_type('respawn_delay', respawn_delay, (int, float), 'a number of seconds')

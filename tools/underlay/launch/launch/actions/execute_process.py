@@ -24,15 +24,15 @@ class ExecuteProcess(ExecuteLocal):
     cmd
         The program and its arguments; each item becomes one argument.
     prefix
-        What comes before the program, such as `gdb -ex run --args`.
+        The command prefix, such as `gdb -ex run --args`.
     name
-        The label in the log; the name of the program if it is left out.
+        The label in the log; by default the name of the program.
     cwd
-        The folder in which the process is started.
+        The working directory of the process.
     env
-        The whole environment of the process.
+        The complete environment of the process.
     additional_env
-        What is added to its environment.
+        The variables that are added to its environment.
     **kwargs
         Keyword arguments of `ExecuteLocal`.
 

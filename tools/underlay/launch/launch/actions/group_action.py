@@ -39,8 +39,8 @@ class GroupAction(Action):
     scoped
         Whether changes of launch configurations and environment end with the group.
     forwarding
-        Whether those from outside get into the scope; otherwise it begins with the environment
-        that the launch was started with, and `launch_configurations` alone.
+        Whether those from outside are forwarded into the scope; otherwise it starts with the
+        environment that the launch was started with, and only `launch_configurations`.
     launch_configurations
         Values that are set before the actions, by name.
     **left_over_kwargs
@@ -103,7 +103,7 @@ class GroupAction(Action):
         return cls, kwargs
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the actions, with those around them that make the scope, if it is one."""
+        """Return the actions, enclosed in those that create the scope if there is one."""
         if self.__entities is None:
             self.__entities = self._around_actions(bool(self.__scoped), bool(self.__forwarding))
         return self.__entities
@@ -130,12 +130,12 @@ class GroupAction(Action):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """
-        Return the actions, which are visited next, with those around them that make the scope.
+        Return the actions to visit next, enclosed in those that create the scope.
 
         Parameters
         ----------
         context
-            The state of the launch, in which `scoped` and `forwarding` are performed.
+            The launch context, in which `scoped` and `forwarding` are performed.
 
         """
         if context._observer is not None:

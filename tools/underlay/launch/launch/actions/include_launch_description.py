@@ -37,7 +37,7 @@ class IncludeLaunchDescription(Action):
     Parameters
     ----------
     launch_description_source
-        The source, or a path, which is read in any format.
+        The source, or the path of a launch file in any format.
     launch_arguments
         Pairs of a name and a value, which are set before the file is visited.
     **kwargs
@@ -105,7 +105,7 @@ class IncludeLaunchDescription(Action):
         return self.__launch_arguments
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'IncludeLaunchDescription({self.__launch_description_source.location})'
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -124,25 +124,25 @@ class IncludeLaunchDescription(Action):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """
-        Load the launch file and make it the one that is being read.
+        Load the launch file and make it the current one.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the path is performed.
+            The launch context, in which the path is performed.
 
         Returns
         -------
         list of LaunchDescriptionEntity
-            The settings of the arguments, the description, and the end of the include, which are
-            visited next.
+            The actions that set the arguments, the description, and the end of the include, which
+            are visited next.
 
         Raises
         ------
         FileNotFoundError
-            There is no such file.
+            The file does not exist.
         CircularIncludeError
-            The file includes itself for ever.
+            The file includes itself endlessly.
         RuntimeError
             The file declares an argument that has no default and is not given.
 
@@ -158,7 +158,7 @@ class IncludeLaunchDescription(Action):
         return [*arguments, description, leave]
 
     def _get_launch_file(self) -> str:
-        """Return the path of the file as far as it is known; public code asks for it."""
+        """Return the path of the file as far as it is known; public code uses this method."""
         source = self.__launch_description_source
         return os.path.abspath(source._location_in_advance() or source.location)
 
@@ -169,7 +169,7 @@ class IncludeLaunchDescription(Action):
         Parameters
         ----------
         context
-            The context in which names are performed; without one, those not known yet are empty.
+            The context in which names are performed; without one, unknown names are empty.
 
         """
         return [_text(name, context) for name, _ in self.__launch_arguments]
@@ -178,7 +178,7 @@ class IncludeLaunchDescription(Action):
         return {'path': self.__launch_description_source.location}
 
     def _check_required(self, description: LaunchDescription, context: LaunchContext) -> None:
-        """Raise an error if an argument is neither given nor has a default."""
+        """Raise an error if an argument without a default is not given."""
         given = self.given_names(context)
         found = description.get_launch_arguments_with_include_launch_description_actions()
         for argument, includes in found:
@@ -199,7 +199,7 @@ class IncludeLaunchDescription(Action):
         argument: DeclareLaunchArgument,
         includes: list[IncludeLaunchDescription],
     ) -> None:
-        """Note the line of the innermost include, which is to give what is missing."""
+        """Record the line of the innermost include, which must pass the missing argument."""
         from launch._failure_place import note_line
 
         lines = [each.call_site for each in reversed([self, *includes]) if each.call_site]
@@ -210,7 +210,7 @@ class IncludeLaunchDescription(Action):
 
 
 def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:
-    """Return the launch arguments as pairs; what is none is refused."""
+    """Validate the launch arguments, which must be pairs of a name and a value."""
     if isinstance(launch_arguments, Mapping):
         raise TypeError(
             "the argument 'launch_arguments' must be a list of pairs, but it is a dictionary: "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that logs a text."""
+"""The action that logs a string."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class LogInfo(Action):
 
     @property
     def msg(self) -> list[Substitution]:
-        """Return the parts of the text."""
+        """Return the text as a list of substitutions."""
         return self.__msg
 
     def _outline(self) -> dict[str, Any]:
@@ -71,7 +71,7 @@ class LogInfo(Action):
         Parameters
         ----------
         context
-            The state of the launch, in which the text is performed.
+            The launch context, in which the text is performed.
 
         """
         from launch.logging import get_logger

@@ -64,7 +64,7 @@ class OpaqueCoroutine(Action):
         Parameters
         ----------
         context
-            The state of a running launch.
+            The context of a running launch.
 
         Raises
         ------

@@ -62,12 +62,12 @@ class OpaqueFunction(Action):
         Parameters
         ----------
         context
-            The state of the launch, which is the first argument.
+            The launch context, which is the first argument.
 
         Returns
         -------
         iterable of LaunchDescriptionEntity or None
-            What the function returns, which is visited next.
+            The entities that the function returns, which are visited next.
 
         Raises
         ------

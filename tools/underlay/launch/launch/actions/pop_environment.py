@@ -21,7 +21,7 @@ class PopEnvironment(Action):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         Raises
         ------

@@ -21,7 +21,7 @@ class PopLaunchConfigurations(Action):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         Raises
         ------

@@ -16,12 +16,12 @@ class PushEnvironment(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Keep a copy of the environment.
+        Save a copy of the environment.
 
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context._push_environment()

@@ -16,12 +16,12 @@ class PushLaunchConfigurations(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Keep a copy of the launch configurations.
+        Save a copy of the launch configurations.
 
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context._push_launch_configurations()

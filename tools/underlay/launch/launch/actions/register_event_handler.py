@@ -43,7 +43,7 @@ class RegisterEventHandler(Action):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context.register_event_handler(self.__event_handler)

@@ -21,7 +21,7 @@ class ResetEnvironment(Action):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         """
         context._reset_environment()

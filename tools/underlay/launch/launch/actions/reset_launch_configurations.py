@@ -26,8 +26,8 @@ class ResetLaunchConfigurations(Action):
     Parameters
     ----------
     launch_configurations
-        What there is afterwards, values by name; they may refer to configurations that are
-        removed.
+        The launch configurations to set, values by name; they may refer to configurations that
+        are removed.
     **kwargs
         Keyword arguments of `Action`.
 
@@ -70,12 +70,12 @@ class ResetLaunchConfigurations(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Replace all launch configurations by those that were given.
+        Replace all launch configurations by the given ones.
 
         Parameters
         ----------
         context
-            The state of the launch, in which they are performed before.
+            The launch context, in which they are performed first.
 
         """
         kept = {

@@ -67,12 +67,12 @@ class SetLaunchConfiguration(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     @property
     def value(self) -> list[Substitution]:
-        """Return the parts of the value."""
+        """Return the value as a list of substitutions."""
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
@@ -82,7 +82,7 @@ class SetLaunchConfiguration(Action):
         Parameters
         ----------
         context
-            The state of the launch, in which name and value are performed.
+            The launch context, in which name and value are performed.
 
         """
         name = perform_substitutions(context, self.__name)

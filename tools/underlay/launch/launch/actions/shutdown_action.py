@@ -27,7 +27,7 @@ class Shutdown(Action):
     Parameters
     ----------
     reason
-        Why the launch ends, for people.
+        The reason for the shutdown, for the user.
     **kwargs
         Keyword arguments of `Action`.
 
@@ -66,12 +66,12 @@ class Shutdown(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Queue the event of the shutdown.
+        Queue the shutdown event.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the reason is performed.
+            The launch context, in which the reason is performed.
 
         """
         event = context.get_locals_as_dict().get('event')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that waits before it visits others."""
+"""The action that visits other actions after a delay."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 
 
 class Cancelable(Protocol):
-    """A period that has begun."""
+    """Running timer that can be canceled."""
 
     def cancel(self) -> None:
-        """Forget about it."""
+        """Cancel the timer."""
 
 
 class TimerAction(Action):
@@ -38,9 +38,9 @@ class TimerAction(Action):
     Parameters
     ----------
     period
-        The period in s: a float, or substitutions that stand for one.
+        The period in s: a float, or substitutions that resolve to one.
     actions
-        The actions that are visited then.
+        The actions to visit after the period.
     cancel_on_shutdown
         Whether a shutdown cancels the timer; otherwise the launch waits for it.
     **kwargs
@@ -49,7 +49,7 @@ class TimerAction(Action):
     Raises
     ------
     TypeError
-        The period is an int, or an argument has another wrong type.
+        The period is an int, or another argument has the wrong type.
 
     """
 
@@ -96,7 +96,7 @@ class TimerAction(Action):
 
     @property
     def period(self) -> Any:
-        """Return the period in seconds, or the substitutions that stand for it."""
+        """Return the period in s, or the substitutions that resolve to it."""
         return self.__period
 
     @property
@@ -105,7 +105,7 @@ class TimerAction(Action):
         return self.__actions
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'TimerAction(period={self.__period}, actions=<actions>)'
 
     def describe_conditional_sub_entities(
@@ -127,7 +127,7 @@ class TimerAction(Action):
         Parameters
         ----------
         context
-            The state of a running launch; its launch configurations are those of the actions.
+            The context of a running launch; its configurations are captured for the actions.
 
         Raises
         ------
@@ -155,11 +155,11 @@ class TimerAction(Action):
         loop: asyncio.AbstractEventLoop,
         period_s: float,
     ) -> Cancelable:
-        """Let the period begin; subclasses measure it by other clocks."""
+        """Start the period; subclasses measure it by other clocks."""
         return loop.call_later(period_s, self._run_out, context)
 
     def _reaction(self, context: LaunchContext) -> EventHandler:
-        """Return the handler that visits the actions in the scope of now."""
+        """Create the handler that visits the actions in the current scope."""
         configurations = context.launch_configurations.snapshot()
         entities = [
             EnterScope(configurations, context.get_locals_as_dict()),
@@ -178,7 +178,7 @@ class TimerAction(Action):
             self._finish()
 
     def cancel(self) -> None:
-        """Stop the timer, or keep it from starting."""
+        """Cancel the timer, or prevent it from starting."""
         self.__canceled = True
         if self.__timer is not None:
             self.__timer.cancel()
@@ -189,12 +189,12 @@ class TimerAction(Action):
             self.__done.set_result(None)
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
-        """Return a future that is done when the timer is."""
+        """Return a future that is done when the timer has expired or is canceled."""
         return self.__done
 
 
 def _checked_period(period: Any) -> Any:
-    """Return the period as a float or as substitutions; ints are refused, texts are doubtful."""
+    """Normalise the period to a float or substitutions; reject ints, and warn about strings."""
     if isinstance(period, int) and not isinstance(period, bool):
         raise TypeError(
             'the period of a TimerAction must be a float or a substitution, but it is the '

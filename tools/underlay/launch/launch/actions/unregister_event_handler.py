@@ -41,7 +41,7 @@ class UnregisterEventHandler(Action):
         Parameters
         ----------
         context
-            The state of the launch.
+            The launch context.
 
         Raises
         ------

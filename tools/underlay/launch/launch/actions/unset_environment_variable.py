@@ -58,7 +58,7 @@ class UnsetEnvironmentVariable(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     def execute(self, context: LaunchContext) -> None:
@@ -68,7 +68,7 @@ class UnsetEnvironmentVariable(Action):
         Parameters
         ----------
         context
-            The state of the launch, in which the name is performed.
+            The launch context, in which the name is performed.
 
         """
         name = perform_substitutions(context, self.__name)

@@ -36,7 +36,7 @@ class UnsetLaunchConfiguration(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     def execute(self, context: LaunchContext) -> None:
@@ -46,7 +46,7 @@ class UnsetLaunchConfiguration(Action):
         Parameters
         ----------
         context
-            The state of the launch, in which the name is performed.
+            The launch context, in which the name is performed.
 
         """
         context.launch_configurations.pop(perform_substitutions(context, self.__name), None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the truth value of an expression."""
+"""Evaluate an expression as a boolean."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class InvalidConditionExpressionError(Exception):
     """An expression is neither true nor false."""
 
     def __init__(self, expression: str, expected: Iterable[str], origin: str) -> None:
-        """Create the error from what the expression became, and what it was made from."""
+        """Create the error from the expanded expression and its origin."""
         super().__init__(
             f'invalid condition expression, expected one of [{", ".join(expected)}] '
             f"but got '{expression}', expanded from '{origin}'"
@@ -32,14 +32,14 @@ def evaluate_condition_expression(
     expression: Iterable[Substitution],
 ) -> bool:
     """
-    Evaluate an expression as a boolean: true, 1, false or 0, in any case.
+    Evaluate an expression as a boolean: true, 1, false or 0, case-insensitively.
 
     Parameters
     ----------
     context
-        The state of the launch, in which the expression is performed.
+        The launch context, in which the expression is performed.
     expression
-        The substitutions, whose texts are joined; space around the result is ignored.
+        The substitutions, which are concatenated; surrounding whitespace is ignored.
 
     Raises
     ------

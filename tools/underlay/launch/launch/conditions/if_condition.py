@@ -21,7 +21,7 @@ class IfCondition(Condition):
     """
     Condition that is fulfilled if an expression is true or 1, and not if it is false or 0.
 
-    To evaluate any other expression is an error.
+    Evaluating any other expression raises an error.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class IfCondition(Condition):
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         parts = ' + '.join(sub.describe() for sub in self.__predicate_expression)
         return f'{type(self).__name__}({parts})'
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A condition that compares a launch configuration with a text."""
+"""A condition that compares a launch configuration with a string."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ class LaunchConfigurationEquals(Condition):
     """
     Condition that is fulfilled if a launch configuration has a value.
 
-    Deprecated, which it warns of: `IfCondition(EqualsSubstitution(...))` is the newer way.
+    Deprecated, with a warning: use `IfCondition(EqualsSubstitution(...))` instead.
 
     Parameters
     ----------
     launch_configuration_name
         The name of the configuration.
     expected_value
-        The text to compare with, or what stands for it; None for a configuration that is not set.
+        The string or substitutions to compare with; None for a configuration that is not set.
 
     """
 
@@ -51,7 +51,7 @@ class LaunchConfigurationEquals(Condition):
         )
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         expected = ' + '.join(sub.describe() for sub in self._expected or ()) or None
         return f"{type(self).__name__}('{self._name}', {expected})"
 

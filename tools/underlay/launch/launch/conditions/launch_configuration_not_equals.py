@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A condition that tells a launch configuration from a text."""
+"""A condition that is fulfilled if a launch configuration differs from a string."""
 
 from __future__ import annotations
 

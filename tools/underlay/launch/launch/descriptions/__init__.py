@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Descriptions of what actions work on."""
+"""Descriptions of the executables that actions run."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The description of a program with its arguments, folder and environment."""
+"""The description of a program with its arguments, working directory and environment."""
 
 from __future__ import annotations
 
@@ -28,25 +28,25 @@ _numbers = count(1)
 
 class Executable:
     """
-    Description of what is executed; its final form is known when it is prepared.
+    Description of an executable; its final values are known when it is prepared.
 
     Parameters
     ----------
     cmd
         The program and its arguments; each item becomes one argument.
     prefix
-        What comes before the program, such as `gdb -ex run --args`; without one, the launch
-        configurations `launch-prefix` and `launch-prefix-filter` decide.
+        The command prefix, such as `gdb -ex run --args`; without one, the launch configurations
+        `launch-prefix` and `launch-prefix-filter` are used.
     name
-        The label in the log, before its number; the file name of the program if it is left out.
+        The label in the log, without its number; by default the file name of the program.
     cwd
-        The folder in which the process is started; that of the launch if it is left out.
+        The working directory of the process; by default that of the launch.
     env
-        The whole environment of the process; without one it inherits that of the launch.
+        The complete environment of the process; by default it inherits that of the launch.
     additional_env
-        What is added to its environment.
+        The variables that are added to its environment.
     arguments : Optional[Iterable[SomeSubstitutionsType]]
-        More arguments, which come after those of `cmd`.
+        Additional arguments, which are appended to those of `cmd`.
 
     Raises
     ------
@@ -82,32 +82,32 @@ class Executable:
 
     @property
     def cmd(self) -> list[list[Substitution]]:
-        """Return the parts of each argument."""
+        """Return the arguments, each as a list of substitutions."""
         return self.__cmd
 
     @property
     def prefix(self) -> Optional[list[Substitution]]:
-        """Return the parts of the prefix."""
+        """Return the prefix as a list of substitutions."""
         return self.__prefix
 
     @property
     def name(self) -> Optional[list[Substitution]]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     @property
     def cwd(self) -> Optional[list[Substitution]]:
-        """Return the parts of the folder."""
+        """Return the working directory as a list of substitutions."""
         return self.__cwd
 
     @property
     def env(self) -> Optional[Variables]:
-        """Return the whole environment, or None if it is inherited."""
+        """Return the complete environment, or None if it is inherited."""
         return self.__env
 
     @property
     def additional_env(self) -> Variables:
-        """Return what is added to the environment."""
+        """Return the variables that are added to the environment."""
         return self.__additional_env
 
     @property
@@ -122,7 +122,7 @@ class Executable:
 
     @property
     def final_cwd(self) -> Optional[str]:
-        """Return the folder, once it is known; None is that of the launch."""
+        """Return the working directory, once it is known; None for that of the launch."""
         return self.__final_cwd
 
     @property
@@ -139,18 +139,18 @@ class Executable:
         shell: bool = False,
     ) -> None:
         """
-        Determine the final command, label, folder and environment.
+        Determine the final command, label, working directory and environment.
 
         Parameters
         ----------
         context
-            The state of the launch, in which substitutions are performed.
+            The launch context, in which substitutions are performed.
         action
             The action that runs it, for the error.
         extra_arguments
-            What comes behind the arguments of `cmd`.
+            Arguments that are appended to those of `cmd`.
         shell
-            Whether a shell reads the command line.
+            Whether a shell runs the command line.
 
         Raises
         ------
@@ -174,7 +174,7 @@ class Executable:
         self.__final_env = self._environment(context, shell)
 
     def _prefix_words(self, context: LaunchContext, command: list[str]) -> list[str]:
-        """Return the prefix given here, or that of the whole launch if its filter matches."""
+        """Return the prefix given here, or else that of the launch if its filter matches."""
         if self.__prefix is not None:
             return shlex.split(perform_substitutions(context, self.__prefix))
         pattern = context.launch_configurations.get('launch-prefix-filter')
@@ -197,10 +197,10 @@ _last_copy: tuple[Any, dict[str, str]] = ({}, {})
 
 def _copy_of(variables: Mapping[str, str]) -> dict[str, str]:
     """
-    Return a dictionary of variables.
+    Copy environment variables to a dictionary.
 
-    Those of the operating system are texts of bytes in Python, and each is decoded whenever it is
-    read. As long as none has changed since the last copy, that copy is as good.
+    `os.environ` holds bytes and decodes a variable on each access, so the last copy is reused
+    until a variable changes.
     """
     global _last_copy
     if variables is not os.environ:

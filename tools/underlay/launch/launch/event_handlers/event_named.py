@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A matcher of events by their name."""
+"""Matcher of events by name."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from launch.event import Event
 
 def event_named(name: str) -> Callable[[Event], bool]:
     """
-    Create a matcher of the events that have a name.
+    Create a matcher of events by name.
 
     Parameters
     ----------
@@ -20,7 +20,7 @@ def event_named(name: str) -> Callable[[Event], bool]:
     Returns
     -------
     callable
-        Takes an event, and returns whether it has the name.
+        Predicate that accepts an event, and returns whether it has the name.
 
     """
     return lambda event: event.name == name

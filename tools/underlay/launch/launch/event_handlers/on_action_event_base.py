@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of the handlers of events that belong to an action."""
+"""The base class of handlers of events that belong to an action."""
 
 from __future__ import annotations
 
@@ -70,19 +70,19 @@ class OnActionEventBase(BaseEventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Return which events the handler accepts, for people."""
+        """Return a human-readable description of the accepted events."""
         event = self.__target_event_cls.__name__
         return f'event == {event} and event.action == {self.__action_matcher}'
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a short description for people, and the entities behind it."""
+        """Return a short human-readable description, and the entities that are visited."""
         return super().describe()[0], list(self.__actions_on_event)
 
     def _awaited(self) -> str:
         return f'{self.__target_event_cls.__name__} of {target_in_words(self.__action_matcher)}'
 
     def _is_meant(self, event: Event) -> bool:
-        """Return whether the event belongs to the target."""
+        """Check whether the event belongs to the target."""
         if not isinstance(event, self.__target_event_cls):
             return False
         if self.__action_matcher is None or event.action is self.__action_matcher:
@@ -100,7 +100,7 @@ class OnActionEventBase(BaseEventHandler):
         Parameters
         ----------
         event, context
-            As for `BaseEventHandler.handle`; a function as the reaction is called with both.
+            As for `BaseEventHandler.handle`; a reaction that is a function is called with both.
 
         """
         super().handle(event, context)
@@ -111,7 +111,7 @@ class OnActionEventBase(BaseEventHandler):
 
 def target_in_words(target: Any) -> str:
     """
-    Describe whose events a handler waits for.
+    Describe the target whose events a handler waits for.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the completion of actions."""
+"""Event handler for the completion of actions."""
 
 from __future__ import annotations
 

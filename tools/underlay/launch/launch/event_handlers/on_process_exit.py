@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the end of processes."""
+"""Event handler for the exit of processes."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the output of processes."""
+"""Event handler for the input and output of processes."""
 
 from __future__ import annotations
 

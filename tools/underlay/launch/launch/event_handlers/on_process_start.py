@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the start of processes."""
+"""Event handler for the start of processes."""
 
 from __future__ import annotations
 

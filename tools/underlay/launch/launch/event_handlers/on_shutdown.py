@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the shutdown."""
+"""Event handler for the shutdown of the launch."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ class OnShutdown(BaseEventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Return which events the handler accepts, for people."""
+        """Return a human-readable description of the accepted events."""
         return 'event is Shutdown'
 
     def _awaited(self) -> str:
         return 'the shutdown'
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a short description for people, and the entities behind it."""
+        """Return a short human-readable description, and the entities that are visited."""
         return super().describe()[0], list(self.__entities)
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
@@ -57,7 +57,7 @@ class OnShutdown(BaseEventHandler):
         Parameters
         ----------
         event, context
-            As for `BaseEventHandler.handle`; a function as the reaction is called with both.
+            As for `BaseEventHandler.handle`; a reaction that is a function is called with both.
 
         """
         super().handle(event, context)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event of an action that is done."""
+"""The event of an action that has completed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class ExecutionComplete(Event):
     Parameters
     ----------
     action
-        The action that is done.
+        The completed action.
 
     """
 
@@ -29,5 +29,5 @@ class ExecutionComplete(Event):
 
     @property
     def action(self) -> Action:
-        """Return the action that is done."""
+        """Return the completed action."""
         return self.__action

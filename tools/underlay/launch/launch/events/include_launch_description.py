@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event that brings a launch description in."""
+"""The event that includes a launch description."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 class IncludeLaunchDescription(Event):
     """
-    Event that brings in a launch description.
+    Event that includes a launch description.
 
     Parameters
     ----------
     launch_description
-        The description that is to be visited.
+        The description to visit.
 
     """
 

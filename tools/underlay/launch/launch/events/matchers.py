@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that tell whether an event belongs to an action."""
+"""Matchers of actions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def matches_action(target_action: ExecuteLocal) -> Callable[[Any], bool]:
     Returns
     -------
     callable
-        Takes an action, and returns whether it is this one.
+        Predicate that accepts an action, and returns whether it is this one.
 
     """
     return lambda action: action is target_action

@@ -13,7 +13,7 @@ class Shutdown(Event):
     Parameters
     ----------
     reason
-        Why the launch ends, for people.
+        The reason for the shutdown, for the user.
     due_to_sigint
         Whether the user pressed Ctrl-C.
 
@@ -32,10 +32,10 @@ class Shutdown(Event):
 
     @property
     def reason(self) -> str:
-        """Return why the launch ends."""
+        """Return the reason for the shutdown."""
         return self.__reason
 
     @property
     def due_to_sigint(self) -> bool:
-        """Return whether the user pressed Ctrl-C."""
+        """Whether the user pressed Ctrl-C."""
         return self.__due_to_sigint

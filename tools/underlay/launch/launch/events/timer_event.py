@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event of a timer that has run out."""
+"""The event of a timer that has expired."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 class TimerEvent(Event):
     """
-    Event of a timer action whose period is over.
+    Event of a timer action whose period has elapsed.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch files in other formats than Python: what their readers share."""
+"""Common code of the parsers of launch files in formats other than Python."""
 
 from __future__ import annotations
 

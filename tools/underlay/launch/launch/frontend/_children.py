@@ -16,7 +16,7 @@ Text = tuple[Substitution, ...]
 
 def children_named(entity: Entity, *type_names: str) -> list[Entity]:
     """
-    Get the children of an element that have any of some tags.
+    Get the children of an element that have any of the given tags.
 
     Parameters
     ----------
@@ -45,14 +45,14 @@ def parse_pairs(
     second: str = 'value',
 ) -> list[tuple[Text, Text]]:
     """
-    Read two attributes of each child of an element that has any of some tags.
+    Read two attributes of each child of an element that has any of the given tags.
 
     Parameters
     ----------
     entity
         The element.
     parser
-        The parser of the file, which makes substitutions of the attributes.
+        The parser of the file, which parses substitutions.
     *type_names
         The tags of the children.
     first, second
@@ -68,7 +68,7 @@ def parse_pairs(
     AttributeError
         A child lacks one of the attributes.
     ValueError
-        A child has something else in it.
+        A child has other attributes or children.
 
     """
     pairs = []

@@ -16,7 +16,7 @@ def command_words(parts: Iterable[Substitution]) -> list[list[Substitution]]:
     """
     Split a command line into words, as a shell does.
 
-    Plain texts are split. What a substitution becomes is never split.
+    Plain strings are split; the results of substitutions are never split.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def command_words(parts: Iterable[Substitution]) -> list[list[Substitution]]:
 
 
 class _Splitter:
-    """Collects words."""
+    """Splitter that collects the words."""
 
     def __init__(self) -> None:
         self._words: list[list[Substitution]] = []
@@ -53,12 +53,12 @@ class _Splitter:
         self._quote = ''
 
     def add(self, part: Substitution) -> None:
-        """Add a substitution to the word of now."""
+        """Add a substitution to the current word."""
         self._flush()
         self._begin().append(part)
 
     def add_text(self, text: str) -> None:
-        """Add a text, which may end words and begin others."""
+        """Add a string, which may end words and start others."""
         characters = iter(text)
         for character in characters:
             if character == '\\':
@@ -75,7 +75,7 @@ class _Splitter:
                 self._plain += character
 
     def _escaped(self, character: str) -> None:
-        """Add a character behind a backslash, which stays where it protects nothing."""
+        """Add a character after a backslash, which is kept if it escapes nothing."""
         protected = _PROTECTED_BY_BACKSLASH[self._quote]
         self._begin()
         if protected is None or character in protected:
@@ -85,7 +85,7 @@ class _Splitter:
         self.add_text(character)
 
     def finish(self) -> list[list[Substitution]]:
-        """Return the words."""
+        """Complete the last word and return all words."""
         if self._quote:
             raise ValueError(f'the quote {self._quote} is never closed in a command line')
         self._end()

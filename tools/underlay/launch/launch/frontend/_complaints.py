@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The texts of errors about elements of launch files."""
+"""Error messages about elements of launch files."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _ATTRIBUTES = {
 
 def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]) -> str:
     """
-    Format the error about a missing attribute, with advice on what may be meant for it.
+    Format the error about a missing attribute, with suggestions.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]
     name, data_type
         The attribute that was asked for, and its type.
     left
-        The names of attributes and children that nobody has asked for.
+        The names of attributes and children that have not been read.
 
     """
     text = f"Attribute '{name}' of type '{data_type}' not found in Entity '{entity.type_name}'"
@@ -68,11 +68,11 @@ def unexpected_names(entity: Entity, kind: str, names: list[str], known: list[st
     entity
         The element.
     kind
-        What they are: `attribute(s)` or `nested tag(s)`.
+        Their kind: `attribute(s)` or `nested tag(s)`.
     names
         Their names.
     known
-        The names that the element can have, one of which may be meant.
+        The names that the element can have, for suggestions.
 
     """
     listed = ', '.join(f"'{name}'" for name in sorted(set(names)))
@@ -89,7 +89,7 @@ def wrong_value(entity: Entity, name: str, error: Exception) -> str:
     entity, name
         The element, and the attribute.
     error
-        What is wrong with the value.
+        The error about the value.
 
     """
     return f"The attribute '{name}' of `{entity.type_name}` cannot be used: {error}"
@@ -97,14 +97,14 @@ def wrong_value(entity: Entity, name: str, error: Exception) -> str:
 
 def unknown_tag(name: str, known: Iterable[str]) -> str:
     """
-    Format the error about a tag that does not exist, with advice on what may be meant.
+    Format the error about a tag that does not exist, with suggestions.
 
     Parameters
     ----------
     name
         The tag.
     known
-        The tags that there are.
+        The known tags.
 
     """
     old = f"'{name}' is none of the tags of ROS 2: {_TAGS[name]}." if name in _TAGS else ''
@@ -114,14 +114,14 @@ def unknown_tag(name: str, known: Iterable[str]) -> str:
 
 def unknown_substitution(name: str, known: Iterable[str]) -> str:
     """
-    Format the error about a substitution that does not exist, with advice on what may be meant.
+    Format the error about a substitution that does not exist, with suggestions.
 
     Parameters
     ----------
     name
         The name of the substitution.
     known
-        The names that there are.
+        The known names.
 
     """
     new = _SUBSTITUTIONS.get(name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tags, substitutions and parsers that other packages offer as entry points."""
+"""Tags, substitutions and parsers that other packages provide as entry points."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def extension_parsers() -> dict[str, type[Parser]]:
 
 
 def _load_group(group: str, known: Any) -> dict[str, Any]:
-    """Load what an entry point group offers; one that cannot be loaded is warned about."""
+    """Load all entry points of a group; warn about those that cannot be loaded."""
     loaded = {}
     for point in entry_points_of(group):
         if point.name in known:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The grammar of texts with substitutions, such as `$(find-pkg-share $(var package))/launch`."""
+"""The grammar of strings with substitutions, such as `$(find-pkg-share $(var package))/launch`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _QUOTES = '\'"'
 
 @dataclass(frozen=True)
 class Call:
-    """A substitution in a text: its name, its arguments and where it begins."""
+    """A substitution in a string: its name, its arguments and its position."""
 
     name: str
     arguments: list[Template]
@@ -29,29 +29,29 @@ Template = list[Union[str, Call]]
 
 def read_template(text: str) -> Template:
     """
-    Split a text of a launch file into plain texts and substitutions.
+    Split a string of a launch file into plain strings and substitutions.
 
     Parameters
     ----------
     text
-        The text; backslashes in it protect the characters behind them.
+        The text; backslashes in it escape the characters after them.
 
     Returns
     -------
     list
-        A `str` for each plain text, and a `Call` for each substitution.
+        A `str` for each plain string, and a `Call` for each substitution.
 
     Raises
     ------
     InvalidSubstitutionError
-        A substitution is written wrongly.
+        A substitution has a syntax error.
 
     """
     return _Reader(text).template(stop='')
 
 
 class _Reader:
-    """Reads a text from left to right."""
+    """Recursive descent parser of a string."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -71,7 +71,7 @@ class _Reader:
         return [*parts, plain] if plain or not parts else parts
 
     def _plain_text(self) -> str:
-        """Read a character, or the one that a backslash protects, or a run of harmless ones."""
+        """Read a character, an escaped character, or a run of ordinary characters."""
         harmless = _HARMLESS.match(self._text, self._at)
         if harmless is not None:
             self._at = harmless.end()

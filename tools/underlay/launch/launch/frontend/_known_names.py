@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The tags and substitutions of launch itself, by the place where each is defined.
+Locations of the tags and substitutions of launch itself.
 
 They are loaded when a launch file uses them; other packages use `launch.frontend.expose`.
 """
@@ -60,19 +60,19 @@ _MORE = ('launch_ros._known_names',)
 
 @cache
 def known_actions() -> dict[str, str]:
-    """Return where the action of each tag is."""
+    """Return the location of the action of each tag."""
     return _together('ACTIONS', ACTIONS)
 
 
 @cache
 def known_substitutions() -> dict[str, str]:
-    """Return where each substitution is."""
+    """Return the location of each substitution."""
     return _together('SUBSTITUTIONS', SUBSTITUTIONS)
 
 
 def load(place: str) -> type:
     """
-    Import the class at a place.
+    Import the class at a location.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the attributes of elements that stand for processes."""
+"""Read the attributes of elements that describe processes."""
 
 from __future__ import annotations
 
@@ -12,34 +12,34 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
 
-# Attributes with substitutions, by the names that the constructor has for them.
+# Attributes with substitutions, and the constructor arguments that they become.
 _TEXTS = {
     'cwd': 'cwd',
     'launch-prefix': 'prefix',
     'name': 'name',
     'output': 'output',
 }
-# Attributes that have a type, or substitutions that stand for it.
+# Typed attributes that may have substitutions.
 _LATER_TYPED = {
     'detached': bool,
     'respawn': bool,
     'sigkill_timeout': float,
     'sigterm_timeout': float,
 }
-# Attributes that must have a type at once.
+# Typed attributes without substitutions.
 _TYPED = {'emulate_tty': bool, 'respawn_delay': float, 'respawn_max_retries': int, 'shell': bool}
 
 
 def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> dict[str, Any]:
     """
-    Read the attributes of an element that stands for a process.
+    Read the attributes of an element that describes a process.
 
     Parameters
     ----------
     entity
         The element.
     parser
-        The parser of the file, which makes substitutions of texts.
+        The parser of the file, which parses substitutions.
     ignored
         The names of attributes that are left to the caller.
 
@@ -51,7 +51,7 @@ def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> di
     Raises
     ------
     ValueError
-        The attribute `on_exit` is something else than `shutdown`.
+        The attribute `on_exit` is not `shutdown`.
 
     """
     kwargs = parse_texts(
@@ -75,21 +75,21 @@ def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> di
 
 def parse_texts(entity: Entity, parser: Parser, names: dict[str, str]) -> dict[str, Any]:
     """
-    Read attributes of an element that are texts and need not be there.
+    Read optional string attributes of an element.
 
     Parameters
     ----------
     entity
         The element.
     parser
-        The parser of the file, which makes substitutions of texts.
+        The parser of the file, which parses substitutions.
     names
         The keyword of each attribute in the result.
 
     Returns
     -------
     dict
-        The substitutions of each attribute that is there, by its keyword.
+        The substitutions of each present attribute, by its keyword.
 
     """
     kwargs: dict[str, Any] = {}
@@ -109,7 +109,7 @@ def parse_command(text: str, parser: Parser) -> list[Any]:
     text
         The command line.
     parser
-        The parser of the file, which makes substitutions of texts.
+        The parser of the file, which parses substitutions.
 
     Returns
     -------

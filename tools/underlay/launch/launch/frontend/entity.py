@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An element of a launch file, in whatever format."""
+"""An element of a launch file, in any format."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ _numbers = count(1)
 
 class Entity:
     """
-    An element of a launch file with attributes and children, which notes what has been asked for.
+    Element of a launch file, which records the attributes and children that have been read.
 
-    A format derives from this class and says where attributes and children are. The elements of a
-    file are created in the order that they have in it.
+    Each format derives from this class and implements the access to attributes and children. The
+    elements of a file are created in the order of the file.
 
     Parameters
     ----------
     type_name
         The tag of the element.
     parent
-        The element around it, None for the root.
+        The parent element, None for the root.
     call_site
-        The line of the file at which the element lies, if it is known.
+        The line of the element in the file, if it is known.
 
     Attributes
     ----------
@@ -60,12 +60,12 @@ class Entity:
 
     @property
     def parent(self) -> Optional[Entity]:
-        """Return the element around this one, None for the root."""
+        """Return the parent element, None for the root."""
         return self.__parent
 
     @property
     def children(self) -> list[Entity]:
-        """Return the elements in this one; subclasses override this."""
+        """Return the child elements; subclasses override this."""
         raise NotImplementedError
 
     def get_attr(
@@ -87,16 +87,16 @@ class Entity:
             str, int, float, bool, a list of one of them, None for any of those, or List[Entity]
             for children.
         optional
-            Whether None is returned if there is none, rather than an error raised.
+            Whether to return None if there is none, rather than raise an error.
         can_be_str
-            Whether a value with substitutions is returned as a text.
+            Whether a value with substitutions is returned as a string.
 
         Raises
         ------
         AttributeError
             There is no such attribute or child, and it is not optional.
         TypeError
-            The value cannot have the type.
+            The value cannot be converted to the type.
 
         """
         self.__asked.append(name)
@@ -109,7 +109,7 @@ class Entity:
         return value
 
     def assert_entity_completely_parsed(self) -> None:
-        """Raise a ValueError if there is anything in the element that nobody asked for."""
+        """Raise a ValueError if the element has attributes or children that have not been read."""
         for kind, names in self._left():
             if names:
                 raise ValueError(unexpected_names(self, kind, names, self.__asked))
@@ -126,5 +126,5 @@ class Entity:
         raise NotImplementedError
 
     def _left(self) -> list[tuple[str, list[str]]]:
-        """Return each kind of thing that can be in the element, with the names left over."""
+        """Return the names of attributes and children that have not been read, by kind."""
         raise NotImplementedError

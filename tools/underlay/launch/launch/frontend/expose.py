@@ -34,8 +34,8 @@ def expose_action(name: str) -> Callable[[ExposedT], ExposedT]:
     Returns
     -------
     callable
-        Takes a class that has `parse`, or a parsing function, and returns it; a RuntimeError says
-        that the tag is taken, or that nothing can be parsed.
+        Decorator of a class that has `parse`, or of a parsing function. It raises a
+        RuntimeError if the tag is taken, or if there is no method to parse with.
 
     """
     return _expose(name, action_parse_methods, known_actions)
@@ -61,12 +61,12 @@ def expose_substitution(name: str) -> Callable[[ExposedT], ExposedT]:
 
 def instantiate_action(entity: Entity, parser: Parser) -> Action:
     """
-    Create the action that an element stands for.
+    Create the action that an element describes.
 
     Parameters
     ----------
     entity
-        The element; nothing may be left in it that was not asked for.
+        The element, all attributes and children of which must be read.
     parser
         The parser of the file.
 
@@ -90,7 +90,7 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
 
 def instantiate_substitution(name: str, arguments: Iterable[Any]) -> Substitution:
     """
-    Create the substitution that has a name in launch files.
+    Create a substitution by its name in launch files.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def _find(
     exposed: dict[str, ParseMethod],
     known: dict[str, str],
 ) -> ParseMethod | None:
-    """Return how something is parsed: from here, from what is loaded, from extensions."""
+    """Find the parse method of a name: built-in, registered, or of an extension."""
     if name in known:
         return _parse_method(load(known[name]))
     if name not in exposed:

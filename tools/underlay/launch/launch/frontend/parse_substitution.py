@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make substitutions of the texts in launch files."""
+"""Parse strings with substitutions in launch files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from launch.substitutions.text_substitution import TextSubstitution
 
 def parse_substitution(string_value: str) -> list[Substitution]:
     """
-    Parse a text of a launch file with substitutions such as `$(name arguments)`.
+    Parse a string of a launch file with substitutions such as `$(name arguments)`.
 
     Parameters
     ----------
@@ -26,12 +26,12 @@ def parse_substitution(string_value: str) -> list[Substitution]:
     Returns
     -------
     list of Substitution
-        Its parts in order, a `TextSubstitution` for each plain text.
+        Its parts in order, a `TextSubstitution` for each plain string.
 
     Raises
     ------
     InvalidSubstitutionError
-        A substitution is written wrongly, or not known.
+        A substitution has a syntax error, or is unknown.
 
     """
     return [part for part, _ in parse_with_positions(string_value)]
@@ -39,7 +39,7 @@ def parse_substitution(string_value: str) -> list[Substitution]:
 
 def parse_if_substitutions(value: Any) -> Any:
     """
-    Parse a text, or each text of a list; return anything else as it is.
+    Parse a string, or each string of a list; return anything else as it is.
 
     Parameters
     ----------
@@ -49,12 +49,12 @@ def parse_if_substitutions(value: Any) -> Any:
     Returns
     -------
     Any
-        The substitutions of the text, a list of those of each text, or the value.
+        The substitutions of the string, a list of those of each string, or the value.
 
     Raises
     ------
     InvalidSubstitutionError
-        A substitution is written wrongly, or not known.
+        A substitution has a syntax error, or is unknown.
 
     """
     if isinstance(value, str):
@@ -66,12 +66,12 @@ def parse_if_substitutions(value: Any) -> Any:
 
 def replace_escaped_characters(data: str) -> str:
     """
-    Replace each backslash in a text by the character that it protects.
+    Replace each escape sequence in a string by the escaped character.
 
     Parameters
     ----------
     data
-        The text, in which substitutions are not looked for.
+        The string, in which substitutions are not parsed.
 
     """
     return re.sub(r'\\(.)', r'\1', data, flags=re.DOTALL)
@@ -79,7 +79,7 @@ def replace_escaped_characters(data: str) -> str:
 
 def parse_with_positions(text: str) -> Iterator[tuple[Substitution, int]]:
     """
-    Parse a text of a launch file, with the positions of its substitutions.
+    Parse a string of a launch file, with the positions of its substitutions.
 
     Parameters
     ----------
@@ -89,13 +89,12 @@ def parse_with_positions(text: str) -> Iterator[tuple[Substitution, int]]:
     Yields
     ------
     tuple
-        Each part as a substitution, and the index at which it begins in the text; 0 if it is
-        plain.
+        Each part as a substitution, and its start index in the string; 0 for plain strings.
 
     Raises
     ------
     InvalidSubstitutionError
-        A substitution is written wrongly, or not known.
+        A substitution has a syntax error, or is unknown.
 
     """
     for part in read_template(text):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn the elements of a launch file into actions."""
+"""Parse the elements of a launch file into actions."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ SomeFile = Union[str, 'os.PathLike[str]', TextIO]
 
 
 class Parser:
-    """Reads launch files; a format derives from this class and overrides `load`."""
+    """Base class of the parsers of launch files; each format overrides `load`."""
 
     @classmethod
     def load(cls, file: SomeFile) -> tuple[Entity, Parser]:
         """
-        Load a launch file; those parsers come first that its name suits.
+        Load a launch file; parsers that claim its file name are tried first.
 
         Parameters
         ----------
@@ -46,7 +46,7 @@ class Parser:
         Raises
         ------
         InvalidFrontendLaunchFileError
-            No parser can read it; the text has the errors of those that claim files of this name.
+            No parser can read it; the message has the errors of those that claim its file name.
 
         """
         errors: dict[type[Parser], InvalidFrontendLaunchFileError] = {}
@@ -64,7 +64,7 @@ class Parser:
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Return the ends of the names of files that have this format; overridden likewise."""
+        """Return the file extensions of this format; each format overrides this."""
         return set()
 
     @classmethod
@@ -82,7 +82,7 @@ class Parser:
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
-        """Return the ends of the names of files in any format that there is."""
+        """Return the file extensions of all available formats."""
         return sorted(end for each in cls._available() for end in each.get_file_extensions())
 
     @classmethod
@@ -100,7 +100,7 @@ class Parser:
 
     @classmethod
     def _in_order(cls, file_name: str) -> Iterator[type[Parser]]:
-        """Yield the parsers, those first that claim files of this name."""
+        """Yield the parsers, starting with those that claim the file name."""
         known = list(_known_parsers())
         yield from sorted(known, key=lambda parser: not parser.claims(file_name))
         yield from (parser for parser in cls._available() if parser not in known)
@@ -113,7 +113,7 @@ class Parser:
 
     def parse_action(self, entity: Entity) -> Action:
         """
-        Create the action that an element stands for.
+        Create the action that an element describes.
 
         Parameters
         ----------
@@ -132,7 +132,7 @@ class Parser:
 
     def parse_actions(self, entities: Iterable[Entity]) -> list[Action]:
         """
-        Create the actions that elements stand for.
+        Create the actions that elements describe.
 
         Parameters
         ----------
@@ -144,7 +144,7 @@ class Parser:
 
     def parse_substitution(self, value: str) -> list[Substitution]:
         """
-        Parse a text with substitutions.
+        Parse a string with substitutions.
 
         Parameters
         ----------
@@ -159,14 +159,14 @@ class Parser:
         Raises
         ------
         InvalidSubstitutionError
-            A substitution is written wrongly, or not known.
+            A substitution has a syntax error, or is unknown.
 
         """
         return parse_substitution(value)
 
     def escape_characters(self, value: str) -> str:
         """
-        Replace each backslash in a text that cannot have substitutions by what it protects.
+        Replace escape sequences in a string that cannot have substitutions.
 
         Parameters
         ----------
@@ -178,7 +178,7 @@ class Parser:
 
     def parse_if_substitutions(self, value: Any) -> Any:
         """
-        Parse a text, or each text of a list; return anything else as it is.
+        Parse a string, or each string of a list; return anything else as it is.
 
         Parameters
         ----------
@@ -195,7 +195,7 @@ class Parser:
 
     def parse_description(self, entity: Entity) -> LaunchDescription:
         """
-        Create the launch description that the root element stands for.
+        Create the launch description that the root element describes.
 
         Parameters
         ----------
@@ -215,7 +215,7 @@ class Parser:
 
 
 def _known_parsers() -> Iterator[type[Parser]]:
-    """Yield the parsers of this workspace, as far as they are installed."""
+    """Yield the parsers of this workspace that are installed."""
     from importlib.util import find_spec
 
     from launch.frontend._known_names import load, PARSERS

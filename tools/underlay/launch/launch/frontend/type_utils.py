@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of attributes."""
+"""Types of attributes in launch files."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def check_is_list_entity(data_type: Any) -> bool:
 
 def get_data_type_from_identifier(type_name: str) -> Any:
     """
-    Look up a type by the name that launch files have for it.
+    Look up a type by its name in launch files.
 
     Parameters
     ----------
@@ -54,12 +54,12 @@ def get_data_type_from_identifier(type_name: str) -> Any:
     Returns
     -------
     Any
-        The type; None stands for YAML rules.
+        The type; None for the rules of YAML.
 
     Raises
     ------
     ValueError
-        There is no such name.
+        The name is unknown.
 
     """
     if type_name not in _TYPES:
@@ -78,7 +78,7 @@ def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
     data_type
         The type, as for `Entity.get_attr`.
     can_be_str
-        Whether a text with substitutions is returned as it is.
+        Whether a string with substitutions is returned as it is.
 
     Raises
     ------
@@ -101,21 +101,21 @@ def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
 
 def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[Any]:
     """
-    Convert the texts of a list to the type of its items.
+    Convert the strings of a list to the type of its items.
 
     Parameters
     ----------
     texts
-        The texts.
+        The strings.
     data_type
         The type of the list, such as `list[int]`; for any other, YAML rules decide.
     can_be_str
-        Whether a list of texts with substitutions is returned as it is.
+        Whether a list of strings with substitutions is returned as it is.
 
     Raises
     ------
     TypeError
-        A text cannot be converted, or has substitutions that are not allowed.
+        A string cannot be converted, or has substitutions that are not allowed.
     ValueError
         YAML rules give items of different types.
 
@@ -129,16 +129,16 @@ def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[A
 
 def checked_value(value: Any, data_type: Any, can_be_str: bool) -> Any:
     """
-    Check the type of a value that has one already, as in YAML.
+    Check the type of a value that is already typed, as in YAML.
 
     Parameters
     ----------
     value
-        The value; a text is converted as by `value_of_text`.
+        The value; a string is converted as by `value_of_text`.
     data_type
         The type, as for `Entity.get_attr`.
     can_be_str
-        Whether texts with substitutions are returned as they are.
+        Whether strings with substitutions are returned as they are.
 
     Raises
     ------

@@ -13,12 +13,12 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
     """
-    Source that loads a launch file in whatever format it is.
+    Source that loads a launch file in any format.
 
     Parameters
     ----------
     launch_file_path
-        The path of the file, or what stands for it.
+        The path of the file, as a string or substitutions.
 
     """
 

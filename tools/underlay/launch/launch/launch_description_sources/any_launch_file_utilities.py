@@ -24,14 +24,14 @@ def get_launch_description_from_any_launch_file(
     Parameters
     ----------
     launch_file_path
-        The path of the file, whose extension says what is tried first.
+        The path of the file, whose extension determines the format that is tried first.
 
     Raises
     ------
     FileNotFoundError
-        There is no such file.
+        The file does not exist.
     InvalidLaunchFileError
-        It could not be loaded in any format; the text says why not.
+        It could not be loaded in any format; the message states why.
 
     """
     path = os.fspath(launch_file_path)
@@ -51,14 +51,14 @@ def get_launch_description_from_any_launch_file(
 
 
 def _load_first(path: str, extension: str) -> LaunchDescription:
-    """Load a file in the format that its name tells."""
+    """Load a file in the format of its extension."""
     if extension == _PYTHON:
         return get_launch_description_from_python_launch_file(path)
     return _load_other_format(path)
 
 
 def _load_second(path: str, extension: str) -> LaunchDescription:
-    """Load it in another format; files named as Python's are Python or nothing."""
+    """Load a file in the other format; files with the extension `.py` must be Python."""
     if extension == _PYTHON:
         raise InvalidFrontendLaunchFileError()
     return get_launch_description_from_python_launch_file(path)
@@ -73,7 +73,7 @@ def _load_other_format(path: str) -> LaunchDescription:
 
 
 def _both(extension: str, first: Exception, second: Exception) -> InvalidLaunchFileError:
-    """Return the error of a file that could not be loaded in either way."""
+    """Create the error for a file that could not be loaded in either format."""
     unknown = isinstance(first, InvalidFrontendLaunchFileError) and not first.is_about_content
     if unknown and isinstance(second, SyntaxError):
         return InvalidFrontendLaunchFileError()

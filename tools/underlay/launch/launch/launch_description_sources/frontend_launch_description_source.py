@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The source of a launch description in another format than Python."""
+"""The source of a launch description in a format other than Python."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     Parameters
     ----------
     launch_file_path
-        The path of the file, or what stands for it.
+        The path of the file, as a string or substitutions.
     method
-        How the description is loaded, for people.
+        A human-readable name of the loading method.
     parser
         The parser of the format; by default any that can read the file.
 

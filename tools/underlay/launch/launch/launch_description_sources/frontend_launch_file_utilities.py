@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Load launch files in other formats than Python."""
+"""Load launch files in formats other than Python."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def get_launch_description_from_frontend_launch_file(
     parser: type[Parser] = Parser,
 ) -> LaunchDescription:
     """
-    Load the launch description of a file in XML, YAML or another format than Python.
+    Load the launch description of a file in XML, YAML or another format except Python.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def get_launch_description_from_frontend_launch_file(
     Raises
     ------
     FileNotFoundError
-        There is no such file.
+        The file does not exist.
     InvalidFrontendLaunchFileError
         The parser cannot read it.
 

@@ -27,7 +27,7 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
     Parameters
     ----------
     launch_file_path
-        The path of the file, or what stands for it.
+        The path of the file, as a string or substitutions.
 
     """
 

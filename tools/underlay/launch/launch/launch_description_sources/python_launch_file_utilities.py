@@ -35,12 +35,12 @@ def load_python_launch_file_as_module(
     Parameters
     ----------
     python_launch_file_path
-        The path of the file, of which no cached bytecode is used.
+        The path of the file; cached bytecode is not used.
 
     Raises
     ------
     InvalidPythonLaunchFileError
-        No module can be made of the file.
+        No module can be created from the file.
 
     """
     path = os.fspath(python_launch_file_path)
@@ -68,11 +68,11 @@ def get_launch_description_from_python_launch_file(
     Raises
     ------
     FileNotFoundError
-        There is no such file.
+        The file does not exist.
     InvalidPythonLaunchFileError
         The file has no such function.
     AttributeError
-        The function returns no launch description.
+        The function does not return a launch description.
 
     """
     path = os.fspath(python_launch_file_path)
@@ -103,7 +103,7 @@ def _generate(path: str) -> LaunchDescription:
 
 
 def _without_function(path: str, module: ModuleType) -> str:
-    """Say that a launch file lacks its function, and which one is meant for it perhaps."""
+    """Format the error about a launch file without its function, with a suggestion."""
     from launch._did_you_mean import did_you_mean
 
     functions = [name for name, value in vars(module).items() if isinstance(value, FunctionType)]
@@ -113,7 +113,7 @@ def _without_function(path: str, module: ModuleType) -> str:
 
 
 def _point_at_line(path: str, error: Exception) -> None:
-    """Note on an exception the last line of the launch file that led to it."""
+    """Record on an exception the last line of the launch file that led to it."""
     if isinstance(error, SyntaxError) and error.filename == path:
         note_line(error, CallSite(path, error.lineno or 0))
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0  # noqa: A005, RUF100
-"""The log of a launch: the screen, and files in a folder for each run."""
+"""The log of a launch: the screen, and files in a directory for each run."""
 
 from __future__ import annotations
 

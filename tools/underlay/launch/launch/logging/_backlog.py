@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write to a descriptor that takes nothing for the moment, without waiting for it."""
+"""Write to a file descriptor that may block, without waiting for it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import select
 import threading
 from typing import Optional
 
-# A pipe that is ready takes this much at once, and so does a terminal in practice (PIPE_BUF).
+# A ready pipe accepts this much at once, and so does a terminal in practice (PIPE_BUF).
 _PIECE = 4096
 _CONGESTED = 256 * 1024
 _CLEAR = 64 * 1024
@@ -18,14 +18,14 @@ _CLEAR = 64 * 1024
 
 class Backlog:
     """
-    Writes at once as long as the reader keeps up, and else from a thread, in order.
+    Ordered writer that writes at once while the reader keeps up, and else from a thread.
 
     Parameters
     ----------
     descriptor
-        What is written to.
+        The file descriptor to write to.
     on_error
-        Called with the error if something cannot be written, perhaps from the thread.
+        Called with the error if a write fails, possibly from the thread.
 
     """
 
@@ -40,12 +40,12 @@ class Backlog:
 
     @property
     def is_empty(self) -> bool:
-        """Return whether all is written."""
+        """Whether all data has been written."""
         return not self._size
 
     @property
     def is_congested(self) -> bool:
-        """Return whether so much waits already that nobody should add to it."""
+        """Whether so much data is queued that no more should be added."""
         return self._size > _CONGESTED
 
     def when_clear(self, callback: Callable[[], None]) -> None:
@@ -66,7 +66,7 @@ class Backlog:
 
     def write(self, data: bytes) -> None:
         """
-        Write what can be written now and keep the rest for the thread.
+        Write as much as possible now, and queue the rest for the thread.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class Backlog:
             self._thread.start()
 
     def _drain(self) -> None:
-        """Write piece by piece until nothing is left; the next piece starts a new thread."""
+        """Write piece by piece until the queue is empty; later data starts a new thread."""
         while True:
             with self._lock:
                 if not self._pieces:
@@ -117,7 +117,7 @@ class Backlog:
                 callback()
 
     def _write_or_give_up(self, piece: memoryview, size: int) -> int:
-        """Write a piece and return how much; whatever cannot be written counts as well."""
+        """Write a piece and return its number of bytes; after an error, drop everything."""
         try:
             return os.write(self._descriptor, piece)
         except OSError as error:
@@ -125,7 +125,7 @@ class Backlog:
             return size
 
     def _take_waiting(self) -> list[Callable[[], None]]:
-        """Return whom to call now that there is room, each of them once."""
+        """Remove and return the waiting callbacks if there is room again."""
         if self._size > _CLEAR:
             return []
         waiting, self._waiting = self._waiting, []
@@ -133,7 +133,7 @@ class Backlog:
 
 
 def _is_ready(descriptor: int) -> bool:
-    """Return whether a descriptor takes a piece now; one that is broken does, to say so."""
+    """Check whether a descriptor is writable now; a broken one is, to report its error."""
     poll = select.poll()
     poll.register(descriptor, select.POLLOUT)
     return bool(poll.poll(0))

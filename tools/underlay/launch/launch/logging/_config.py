@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The settings of the log, and the loggers that obey them."""
+"""The settings of the log, and the loggers that use them."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _MAIN_LOG = 'launch.log'
 
 
 class LaunchConfig:
-    """Where the log goes, from which level on, and in which format."""
+    """Settings of the log: destinations, level and formats."""
 
     def __init__(self) -> None:
         """Create the default settings; nothing is written yet."""
         self.reset()
 
     def reset(self) -> None:
-        """Go back to the default settings, with a new folder for the log files."""
+        """Reset to the default settings, with a new directory for the log files."""
         self._log_dir: Optional[str] = None
         self._keeps_files = True
         self._level = logging.INFO
@@ -35,13 +35,13 @@ class LaunchConfig:
 
     @property
     def level(self) -> int:
-        """Return the level from which on something is logged."""
+        """Return the minimum level of logged messages."""
         return self._level
 
     @level.setter
     def level(self, value: int) -> None:
         """
-        Set the level from which on something is logged, also of the loggers that there are.
+        Set the minimum level of logged messages, also for existing loggers.
 
         Parameters
         ----------
@@ -55,7 +55,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """Return the folder of the log files of this run, which is made when it is needed."""
+        """Return the log directory of this run, which is created on demand."""
         if self._log_dir is None:
             self._log_dir = make_run_directory() if self._keeps_files else run_directory()
         return self._log_dir
@@ -63,17 +63,17 @@ class LaunchConfig:
     @log_dir.setter
     def log_dir(self, value: str) -> None:
         """
-        Set the folder of the log files of this run, and make it.
+        Set the log directory of this run, and create it.
 
         Parameters
         ----------
         value
-            The path of the folder.
+            The path of the directory.
 
         Raises
         ------
         RuntimeError
-            Another folder is in use already.
+            Another directory is already in use.
 
         """
         if self._log_dir not in (None, value):
@@ -86,7 +86,7 @@ class LaunchConfig:
 
     def set_screen_format(self, screen_format: str) -> None:
         """
-        Set the format of what is shown on the screen.
+        Set the format of messages on the screen.
 
         Parameters
         ----------
@@ -121,7 +121,7 @@ class LaunchConfig:
 
     def get_log_file_path(self, file_name: str = _MAIN_LOG) -> str:
         """
-        Return the path of a log file of this run; its folder is made.
+        Return the path of a log file of this run; its directory is created.
 
         Parameters
         ----------
@@ -149,7 +149,7 @@ class LaunchConfig:
         return self._file_handlers[file_name]
 
     def keep_nothing(self) -> None:
-        """Write no files from now on, and show warnings and errors only."""
+        """Disable log files, and show only warnings and errors."""
         self._keeps_files = False
         self._file_handlers.clear()
         self.level = logging.WARNING
@@ -170,7 +170,7 @@ launch_config = LaunchConfig()
 
 def logger_at(name: Optional[str], level: int) -> logging.Logger:
     """
-    Get a logger and set its level; for a new one this takes no look at all the others.
+    Get a logger and set its level, without touching all other loggers for a new one.
 
     Parameters
     ----------
@@ -217,12 +217,12 @@ def get_logger(name: Optional[str] = None) -> logging.Logger:
 
 def log_launch_config(*, logger: Optional[logging.Logger] = None) -> None:
     """
-    Log where the log files are and from which level on something is logged.
+    Log the log directory and the minimum level of logged messages.
 
     Parameters
     ----------
     logger
-        The logger that gets it, by default `launch`.
+        The logger to use, by default `launch`.
 
     """
     target = get_logger('launch') if logger is None else logger
@@ -232,7 +232,7 @@ def log_launch_config(*, logger: Optional[logging.Logger] = None) -> None:
 
 
 def reset() -> None:
-    """Go back to the default settings, with a new folder for the log files."""
+    """Reset to the default settings, with a new directory for the log files."""
     launch_config.close()
     launch_config.reset()
     for name in _known_loggers:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The folder of the log files of one run."""
+"""The log directory of one run."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from launch.logging._screen import screen
 
 
 def base_directory() -> str:
-    """Return the folder below which each run has one of its own."""
+    """Return the base directory that contains the log directories of all runs."""
     explicit = os.environ.get('ROS_LOG_DIR')
     if explicit:
         return os.path.abspath(os.path.expanduser(explicit))
@@ -19,13 +19,13 @@ def base_directory() -> str:
 
 
 def run_directory() -> str:
-    """Return the path of the folder for a run that begins now."""
+    """Return the path of the log directory for a run that starts now."""
     now = _now_text(time.time())
     return os.path.join(base_directory(), f'{now}-{os.uname().nodename}-{os.getpid()}')
 
 
 def make_run_directory() -> str:
-    """Make the folder of this run, and let `latest` beside it lead there."""
+    """Create the log directory of this run, and point the link `latest` to it."""
     path = run_directory()
     try:
         os.makedirs(path, exist_ok=True)
@@ -39,13 +39,13 @@ def make_run_directory() -> str:
 
 
 def _now_text(now_s: float) -> str:
-    """Return a local time down to the microsecond, in a form that sorts."""
+    """Format a local time with microseconds, such that the strings sort by time."""
     microseconds = int(now_s % 1 * 1e6)
     return f'{time.strftime("%Y-%m-%d-%H-%M-%S", time.localtime(now_s))}-{microseconds:06d}'
 
 
 def _point_latest_at(base: str, path: str) -> None:
-    """Replace the link in one step, so that it always leads somewhere."""
+    """Replace the link `latest` atomically."""
     latest = os.path.join(base, 'latest')
     if os.path.exists(latest) and not os.path.islink(latest):
         screen.write_line(
@@ -62,7 +62,7 @@ def _point_latest_at(base: str, path: str) -> None:
 
 
 def _remove_quietly(path: str) -> None:
-    """Remove a file if it is there and may be removed."""
+    """Remove a file, and ignore errors."""
     try:
         os.unlink(path)
     except OSError:

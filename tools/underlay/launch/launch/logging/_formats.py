@@ -46,7 +46,7 @@ def log_formatter(text: Optional[str]) -> logging.Formatter:
 
 
 def bare_formatter() -> logging.Formatter:
-    """Return the formatter of a process's lines, which have their format already."""
+    """Create the formatter of a process's lines that are already formatted."""
     return _formatter('{message}')
 
 
@@ -57,7 +57,7 @@ def label_formatter(label: str) -> logging.Formatter:
     Parameters
     ----------
     label
-        The label of the process, whose number chooses the colour.
+        The label of the process, whose number selects the colour.
 
     """
     from launch.logging._screen import screen
@@ -66,10 +66,10 @@ def label_formatter(label: str) -> logging.Formatter:
 
 
 class _Coloured(logging.Formatter):
-    """Gives the label at the beginning of each line the colour of its process."""
+    """Formatter that colours the label of the process at the start of each line."""
 
     def __init__(self, label: str) -> None:
-        """Create the formatter; the number in the label chooses the colour."""
+        """Create the formatter; the number in the label selects the colour."""
         super().__init__('{message}', style='{', validate=False)
         number = label.rpartition('-')[2]
         colour = _COLOURS[int(number) % len(_COLOURS) if number.isdigit() else 0]
@@ -77,7 +77,7 @@ class _Coloured(logging.Formatter):
         self._coloured = f'\x1b[{colour}m{self._plain}\x1b[0m'
 
     def format(self, record: logging.LogRecord) -> str:  # noqa: A003, RUF100
-        """Return the lines of the message."""
+        """Format the lines of the message."""
         text = record.getMessage()
         if text.startswith(self._plain):
             text = text.replace(self._plain, self._coloured, 1)
@@ -85,21 +85,21 @@ class _Coloured(logging.Formatter):
 
 
 def stamped_formatter() -> logging.Formatter:
-    """Return the formatter of a process's lines in the main log file."""
+    """Create the formatter of a process's lines in the main log file."""
     return _Stamped()
 
 
 class _Stamped(logging.Formatter):
-    """Writes the time in front of each line of a message."""
+    """Formatter that prepends a timestamp to each line of a message."""
 
     def format(self, record: logging.LogRecord) -> str:  # noqa: A003, RUF100
-        """Return the lines of the message."""
+        """Format the lines of the message."""
         stamp = f'{record.created:.7f} '
         return stamp + record.getMessage().replace('\n', f'\n{stamp}')
 
 
 def _formatter(text: str) -> logging.Formatter:
-    """Return a brace-style formatter; backslash escapes are interpreted, {msg} is the message."""
+    """Create a brace-style formatter; backslash escapes are interpreted, {msg} is the message."""
     if '\\' in text:
         text = codecs.decode(text, 'unicode_escape')
     text = re.sub(r'\{msg(?=[!:}])', '{message', text)

@@ -12,7 +12,7 @@ from launch.logging._screen import screen
 
 
 class ScreenHandler(logging.Handler):
-    """Writes records to the screen."""
+    """Handler that writes records to the screen."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """
@@ -29,12 +29,12 @@ class ScreenHandler(logging.Handler):
 
 class LogFileHandler(logging.Handler):
     """
-    Handler that writes records to a file, which is opened when the first one comes.
+    Handler that writes records to a file, which is opened on the first record.
 
     Parameters
     ----------
     path
-        Returns the path of the file when it is to be opened.
+        Function that returns the path of the file when it is opened.
     lost_files
         Reports the file if it cannot be written.
 
@@ -62,7 +62,7 @@ class LogFileHandler(logging.Handler):
 
     def write_line(self, text: str) -> None:
         """
-        Write a line to the file; after a failure nothing is written any more.
+        Write a line to the file; after a failure, nothing more is written.
 
         Parameters
         ----------

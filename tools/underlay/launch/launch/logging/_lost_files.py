@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say that log files cannot be written, as on a full disk, once for a launch and all its nodes."""
+"""Report that log files cannot be written, as on a full disk, once for a launch with its nodes."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from launch.logging._screen import screen
 _NODE_ERROR = re.compile(
     r'\[\*\*\* LOG ERROR #\d+ \*\*\*\] .*\{Failed writing to file (?P<path>.*): (?P<reason>.*)\}'
 )
-"""What spdlog, which writes the log files of nodes, prints each second while it cannot."""
+"""Error that spdlog, which writes the log files of nodes, prints each second on a failure."""
 
 
 class LostFiles:
-    """Log files that cannot be written: each reason is said once, with the first file."""
+    """Reporter of log files that cannot be written: each reason once, with the first file."""
 
     def __init__(self) -> None:
         self._reasons: set[str] = set()

@@ -123,7 +123,7 @@ def _logger(
 
 def is_on_screen(logger: logging.Logger) -> bool:
     """
-    Whether what a logger gets is shown on the screen.
+    Whether a logger writes to the screen.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def is_on_screen(logger: logging.Logger) -> bool:
 
 
 def _file(file_name: str, formatter: logging.Formatter) -> logging.Handler:
-    """Return a handler with a format of its own that shares the file of the main one."""
+    """Create a handler with a format of its own that shares the file of the main handler."""
     return _with(_Forward(launch_config.get_log_file_handler(file_name)), formatter)
 
 
@@ -145,7 +145,7 @@ def _with(handler: logging.Handler, formatter: logging.Formatter) -> logging.Han
 
 
 class _Forward(logging.Handler):
-    """Writes records in another format to the file of a handler."""
+    """Handler that writes records in another format to the file of a handler."""
 
     def __init__(self, target: LogFileHandler) -> None:
         """Create the handler."""

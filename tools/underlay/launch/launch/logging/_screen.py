@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one writer to the screen."""
+"""The only writer to the screen."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from launch.logging._backlog import Backlog
 
 class Screen:
     """
-    Writes whole lines to the standard output, until nobody reads it any more.
+    Writer of whole lines to the standard output, until its reader is gone.
 
-    A reader that is slow, or a terminal that is stopped, never stops the launch.
+    A slow reader or a stopped terminal never blocks the launch.
     """
 
     def __init__(self) -> None:
@@ -27,12 +27,12 @@ class Screen:
 
     def when_closed(self, callback: Optional[Callable[[], None]]) -> None:
         """
-        Set the callback for when nobody reads the standard output any more.
+        Set the callback for when the reader of the standard output is gone.
 
         Parameters
         ----------
         callback
-            The function, which is called at once if that is so already; None for nothing.
+            The function, which is called at once if the reader is already gone; None for nothing.
 
         """
         self._on_closed = callback
@@ -41,12 +41,12 @@ class Screen:
 
     @property
     def is_up_to_date(self) -> bool:
-        """Return whether the reader has got everything."""
+        """Whether the reader has received all output."""
         return self._backlog is None or self._backlog.is_empty
 
     @property
     def is_congested(self) -> bool:
-        """Return whether the reader is so far behind that no more should be written."""
+        """Whether the reader is so far behind that no more should be written."""
         return self._backlog is not None and self._backlog.is_congested
 
     def when_clear(self, callback: Callable[[], None]) -> None:
@@ -65,7 +65,7 @@ class Screen:
             self._backlog.when_clear(callback)
 
     def has_colours(self) -> bool:
-        """Return whether the standard output is a terminal on which colours are wanted."""
+        """Check whether the standard output is a terminal on which colours are wanted."""
         unwanted = os.environ.get('NO_COLOR') or os.environ.get('RCUTILS_COLORIZED_OUTPUT') == '0'
         try:
             return not unwanted and sys.stdout is not None and sys.stdout.isatty()
@@ -74,7 +74,7 @@ class Screen:
 
     def write_line(self, text: str) -> None:
         """
-        Write a line, or several; what cannot be encoded is escaped.
+        Write one or more lines; characters that cannot be encoded are escaped.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class Screen:
             self._give_up(stream, error)
 
     def _write(self, stream: Any, data: bytes) -> None:
-        """Write to the descriptor behind a stream, or to the stream if there is none."""
+        """Write to the file descriptor of a stream, or to the stream if there is none."""
         stream.flush()
         if stream is not self._stream:
             self._stream = stream
@@ -110,7 +110,7 @@ class Screen:
         return Backlog(descriptor, lambda error: self._give_up(stream, error))
 
     def _give_up(self, stream: object, error: Exception) -> None:
-        """Remember that the stream is closed, and tell who wants to know it."""
+        """Mark the stream as closed, and call the callback if its reader is gone."""
         self._broken_stream = stream
         if stream is sys.__stdout__ and isinstance(error, OSError):
             _discard_standard_output()
@@ -122,7 +122,7 @@ class Screen:
 
 
 def _complain(error: Exception) -> None:
-    """Say that output is lost, as long as there is a place to say so."""
+    """Report lost output on the standard error, if it is available."""
     if sys.stderr is None or not isinstance(error, OSError):
         return
     try:
@@ -132,7 +132,7 @@ def _complain(error: Exception) -> None:
 
 
 def _discard_standard_output() -> None:
-    """Lead the standard output nowhere, so that no later flush fails."""
+    """Redirect the standard output to /dev/null, so that no later flush fails."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nowhere, 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the launch file that is being read lies."""
+"""The location of the launch file that is being read."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 def launch_file_location(context: LaunchContext, variable: str, name: str) -> str:
     """
-    Look up where the launch file that is being read lies.
+    Look up the location of the launch file that is being read.
 
     It warns if the location is that of a file that was included before.
 
     Parameters
     ----------
     context
-        The state of the launch, whose local variables are read.
+        The launch context, whose local variables are read.
     variable
         The local variable, `current_launch_file_path` or `current_launch_file_directory`.
     name
@@ -45,7 +45,7 @@ def launch_file_location(context: LaunchContext, variable: str, name: str) -> st
 
 
 def _warn_of_another_file(context: LaunchContext, name: str, reading: str, meant: str) -> None:
-    """Warn, once for each pair of files, that an include has left its location behind."""
+    """Warn, once for each pair of files, that the location is that of an earlier include."""
     if reading == meant or (reading, meant) in context._warned_locations:
         return
     from launch.logging import get_logger

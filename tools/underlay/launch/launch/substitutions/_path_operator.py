@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class PathOperator(Substitution):
-    """Lets a substitution that stands for a path be joined with `/`."""
+    """Base class of substitutions of paths that can be joined with `/`."""
 
     def __truediv__(self, other: SomeSubstitutionsType) -> PathJoinSubstitution:
         """Return this path joined with another."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A name that nothing else has."""
+"""A unique name."""
 
 from __future__ import annotations
 
@@ -37,21 +37,21 @@ class AnonName(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'AnonName({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the unique name, which the launch configuration `anonNAME` remembers.
+        Return the unique name, which is stored in the launch configuration `anonNAME`.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the name is performed.
+            The launch context, in which the name is performed.
 
         """
         name = perform_substitutions(context, self.__name)
@@ -63,7 +63,7 @@ class AnonName(Substitution):
 
 def unique_name(name: str) -> str:
     """
-    Make a name unique: put the host, the process and a random number behind it.
+    Make a name unique: append the host name, the process id and a random number.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Logic on truth values."""
+"""Boolean logic."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 
 class _BooleanSubstitution(Substitution):
-    """The base of the logic: performs operands that stand for truth values."""
+    """Base class of boolean substitutions, whose operands resolve to booleans."""
 
     def __init__(self, *operands: SomeSubstitutionsType) -> None:
         """Create the substitution of some operands."""
         self._operands = [normalize_to_list_of_substitutions(each) for each in operands]
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         operands = (' + '.join(sub.describe() for sub in each) for each in self._operands)
         return f'{type(self).__name__}({", ".join(operands)})'
 
@@ -65,7 +65,7 @@ class NotSubstitution(_BooleanSubstitution):
 
     @property
     def value(self) -> list[Substitution]:
-        """Return the parts of the operand."""
+        """Return the operand as a list of substitutions."""
         return self._operands[0]
 
     def _decide(self, values: list[bool]) -> bool:
@@ -73,7 +73,7 @@ class NotSubstitution(_BooleanSubstitution):
 
 
 class _BinarySubstitution(_BooleanSubstitution):
-    """The base of the logic with two operands."""
+    """Base class of boolean substitutions with two operands."""
 
     frontend_required = ('left', 'right')
 
@@ -83,12 +83,12 @@ class _BinarySubstitution(_BooleanSubstitution):
 
     @property
     def left(self) -> list[Substitution]:
-        """Return the parts of the first operand."""
+        """Return the first operand as a list of substitutions."""
         return self._operands[0]
 
     @property
     def right(self) -> list[Substitution]:
-        """Return the parts of the second operand."""
+        """Return the second operand as a list of substitutions."""
         return self._operands[1]
 
 
@@ -107,11 +107,11 @@ class OrSubstitution(_BinarySubstitution):
 
 
 class _ManySubstitution(_BooleanSubstitution):
-    """The base of the logic with any number of operands."""
+    """Base class of boolean substitutions with any number of operands."""
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
-        """Return what creates the substitution of any number of operands."""
+        """Return a factory of the substitution, with any number of operands."""
         return partial(cls, *data), {}
 
     @property

@@ -32,7 +32,7 @@ class Command(Substitution):
     command
         The command line, whose parts are joined as they are and then split as a shell does.
     on_stderr
-        What is done with the standard error output: `fail`, `ignore`, `warn` or `capture`, which
+        The handling of the standard error output: `fail`, `ignore`, `warn` or `capture`, which
         adds it to the text.
 
     """
@@ -51,32 +51,32 @@ class Command(Substitution):
 
     @property
     def command(self) -> list[Substitution]:
-        """Return the parts of the command line."""
+        """Return the command line as a list of substitutions."""
         return self.__command
 
     @property
     def on_stderr(self) -> list[Substitution]:
-        """Return what is done with the standard error output."""
+        """Return the handling of the standard error output."""
         return self.__on_stderr
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'Command({" + ".join(sub.describe() for sub in self.__command)})'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Run the command, without a shell, and return what it wrote.
+        Run the command, without a shell, and return its output.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the command line is performed.
+            The launch context, in which the command line is performed.
 
         Raises
         ------
         SubstitutionFailure
-            The command cannot be run, fails, or writes errors in the mode `fail`; or there is no
-            such mode.
+            The command cannot be run, fails, or writes errors in the mode `fail`; or the mode is
+            unknown.
 
         """
         parts = [perform_substitutions(context, [part]) for part in self.__command]
@@ -123,7 +123,7 @@ def _run(parts: Sequence[str], merge: bool) -> subprocess.CompletedProcess[str]:
 
 
 def _show_hints(result: subprocess.CompletedProcess[str]) -> None:
-    """Log the lines `PROGRAM: hint: ...`, which are advice to people, and take them out."""
+    """Log the lines `PROGRAM: hint: ...`, which are advice to the user, and remove them."""
     stream = 'stdout' if result.stderr is None else 'stderr'
     lines = getattr(result, stream).splitlines(keepends=True)
     hints = [line for line in lines if line.split(' ', 2)[1:2] == ['hint:']]
@@ -137,7 +137,7 @@ def _show_hints(result: subprocess.CompletedProcess[str]) -> None:
 
 
 def _judge(parts: Sequence[str], mode: str, result: subprocess.CompletedProcess[str]) -> None:
-    """Raise or warn if the result is not what the mode asks for."""
+    """Raise an error or warn if the result is not acceptable in the mode."""
     command = ''.join(parts)
     if result.returncode != 0:
         from launch._command_advice import advice_on_failure

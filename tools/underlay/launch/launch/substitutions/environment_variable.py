@@ -26,7 +26,7 @@ class EnvironmentVariable(Substitution):
     name
         The name of the variable.
     default_value
-        The text if it is not set; without a default this is a failure.
+        The value if it is not set; without a default, an unset variable is an error.
 
     """
 
@@ -46,16 +46,16 @@ class EnvironmentVariable(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     @property
     def default_value(self) -> Optional[list[Substitution]]:
-        """Return the parts of the default, or None."""
+        """Return the default as a list of substitutions, or None."""
         return self.__default_value
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'EnvVar({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
@@ -65,7 +65,7 @@ class EnvironmentVariable(Substitution):
         Parameters
         ----------
         context
-            The state of the launch, whose environment is read.
+            The launch context, whose environment is read.
 
         Raises
         ------

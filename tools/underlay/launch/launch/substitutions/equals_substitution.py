@@ -25,7 +25,7 @@ class EqualsSubstitution(Substitution):
     Parameters
     ----------
     left, right
-        The values, or what stands for their texts; None is an empty text.
+        The values, or substitutions that resolve to them; None is an empty string.
 
     """
 
@@ -37,16 +37,16 @@ class EqualsSubstitution(Substitution):
 
     @property
     def left(self) -> list[Substitution]:
-        """Return the parts of the first value."""
+        """Return the first value as a list of substitutions."""
         return self.__left
 
     @property
     def right(self) -> list[Substitution]:
-        """Return the parts of the second value."""
+        """Return the second value as a list of substitutions."""
         return self.__right
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         left, right = (
             ' + '.join(sub.describe() for sub in side) for side in (self.__left, self.__right)
         )
@@ -59,7 +59,7 @@ class EqualsSubstitution(Substitution):
         Parameters
         ----------
         context
-            The state of the launch, in which the values are performed.
+            The launch context, in which the values are performed.
 
         """
         return 'true' if self._equal(context) else 'false'
@@ -72,12 +72,12 @@ class EqualsSubstitution(Substitution):
 
 def same_value(left: str, right: str) -> bool:
     """
-    Whether two texts are equal: as truth values or numbers if both are such, else as texts.
+    Whether two strings are equal: as booleans or numbers if both are such, else as strings.
 
     Parameters
     ----------
     left, right
-        The texts; true, 1, false and 0 are truth values.
+        The strings; true, 1, false and 0 are booleans.
 
     """
     truths = [_truth(left), _truth(right)]

@@ -36,26 +36,26 @@ class FileContent(Substitution):
 
     @property
     def path(self) -> list[Substitution]:
-        """Return the parts of the path."""
+        """Return the path as a list of substitutions."""
         return self.__path
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'FileContent({" + ".join(sub.describe() for sub in self.__path)})'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the whole text of the file.
+        Return the contents of the file.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the path is performed.
+            The launch context, in which the path is performed.
 
         Raises
         ------
         SubstitutionFailure
-            There is no such file, or it cannot be read.
+            The file does not exist, or cannot be read.
 
         """
         path = perform_substitutions(context, self.__path)

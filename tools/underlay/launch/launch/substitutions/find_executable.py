@@ -37,11 +37,11 @@ class FindExecutable(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__name
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'FindExec({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
@@ -51,7 +51,7 @@ class FindExecutable(Substitution):
         Parameters
         ----------
         context
-            The state of the launch, in which the name is performed.
+            The launch context, in which the name is performed.
 
         Raises
         ------

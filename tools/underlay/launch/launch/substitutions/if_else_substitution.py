@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A choice between two texts."""
+"""A choice between two strings."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class IfElseSubstitution(Substitution):
     Parameters
     ----------
     condition
-        The condition, which must become a boolean.
+        The condition, which must resolve to a boolean.
     if_value
         The text if it is true.
     else_value
@@ -34,7 +34,7 @@ class IfElseSubstitution(Substitution):
     Raises
     ------
     RuntimeError
-        Both texts are empty.
+        Both strings are empty.
 
     """
 
@@ -57,21 +57,21 @@ class IfElseSubstitution(Substitution):
 
     @property
     def condition(self) -> list[Substitution]:
-        """Return the parts of the condition."""
+        """Return the condition as a list of substitutions."""
         return self.__condition
 
     @property
     def if_value(self) -> list[Substitution]:
-        """Return the parts of the text for a true condition."""
+        """Return the value for a true condition as a list of substitutions."""
         return self.__if_value
 
     @property
     def else_value(self) -> list[Substitution]:
-        """Return the parts of the text for a false condition."""
+        """Return the value for a false condition as a list of substitutions."""
         return self.__else_value
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         parts = (
             ' + '.join(sub.describe() for sub in each)
             for each in (self.__condition, self.__if_value, self.__else_value)
@@ -80,12 +80,12 @@ class IfElseSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the text that the condition chooses.
+        Return the string that the condition selects.
 
         Parameters
         ----------
         context
-            The state of the launch, in which condition and text are performed.
+            The launch context, in which condition and text are performed.
 
         Raises
         ------

@@ -29,7 +29,7 @@ class LaunchConfiguration(Substitution):
     variable_name
         The name of the configuration.
     default
-        What is used if it is not set, turned into a text; without a default this is a failure.
+        The value if it is not set, converted to a string; without a default, this is an error.
 
     """
 
@@ -47,16 +47,16 @@ class LaunchConfiguration(Substitution):
 
     @property
     def variable_name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the name as a list of substitutions."""
         return self.__variable_name
 
     def __repr__(self) -> str:
-        """Return the parts of the name as they stand in a launch file."""
+        """Format the class with the description of the name."""
         name = ' + '.join(sub.describe() for sub in self.__variable_name)
         return f'{type(self).__name__}({name})'
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'LaunchConfig({" + ".join(sub.describe() for sub in self.__variable_name)})'
 
     def perform(self, context: LaunchContext) -> str:
@@ -66,7 +66,7 @@ class LaunchConfiguration(Substitution):
         Parameters
         ----------
         context
-            The state of the launch, whose launch configurations are read.
+            The launch context, whose launch configurations are read.
 
         Raises
         ------
@@ -96,6 +96,6 @@ def _normalize_default(default: Any) -> list[Substitution]:
 
 
 def _missing(name: str, context: LaunchContext) -> str:
-    """Say that there is no such configuration, and which one comes closest."""
+    """Format the error about an unset configuration, with a suggestion."""
     text = f"launch configuration '{name}' does not exist"
     return '. '.join(filter(None, [text, did_you_mean(name, context.launch_configurations)]))

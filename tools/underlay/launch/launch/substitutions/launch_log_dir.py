@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The folder of the log files of this launch."""
+"""The log directory of this launch."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ class LaunchLogDir(PathOperator):
     """Stands for the folder of the log files of this launch."""
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return 'LaunchLogDir()'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the folder of the log files, which is made if it is not there.
+        Return the log directory, which is created if it does not exist.
 
         Parameters
         ----------
         context
-            The state of the launch, which is not used.
+            The launch context, which is not used.
 
         """
         from launch.logging import launch_config

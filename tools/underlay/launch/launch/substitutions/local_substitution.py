@@ -19,9 +19,9 @@ class LocalSubstitution(Substitution):
     Parameters
     ----------
     expression
-        What is evaluated on the local variables of the context.
+        The expression, which is evaluated on the local variables of the context.
     description
-        What the substitution is called, for people; by default the expression.
+        A human-readable name of the substitution; by default the expression.
 
     """
 
@@ -35,22 +35,22 @@ class LocalSubstitution(Substitution):
         return self.__expression
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f"LocalVar('{self.__description or self.__expression}')"
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the value of the expression, which must be a text.
+        Return the value of the expression, which must be a string.
 
         Parameters
         ----------
         context
-            The state of the launch, whose local variables are read.
+            The launch context, whose local variables are read.
 
         Raises
         ------
         SubstitutionFailure
-            The value is not a text.
+            The value is not a string.
 
         """
         value = eval(f'context.locals.{self.__expression}', {}, {'context': context})  # noqa: S307

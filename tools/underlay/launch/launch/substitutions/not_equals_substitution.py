@@ -21,7 +21,7 @@ class NotEqualsSubstitution(EqualsSubstitution):
         Parameters
         ----------
         context
-            The state of the launch, in which the values are performed.
+            The launch context, in which the values are performed.
 
         """
         return 'false' if self._equal(context) else 'true'

@@ -26,7 +26,7 @@ class PathJoinSubstitution(PathOperator):
     Parameters
     ----------
     substitutions
-        The parts; one that is a list is put together to one part.
+        The parts; a list is concatenated to one part.
 
     """
 
@@ -43,18 +43,18 @@ class PathJoinSubstitution(PathOperator):
         return self.__parts
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         parts = (' + '.join(sub.describe() for sub in part) for part in self.__parts)
         return f"PathJoin('{' + '.join(parts)}')"
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the joined path; an absolute part drops what stands before it.
+        Return the joined path; an absolute part discards the parts before it.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the parts are performed.
+            The launch context, in which the parts are performed.
 
         """
         parts = [perform_substitutions(context, part) for part in self.__parts]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A text that is used as a path."""
+"""A string that is used as a path."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class PathSubstitution(PathOperator):
     Parameters
     ----------
     path
-        The path, or what stands for it.
+        The path, as a string or substitutions.
 
     """
 
@@ -35,11 +35,11 @@ class PathSubstitution(PathOperator):
 
     @property
     def path(self) -> list[Substitution]:
-        """Return the parts of the text."""
+        """Return the text as a list of substitutions."""
         return self.__path
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'Path({" + ".join(sub.describe() for sub in self.__path)})'
 
     def perform(self, context: LaunchContext) -> str:
@@ -49,7 +49,7 @@ class PathSubstitution(PathOperator):
         Parameters
         ----------
         context
-            The state of the launch, in which the path is performed.
+            The launch context, in which the path is performed.
 
         """
         return perform_substitutions(context, self.__path)

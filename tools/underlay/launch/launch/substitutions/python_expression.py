@@ -27,7 +27,7 @@ class PythonExpression(Substitution):
     expression
         The expression, which can use the modules named, and no others.
     python_modules
-        The names of these modules; what is in `math` can be used by itself.
+        The names of these modules; the names in `math` can be used directly.
 
     """
 
@@ -68,7 +68,7 @@ class PythonExpression(Substitution):
 
     @property
     def expression(self) -> list[Substitution]:
-        """Return the parts of the expression."""
+        """Return the expression as a list of substitutions."""
         return self.__expression
 
     @property
@@ -77,24 +77,24 @@ class PythonExpression(Substitution):
         return self.__python_modules
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         expression = ' + '.join(sub.describe() for sub in self.__expression)
         modules = ', '.join(sub.describe() for sub in self.__python_modules)
         return f'PythonExpr({expression}, [{modules}])'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Evaluate the expression, which comes from the launch file, and return its text.
+        Evaluate the expression, which comes from the launch file, and return it as a string.
 
         Parameters
         ----------
         context
-            The state of the launch, in which the expression is performed.
+            The launch context, in which the expression is performed.
 
         Raises
         ------
         NameError
-            The expression uses a name that is not known.
+            The expression uses an unknown name.
         SyntaxError
             The expression is not valid Python.
 
@@ -110,7 +110,7 @@ class PythonExpression(Substitution):
 
 
 def _with_advice(error: Exception, expression: str) -> str:
-    """Add the expression to an error that is often about a text without quotes."""
+    """Add the expression, and advice on missing quotes, to an error."""
     return (
         f'{error}\nThe expression is: {expression}\nA text in it needs quotes of its own, also '
         "around a substitution: [\"'\", LaunchConfiguration('x'), \"' == 'y'\"]"
@@ -118,6 +118,6 @@ def _with_advice(error: Exception, expression: str) -> str:
 
 
 def _namespace(module_names: list[str]) -> dict[str, Any]:
-    """Return the modules by name, and what is in `math` by itself."""
+    """Return the namespace: the modules by name, and the names in `math`."""
     modules = {name: import_module(name) for name in module_names}
     return {**vars(modules['math']), **modules} if 'math' in modules else dict(modules)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A text that is known already."""
+"""A constant string."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class TextSubstitution(Substitution):
         return self.__text
 
     def __repr__(self) -> str:
-        """Return the text as it stands in a launch file."""
+        """Format the class with the text."""
         return f'{type(self).__name__}({self.__text!r})'
 
     def describe(self) -> str:
@@ -57,7 +57,7 @@ class TextSubstitution(Substitution):
         Parameters
         ----------
         context
-            The state of the launch, which is not used.
+            The launch context, which is not used.
 
         """
         return self.__text

@@ -16,7 +16,7 @@ class ThisLaunchFile(PathOperator):
     """Stands for the path of the launch file that is being read."""
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return 'ThisLaunchFile()'
 
     def perform(self, context: LaunchContext) -> str:
@@ -26,7 +26,7 @@ class ThisLaunchFile(PathOperator):
         Parameters
         ----------
         context
-            The state of the launch, whose local variables are read.
+            The launch context, whose local variables are read.
 
         Raises
         ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The folder of the launch file that is being read."""
+"""The directory of the launch file that is being read."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ class ThisLaunchFileDir(PathOperator):
     """Stands for the folder of the launch file that is being read."""
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return 'ThisLaunchFileDir()'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the folder of the launch file that is being read.
+        Return the directory of the launch file that is being read.
 
         Parameters
         ----------
         context
-            The state of the launch, whose local variables are read.
+            The launch context, whose local variables are read.
 
         Raises
         ------

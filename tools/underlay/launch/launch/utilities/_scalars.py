@@ -27,12 +27,12 @@ def read_yaml(text: str) -> Any:
     Returns
     -------
     Any
-        What it says: a scalar, a list, a dictionary or None.
+        The parsed value: a scalar, a list, a dictionary or None.
 
     Raises
     ------
     ValueError
-        It is not YAML.
+        The document is not valid YAML.
 
     """
     if text in _TRUE:
@@ -70,7 +70,7 @@ def read_value(text: str) -> Any:
     Raises
     ------
     ValueError
-        It is not YAML.
+        The document is not valid YAML.
 
     """
     return float(text) if EXPONENT.fullmatch(text) else read_yaml(text)

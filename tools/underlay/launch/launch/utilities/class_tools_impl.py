@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Questions about classes."""
+"""Type checks."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def is_a(entity: Any, of_type: type) -> bool:
 
 def is_a_subclass(entity: Any, of_type: type) -> bool:
     """
-    Whether an object is a class derived from another, or an instance of that.
+    Whether an object is a subclass of a class, or an instance of it.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ def ensure_argument_type(
     argument_name
         Its name, for the error.
     caller
-        Whose argument it is, for the error.
+        The owner of the argument, for the error.
 
     Raises
     ------

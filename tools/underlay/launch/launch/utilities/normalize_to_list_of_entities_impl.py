@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a list of entities out of one, many or none."""
+"""Normalise entities to a list."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def normalize_to_list_of_entities(
     Raises
     ------
     RuntimeError
-        There is something else in it.
+        The argument contains something else.
 
     """
     flat: list[LaunchDescriptionEntity] = []

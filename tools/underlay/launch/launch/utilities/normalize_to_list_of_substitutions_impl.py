@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a list of substitutions out of texts, paths and substitutions."""
+"""Normalise strings, paths and substitutions to a list of substitutions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from launch.substitution import Substitution
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
     """
-    Normalise a text that is known later to a list of substitutions, its parts.
+    Normalise strings, paths and substitutions to a list of substitutions.
 
     Parameters
     ----------

@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
     """
-    Perform substitutions and join their texts.
+    Perform substitutions and concatenate the results.
 
     Parameters
     ----------
     context
-        The state of the launch.
+        The launch context.
     subs
-        The substitutions, in the order of their texts.
+        The substitutions, in order.
 
     """
     return ''.join([context.perform_substitution(sub) for sub in subs])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Give performed texts the type that is asked for."""
+"""Convert performed substitutions to the requested types."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _SCALARS = (bool, int, float, str)
 
 def is_substitution(value: Any) -> bool:
     """
-    Whether a value is a substitution, or an iterable with at least one in it.
+    Whether a value is a substitution, or an iterable that contains one.
 
     Parameters
     ----------
     value
-        The value; a text is neither.
+        The value; a string is neither.
 
     """
     if isinstance(value, Substitution):
@@ -39,24 +39,25 @@ def is_substitution(value: Any) -> bool:
 
 def normalize_typed_substitution(value: Any, data_type: Optional[Any]) -> Any:
     """
-    Normalise a value that has a type, or stands for one.
+    Normalise a typed value, or substitutions that resolve to one.
 
     Parameters
     ----------
     value
-        The value, a text, substitutions, or a list of lists with substitutions.
+        The value, a string, substitutions, or a list of lists with substitutions.
     data_type
         The type, such as `bool` or `list[int]`; None for any.
 
     Returns
     -------
     Any
-        The value as it is; a list of substitutions for a text; a list of tuples of them for lists.
+        The value as it is; a list of substitutions for a string; a list of tuples of them for a
+        list.
 
     Raises
     ------
     TypeError
-        The value neither has the type nor stands for one.
+        The value neither has the type nor resolves to it.
 
     """
     if isinstance(value, (str, os.PathLike)) or is_substitution(value):
@@ -79,7 +80,7 @@ def perform_typed_substitution(
     Parameters
     ----------
     context
-        The state of the launch.
+        The launch context.
     value
         The value.
     data_type
@@ -88,7 +89,7 @@ def perform_typed_substitution(
     Returns
     -------
     Any
-        The value in the type; what was no substitution is returned as it is.
+        The converted value; a value that is not a substitution is returned unchanged.
 
     Raises
     ------
@@ -108,7 +109,7 @@ def perform_typed_substitution(
 
 
 def _has_texts_as_items(value: Any) -> bool:
-    """Return whether a value is a list of lists with substitutions, each of which is an item."""
+    """Check whether a value is a list whose items are lists of substitutions."""
     return isinstance(value, list) and any(
         isinstance(item, (list, tuple)) and is_substitution(item) for item in value
     )
@@ -116,7 +117,7 @@ def _has_texts_as_items(value: Any) -> bool:
 
 def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
     """
-    Convert a text to a type.
+    Convert a string to a type.
 
     Parameters
     ----------
@@ -186,7 +187,7 @@ def _coerce_to_list(text: str, item_type: Any) -> list[Any]:
 
 def has_type(value: Any, data_type: Any) -> bool:
     """
-    Whether a value has a type; whole numbers count as floats, too.
+    Whether a value has a type; integers are accepted as floats.
 
     Parameters
     ----------
@@ -207,12 +208,12 @@ def has_type(value: Any, data_type: Any) -> bool:
 
 def type_name(data_type: Any) -> str:
     """
-    Return the name of a type for people.
+    Return a human-readable name of a type.
 
     Parameters
     ----------
     data_type
-        The type; None stands for any of those that launch files can give.
+        The type; None for any type that launch files support.
 
     """
     if data_type is None:

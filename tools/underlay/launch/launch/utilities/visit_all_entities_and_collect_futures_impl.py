@@ -20,14 +20,14 @@ def visit_all_entities_and_collect_futures(
     context: LaunchContext,
 ) -> EntityFuturePairs:
     """
-    Visit an entity and, depth-first, all that it returns; collect their futures.
+    Visit an entity and its sub-entities depth-first; collect their futures.
 
     Parameters
     ----------
     entity
         The entity.
     context
-        The state of the launch.
+        The launch context.
 
     Returns
     -------
@@ -46,21 +46,21 @@ def visit_into(
     futures: EntityFuturePairs,
 ) -> None:
     """
-    Visit an entity and, depth-first, all that it returns; add their futures to a list.
+    Visit an entity and its sub-entities depth-first; add their futures to a list.
 
     Parameters
     ----------
     entity
         The entity.
     context
-        The state of the launch.
+        The launch context.
     futures
-        The list; what was collected before a failure stays in it.
+        The list; futures that were collected before a failure stay in it.
 
     Raises
     ------
     AttributeError
-        What is returned is neither an action nor a launch description.
+        An entity returns an object that is neither an action nor a launch description.
 
     """
     observer = context._observer
@@ -85,9 +85,9 @@ def visit_into(
 
 def _checked(child: Any, parent: LaunchDescriptionEntity) -> Any:
     """
-    Return the child if it can be visited; say which list is wrong otherwise.
+    Return the child if it can be visited; otherwise, raise an error that names its parent.
 
-    An action that launch itself has made comes from the line of the one that brings it in.
+    An action that launch itself has created inherits the call site of its parent.
     """
     if hasattr(child, 'visit'):
         if getattr(child, 'call_site', parent) is None:

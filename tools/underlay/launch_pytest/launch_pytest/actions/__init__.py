@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions of launch descriptions under test."""
+"""Launch actions for launch descriptions under test."""
 
 from __future__ import annotations
 

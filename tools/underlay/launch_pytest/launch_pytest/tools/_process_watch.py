@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait until something becomes true of a process."""
+"""Wait until a predicate about a process holds."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class _Watch(BaseEventHandler):
-    """Wakes up who waits for a process."""
+    """Event handler that wakes up waiters on each event of a process."""
 
     def __init__(self, action: ExecuteProcess) -> None:
         """Create the handler."""
@@ -27,7 +27,7 @@ class _Watch(BaseEventHandler):
         self.has_ended = False
 
     def handle(self, event: Any, context: LaunchContext) -> None:
-        """Wake up who waits."""
+        """Wake up the waiters."""
         super().handle(event, context)
         self.has_ended = isinstance(event, ProcessExited)
         self.something_happened.set()
@@ -45,7 +45,7 @@ async def until(
     Parameters
     ----------
     context
-        The context of the launch; after its end nothing is waited for.
+        The context of the launch; there is no wait after its end.
     action
         The action of the process.
     predicate

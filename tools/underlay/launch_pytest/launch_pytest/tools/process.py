@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Wait for what a process does, and assert what it writes.
+Wait for events of a process and assert its output.
 
-Each function takes the context of the launch and the action of the process; for output, the
-action must have been created with cached_output=True. What validates an output may return
-whether it is right, or raise an AssertionError. Without a timeout, functions wait as long as the
-process runs. Functions are awaited in asynchronous tests; those with `_sync` are for others.
+Each function accepts the launch context and the action of the process; for output, the action
+must have been created with cached_output=True. Validators return whether the output is valid, or
+raise an AssertionError. Without a timeout, functions wait until the process ends. Asynchronous
+tests await the functions; other tests use those with the suffix `_sync`.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ async def wait_for_start(
     timeout: Optional[float] = None,
 ) -> bool:
     """
-    Wait until a process was started, and return whether it was.
+    Wait until a process has started, and return whether it has.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ async def wait_for_stdout(
     timeout: Optional[float] = None,
 ) -> bool:
     """
-    Wait until the standard output of a process is right, and return whether it is.
+    Wait until the standard output of a process is valid, and return whether it is.
 
     Parameters
     ----------
@@ -112,14 +112,14 @@ async def wait_for_stdout(
     execute_process_action
         The action of the process, created with `cached_output=True`.
     validate_output
-        Called with all output so far. False or an AssertionError means not yet, None is right.
+        Called with all output so far. False or an AssertionError means not yet, None valid.
     timeout
         The timeout in s; None waits until the process ends.
 
     Raises
     ------
     RuntimeError
-        The output is not kept.
+        The output is not cached.
 
     """
     check = partial(_is_right, execute_process_action.get_stdout, validate_output)
@@ -133,7 +133,7 @@ async def wait_for_stderr(
     timeout: Optional[float] = None,
 ) -> bool:
     """
-    Wait until the standard error output of a process is right, and return whether it is.
+    Wait until the standard error of a process is valid, and return whether it is.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ async def wait_for_stderr(
     Raises
     ------
     RuntimeError
-        The output is not kept.
+        The output is not cached.
 
     """
     check = partial(_is_right, execute_process_action.get_stderr, validate_output)
@@ -157,7 +157,7 @@ async def assert_stdout(
     timeout: Optional[float] = None,
 ) -> None:
     """
-    Wait until the standard output of a process is right, and fail if it is not.
+    Wait until the standard output of a process is valid, and fail if it is not.
 
     Parameters
     ----------
@@ -167,9 +167,9 @@ async def assert_stdout(
     Raises
     ------
     AssertionError
-        That of the validation, or one that shows the output.
+        The error of the validation, or one that shows the output.
     RuntimeError
-        The output is not kept.
+        The output is not cached.
 
     """
     if not await wait_for_stdout(launch_context, execute_process_action, validate_output, timeout):
@@ -188,7 +188,7 @@ async def assert_stderr(
     timeout: Optional[float] = None,
 ) -> None:
     """
-    Wait until the standard error output of a process is right, and fail if it is not.
+    Wait until the standard error of a process is valid, and fail if it is not.
 
     Parameters
     ----------
@@ -198,9 +198,9 @@ async def assert_stderr(
     Raises
     ------
     AssertionError
-        That of the validation, or one that shows the output.
+        The error of the validation, or one that shows the output.
     RuntimeError
-        The output is not kept.
+        The output is not cached.
 
     """
     if not await wait_for_stderr(launch_context, execute_process_action, validate_output, timeout):
@@ -222,7 +222,7 @@ def wait_for_start_sync(
     timeout: Optional[float] = None,
 ) -> bool:
     """
-    Wait until a process was started, and return whether it was.
+    Wait until a process has started, and return whether it has.
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def wait_for_start_sync(
     Raises
     ------
     RuntimeError
-        This is called in the event loop of the launch.
+        Called from the event loop of the launch.
 
     """
     return _sync(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
@@ -254,7 +254,7 @@ def wait_for_exit_sync(
     Raises
     ------
     RuntimeError
-        This is called in the event loop of the launch.
+        Called from the event loop of the launch.
 
     """
     return _sync(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
@@ -267,7 +267,7 @@ def wait_for_stdout_sync(
     timeout: Optional[float] = None,
 ) -> bool:
     """
-    Wait until the standard output of a process is right, and return whether it is.
+    Wait until the standard output of a process is valid, and return whether it is.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ def wait_for_stdout_sync(
     Raises
     ------
     RuntimeError
-        This is called in the event loop of the launch, or the output is not kept.
+        Called from the event loop of the launch, or the output is not cached.
 
     """
     return _sync(
@@ -293,7 +293,7 @@ def wait_for_stderr_sync(
     timeout: Optional[float] = None,
 ) -> bool:
     """
-    Wait until the standard error output of a process is right, and return whether it is.
+    Wait until the standard error of a process is valid, and return whether it is.
 
     Parameters
     ----------
@@ -303,7 +303,7 @@ def wait_for_stderr_sync(
     Raises
     ------
     RuntimeError
-        This is called in the event loop of the launch, or the output is not kept.
+        Called from the event loop of the launch, or the output is not cached.
 
     """
     return _sync(
@@ -319,7 +319,7 @@ def assert_stdout_sync(
     timeout: Optional[float] = None,
 ) -> None:
     """
-    Wait until the standard output of a process is right, and fail if it is not.
+    Wait until the standard output of a process is valid, and fail if it is not.
 
     Parameters
     ----------
@@ -329,9 +329,9 @@ def assert_stdout_sync(
     Raises
     ------
     AssertionError
-        That of the validation, or one that shows the output.
+        The error of the validation, or one that shows the output.
     RuntimeError
-        This is called in the event loop of the launch, or the output is not kept.
+        Called from the event loop of the launch, or the output is not cached.
 
     """
     _sync(
@@ -347,7 +347,7 @@ def assert_stderr_sync(
     timeout: Optional[float] = None,
 ) -> None:
     """
-    Wait until the standard error output of a process is right, and fail if it is not.
+    Wait until the standard error of a process is valid, and fail if it is not.
 
     Parameters
     ----------
@@ -357,9 +357,9 @@ def assert_stderr_sync(
     Raises
     ------
     AssertionError
-        That of the validation, or one that shows the output.
+        The error of the validation, or one that shows the output.
     RuntimeError
-        This is called in the event loop of the launch, or the output is not kept.
+        Called from the event loop of the launch, or the output is not cached.
 
     """
     _sync(
@@ -373,7 +373,7 @@ assert_output_sync = assert_stdout_sync
 
 
 def _is_right(get_output: Callable[[], str], validate_output: Validate) -> bool:
-    """Return whether an output is right; a function that returns nothing is content."""
+    """Whether an output is valid; a validator that returns None accepts it."""
     try:
         verdict = validate_output(get_output())
     except AssertionError:
@@ -389,9 +389,9 @@ def _fail(action: ExecuteProcess, what: str, output: str, validate_output: Valid
 
 
 def _sync(launch_context: LaunchContext, coroutine: Coroutine[Any, Any, ResultT]) -> ResultT:
-    """Run a coroutine in the loop of the launch, from another thread."""
+    """Run a coroutine in the event loop of the launch, from another thread."""
     loop = launch_context.asyncio_loop
-    if loop is None:  # the launch is over, so the coroutine need not wait
+    if loop is None:  # the launch has ended, so the coroutine will not wait
         return asyncio.run(coroutine)
     if loop is asyncio._get_running_loop():
         coroutine.close()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions that know about ROS."""
+"""Launch actions for ROS nodes, parameters, namespaces and lifecycle transitions."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ask a container to load nodes."""
+"""Client of the `load_node` service of a component container."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 class ContainerClient:
     """
-    Loads composable nodes into one container, in order, and logs the result of each.
+    Client that loads composable nodes into a container, in order, and logs each result.
 
     Parameters
     ----------
     ros_node
         The launch's own rclpy node.
     container
-        The full name of the container.
+        The fully qualified name of the container.
     process
-        Done when the container has ended for good; None if it is not of this launch.
+        Done when the container has ended for good; None if this launch did not start it.
 
     """
 
@@ -44,17 +44,17 @@ class ContainerClient:
 
     @property
     def has_asked(self) -> bool:
-        """Whether the container has been asked for a node."""
+        """Whether a load request has been sent to the container."""
         return self._caller is not None and self._caller.has_asked
 
     async def load(self, requests: Iterable[LoadRequest]) -> None:
         """
-        Load composable nodes; one that fails does not keep the others from being loaded.
+        Load composable nodes; a failure of one does not affect the others.
 
         Parameters
         ----------
         requests
-            What to load, in this order.
+            The load requests, in order.
 
         """
         caller = self._caller = ServiceCaller(

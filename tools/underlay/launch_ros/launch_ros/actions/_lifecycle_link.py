@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What connects a launch to a node with a life cycle."""
+"""Connection between a launch and a lifecycle node."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ if TYPE_CHECKING:
 
 class LifecycleLink:
     """
-    Connects a launch to a lifecycle node through its topic and service of transitions.
+    Connects a launch to a lifecycle node through its `transition_event` and `change_state`.
 
-    Each message of `transition_event` becomes a StateTransition event; each ChangeState event for
-    the node becomes a call of its service `change_state`.
+    Each message on the topic `transition_event` becomes a StateTransition event; each ChangeState
+    event for the node becomes a call of its service `change_state`.
 
     Parameters
     ----------
     action
         The executed action that is about to start the node.
     context
-        Where events are emitted and handled.
+        The launch context in which events are emitted and handled.
     adapter
-        The launch's own node, which subscribes and calls.
+        The adapter of the launch's own node, which has the subscription and the service client.
 
     """
 
@@ -63,7 +63,7 @@ class LifecycleLink:
 
     def is_target(self, event: Any) -> bool:
         """
-        Whether an event asks this node for a transition.
+        Whether an event requests a transition of this node.
 
         Parameters
         ----------
@@ -75,9 +75,9 @@ class LifecycleLink:
 
     def change_state(self, transition_id: int) -> None:
         """
-        Request a transition of the node, after those requested before are done.
+        Request a transition of the node, once earlier requests are done.
 
-        This returns at once; a failure is logged.
+        Returns immediately; a failure is logged.
 
         Parameters
         ----------
@@ -116,13 +116,13 @@ class LifecycleLink:
 
 
 class _ChangeStateHandler(BaseEventHandler):
-    """Hands what is asked of a node over to its link."""
+    """Event handler that forwards ChangeState events to the link of the node."""
 
     def __init__(self, link: LifecycleLink) -> None:
         super().__init__(matcher=link.is_target)
         self._link = link
 
     def handle(self, event: Any, context: LaunchContext) -> None:
-        """Ask the node."""
+        """Request the transition of the event."""
         super().handle(event, context)
         self._link.change_state(event.transition_id)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a container is asked for when it is to load a node."""
+"""Requests to load a composable node into a container."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LoadRequest:
-    """The request, with all that depended on the launch context."""
+    """Load request with all substitutions performed."""
 
     package: str
     plugin: str
@@ -29,7 +29,7 @@ class LoadRequest:
     extra_arguments: list[NamedValue]
 
     def as_data(self) -> dict[str, Any]:
-        """Return it as plain data, for whoever wants to see it."""
+        """Return the request as plain data, for display."""
         return {
             'package': self.package,
             'plugin': self.plugin,
@@ -41,7 +41,7 @@ class LoadRequest:
         }
 
     def to_message(self) -> Any:
-        """Return the request of the service (composition_interfaces/LoadNode)."""
+        """Convert to a service request (composition_interfaces/LoadNode)."""
         from composition_interfaces.srv import LoadNode
 
         return LoadNode.Request(
@@ -59,12 +59,12 @@ def build_load_request(context: LaunchContext, description: ComposableNode) -> L
     """
     Evaluate the description of a composable node into a request to its container.
 
-    Parameters set for all nodes come before those of the description.
+    Global parameters precede those of the description.
 
     Parameters
     ----------
     context
-        Its launch configurations hold the namespace, parameters and remappings set so far.
+        The launch context, whose configurations hold the namespace, parameters and remappings.
     description
         The node to load.
 
@@ -110,5 +110,5 @@ def _messages(parameters: list[NamedValue]) -> list[Any]:
 
 
 def _text(parts: Any) -> Any:
-    """Return the parts of a name as far as they are known, for people."""
+    """Return a human-readable description of the parts of a name."""
     return None if parts is None else ' + '.join(part.describe() for part in parts)

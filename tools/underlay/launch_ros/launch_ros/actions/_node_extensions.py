@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What other packages add to the command lines of nodes."""
+"""Extensions of other packages that add arguments to node command lines."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _GROUP = 'launch_ros.node_action'
 
 
 class NodeActionExtension:
-    """The base class of what a package offers as an entry point of `launch_ros.node_action`."""
+    """Base class of extensions that register as entry points of `launch_ros.node_action`."""
 
     NAME: Optional[str] = None
     EXTENSION_POINT_VERSION = '0.1'
@@ -32,24 +32,23 @@ class NodeActionExtension:
         node_action: Node,
     ) -> tuple[list[Any], dict[str, Any]]:
         """
-        Extend the command line of a node; subclasses override this.
+        Extend the command line of a node; to be overridden by subclasses.
 
-        What is added may refer to `ros_specific_arguments` by a LocalSubstitution.
+        Added arguments may refer to `ros_specific_arguments` by a LocalSubstitution.
 
         Parameters
         ----------
         context
             The launch context.
         ros_specific_arguments
-            The rules `__node:=...` under `name` and `__ns:=...` under `ns`, each only if it is
-            known.
+            The rules `__node:=...` under `name` and `__ns:=...` under `ns`, each only if known.
         node_action
             The action that is about to start the node.
 
         Returns
         -------
         tuple
-            The words to add, as texts or substitutions, and the rules to use instead.
+            The arguments to add, as strings or substitutions, and the rules to use instead.
 
         """
         return [], ros_specific_arguments
@@ -66,7 +65,7 @@ def extend_node(
     Parameters
     ----------
     context
-        Gets the local variable `ros_specific_arguments` if any words are added.
+        The launch context; receives the local `ros_specific_arguments` if arguments are added.
     ros_specific_arguments
         The rules for the name and the namespace, by `name` and `ns`.
     node
@@ -75,7 +74,7 @@ def extend_node(
     Returns
     -------
     tuple
-        The words to add, as texts, and the rules to use.
+        The arguments to add, as strings, and the rules to use.
 
     """
     added: list[Any] = []
@@ -94,7 +93,7 @@ def extend_node(
 
 @cache
 def extensions() -> list[Any]:
-    """Return an object of each extension; one that cannot be loaded is reported and left out."""
+    """Instantiate all extensions; log and skip those that cannot be loaded."""
     found = []
     for entry_point in entry_points_of(_GROUP):
         try:

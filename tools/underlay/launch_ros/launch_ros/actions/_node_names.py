@@ -19,39 +19,39 @@ UNKNOWN_NAMESPACE = '<node_namespace_unspecified>'
 
 @dataclass(frozen=True)
 class NodeNames:
-    """The name and the absolute namespace of a node, as far as they are known."""
+    """The name and the absolute namespace of a node; None for unknown parts."""
 
     name: Optional[str]
     namespace: Optional[str]
 
     @property
     def are_complete(self) -> bool:
-        """Return whether both are known."""
+        """Whether both the name and the namespace are known."""
         return self.name is not None and self.namespace is not None
 
     @property
     def described_namespace(self) -> str:
-        """Return the namespace, or a placeholder."""
+        """Return the namespace, or a placeholder if it is unknown."""
         return UNKNOWN_NAMESPACE if self.namespace is None else self.namespace
 
     @property
     def full_name(self) -> str:
-        """Return both together, with placeholders for what is not known."""
+        """Return the fully qualified name, with placeholders for unknown parts."""
         name = _UNKNOWN_NAME if self.name is None else self.name
         return f'{self.described_namespace.rstrip("/")}/{name}'
 
     @property
     def name_in_root(self) -> str:
-        """Return the full name of a node that is in the root unless a namespace is known."""
+        """Return the fully qualified name; an unknown namespace is taken as the root."""
         return NodeNames(self.name, self.namespace or '/').full_name
 
     @property
     def parameter_key(self) -> str:
-        """Return which nodes a parameter file is for: this one, or any if it is not known."""
+        """Return the key of the node in parameter files; `/**` if its names are unknown."""
         return self.full_name if self.are_complete else '/**'
 
     def ros_specific_arguments(self) -> dict[str, str]:
-        """Return what the node is told, by what it is about."""
+        """Return the remapping rules for the name and the namespace, by `name` and `ns`."""
         arguments = {}
         if self.name is not None:
             arguments['name'] = f'__node:={self.name}'
@@ -72,16 +72,16 @@ def expand_node_names(
     Parameters
     ----------
     context
-        Its launch configuration `ros_namespace` is what a relative namespace lies below.
+        The launch context; a relative namespace is below its configuration `ros_namespace`.
     name, namespace
-        The parts of each, or None if it is not given.
+        The substitutions of each; None if not given.
     what
-        The node as it is described in the log if the names cannot be expanded or are invalid.
+        Description of the node for the log message if expansion or validation fails.
 
     Returns
     -------
     NodeNames
-        The name, and the absolute namespace; None for what is not known.
+        The name and the absolute namespace; None for unknown parts.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find parameter files that are for no node that is launched."""
+"""Detect parameter files that match no launched node."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ FullName = tuple[str, Optional[str]]
 
 
 class ParameterFilesCheck:
-    """Compares the names in parameter files with those of the nodes."""
+    """Checks that parameter files match at least one launched node."""
 
     def __init__(self) -> None:
-        """Create the check of no file."""
+        """Create a check without files."""
         self._readers: dict[str, list[NodeNames]] = {}
 
     def add(self, path: str, names: NodeNames) -> None:
         """
-        Record that a node is given a parameter file.
+        Register a parameter file of a node.
 
         Parameters
         ----------
         path
             The file.
         names
-            The name and the namespace of the node, as far as they are known.
+            The name and the namespace of the node, as far as known.
 
         """
         self._readers.setdefault(path, []).append(names)
 
     def __call__(self, context: LaunchContext) -> None:
-        """Warn of each file that is wrong, or matches nothing as far as the names are known."""
+        """Log a warning for each file that is invalid or matches no known node."""
         for path in self._readers:
             _warn_of_problem(path)
         nodes = self._known_nodes(context)
@@ -51,7 +51,7 @@ class ParameterFilesCheck:
                 _warn(path, keys, nodes)
 
     def _known_nodes(self, context: LaunchContext) -> Optional[set[FullName]]:
-        """Return the nodes that are launched, now or later; None if that cannot be told."""
+        """Return the nodes launched now or later; None if that cannot be determined."""
         nodes = {
             (names.name, names.namespace)
             for readers in self._readers.values()

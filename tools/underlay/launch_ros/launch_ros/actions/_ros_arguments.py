@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments that tell a node about its parameters and remappings."""
+"""ROS arguments for the parameters and remappings of a node."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from launch_ros.utilities.parameter_files import is_parameter_file, write_parame
 from launch_ros.utilities.yaml_text import flow_text
 
 ParameterArgument = tuple[str, bool]
-"""A path and True, or a rule such as `name:=value` and False."""
+"""A file path and True, or a rule such as `name:=value` and False."""
 
 
 def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
     """
-    Format the parameters and files set for all nodes as ROS arguments, in order.
+    Format the global parameters and parameter files as ROS arguments, in order.
 
     Parameters
     ----------
     context
-        Its launch configuration `global_params` holds them.
+        The launch context; its configuration `global_params` holds the global parameters.
     names
-        The node that gets the arguments; parameter files are checked against its names.
+        The names of the node; parameter files are checked against them.
 
     Returns
     -------
@@ -51,17 +51,17 @@ def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
 
 def global_parameters(context: LaunchContext) -> list[Union[dict[str, Any], str]]:
     """
-    Return the parameters and the paths of files that are set for all nodes, in order.
+    Return the global parameters and the paths of global parameter files, in order.
 
     Parameters
     ----------
     context
-        Its launch configuration `global_params` holds them.
+        The launch context; its configuration `global_params` holds the global parameters.
 
     Returns
     -------
     list
-        A dictionary with one entry for each parameter, and a path for each file.
+        A dictionary with one entry for each parameter, a path for each file.
 
     """
     return [
@@ -71,7 +71,7 @@ def global_parameters(context: LaunchContext) -> list[Union[dict[str, Any], str]
 
 
 def _global_text(value: Any) -> str:
-    """Return a scalar as Python writes it, which ROS understands, and a list as YAML."""
+    """Format a scalar as in Python, which ROS can parse, and a list as YAML."""
     return flow_text(value) if isinstance(value, (list, tuple)) else str(value)
 
 
@@ -81,18 +81,18 @@ def own_parameters(
     names: NodeNames,
 ) -> list[ParameterArgument]:
     """
-    Evaluate the parameters of one node, in order; dictionaries are written to files.
+    Evaluate the parameters of a node, in order; dictionaries are written to files.
 
-    A file that is missing is logged and left out.
+    Missing files are logged and skipped.
 
     Parameters
     ----------
     context
-        What substitutions are performed with.
+        The launch context used to perform substitutions.
     parameters : Iterable[NormalizedParameters]
-        What `normalize_parameters` has returned.
+        The result of `normalize_parameters`.
     names
-        The node; written files are for it alone if both its names are known, else for any node.
+        The names of the node; written files match any node unless both are known.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def parameter_arguments(parameters: Iterable[ParameterArgument]) -> list[str]:
 
 
 def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
-    """Let the file be compared with the nodes, as long as nothing has been started."""
+    """Register the file for the check against node names, unless a process has started."""
     if context._before_start is not None:
         from launch_ros.actions._parameter_files_check import ParameterFilesCheck
 
@@ -152,19 +152,19 @@ def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
 
 def remap_pairs(context: LaunchContext, rules: Iterable[RemapRule]) -> list[tuple[str, str]]:
     """
-    Evaluate the remappings of all nodes, followed by those of one.
+    Evaluate the global remappings, followed by those of a node.
 
     Parameters
     ----------
     context
-        Its launch configuration `ros_remaps` holds those of all nodes.
+        The launch context; its configuration `ros_remaps` holds the global remappings.
     rules
-        Those of the node, with both sides as substitutions.
+        The remappings of the node, with both sides as substitutions.
 
     Returns
     -------
     list of tuple
-        The name that is remapped and what it becomes, both as texts.
+        The original and the new name, both as strings.
 
     """
     pairs: list[tuple[str, str]] = list(context.launch_configurations.get('ros_remaps', []))
@@ -178,7 +178,7 @@ def remap_rules(pairs: Iterable[tuple[str, str]]) -> list[str]:
     Parameters
     ----------
     pairs
-        The name that is remapped and what it becomes, for each.
+        The original and the new name of each remapping.
 
     """
     return [f'{source}:={target}' for source, target in pairs]
@@ -186,12 +186,12 @@ def remap_rules(pairs: Iterable[tuple[str, str]]) -> list[str]:
 
 def rule_arguments(rules: Iterable[str]) -> list[str]:
     """
-    Format remapping rules as ROS arguments, each behind a `-r`.
+    Format remapping rules as ROS arguments, each preceded by `-r`.
 
     Parameters
     ----------
     rules
-        Texts such as `from:=to` or `__node:=name`.
+        Rules such as `from:=to` or `__node:=name`.
 
     """
     return [word for rule in rules for word in ('-r', rule)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chain of transitions that a node is taken through."""
+"""Chains of lifecycle transitions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from launch_ros.events.matchers import matches_node_name
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-# The state that each transition leads to.
+# The goal state of each transition.
 _GOALS = {
     1: 'inactive',
     2: 'unconfigured',
@@ -32,19 +32,21 @@ _STATES_TO_STAY_IN = frozenset(_GOALS.values())
 
 class TransitionChain(BaseEventHandler):
     """
-    Requests the next transition whenever one has reached its goal state; ends otherwise.
+    Event handler that requests the next transition once the previous one has succeeded.
+
+    The chain ends when a transition does not reach its goal state.
 
     Parameters
     ----------
     node_name
-        The full name of the node; a leading slash may be left out.
+        The fully qualified name of the node; the leading slash is optional.
     transition_ids
         Constants of lifecycle_msgs/Transition that lead to a primary state, in order.
 
     Raises
     ------
     ValueError
-        A transition is not among those that can be part of a chain (1 to 7).
+        A transition cannot be part of a chain (valid: 1 to 7).
 
     """
 
@@ -63,7 +65,7 @@ class TransitionChain(BaseEventHandler):
                 )
 
     def next_request(self) -> ChangeState:
-        """Return the event that asks the node for the next transition."""
+        """Return the event that requests the next transition."""
         self._current = self._left.popleft()
         return ChangeState(lifecycle_node_matcher=self._is_node, transition_id=self._current)
 
@@ -83,7 +85,7 @@ class TransitionChain(BaseEventHandler):
         event
             A StateTransition of the node to a primary state.
         context
-            Where the handler is registered; it is removed at the end of the chain.
+            The context with which the handler is registered; unregistered at the end of the chain.
 
         Returns
         -------

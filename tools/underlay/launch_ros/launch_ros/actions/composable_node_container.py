@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that runs a container of nodes."""
+"""Launch action for component containers."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class ComposableNodeContainer(Node):
     Parameters
     ----------
     name, namespace
-        Of the container, so that its service `load_node` can be found.
+        Name and namespace of the container, which determine its service `load_node`.
     composable_node_descriptions
-        The nodes to load, in this order; None for none.
+        The nodes to load, in order; None for none.
     **kwargs
         As for `Node`, such as `package` and `executable` of the container.
 
@@ -65,7 +65,7 @@ class ComposableNodeContainer(Node):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         Raises
         ------
@@ -88,7 +88,7 @@ class ComposableNodeContainer(Node):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """
-        Start the container, and load the nodes next.
+        Start the container, then load the nodes.
 
         Parameters
         ----------

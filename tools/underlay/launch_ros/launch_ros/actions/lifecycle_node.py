@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that runs a ROS node with a life cycle."""
+"""Launch action for lifecycle nodes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class LifecycleNode(Node):
     Parameters
     ----------
     name, namespace
-        Of the node, so that its topic and service of transitions can be found.
+        Name and namespace, which determine the topic and service of the node's transitions.
     **kwargs
         As for `Node`.
 
@@ -60,7 +60,7 @@ class LifecycleNode(Node):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         Raises
         ------
@@ -74,7 +74,7 @@ class LifecycleNode(Node):
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """
-        Start the node, and follow its states from the first one on.
+        Start the node and monitor its transitions from the start.
 
         Parameters
         ----------

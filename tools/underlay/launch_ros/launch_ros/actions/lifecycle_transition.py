@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that takes nodes through transitions, one after the other."""
+"""Launch action for chains of lifecycle transitions."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ class LifecycleTransition(Action):
     Parameters
     ----------
     lifecycle_node_names
-        The full names of the nodes; a leading slash may be left out.
+        The fully qualified names of the nodes; the leading slash is optional.
     transition_ids
-        Constants of lifecycle_msgs.msg.Transition, in order, or substitutions for them.
+        Constants of lifecycle_msgs.msg.Transition, or substitutions for them, in order.
     **kwargs
         As for `Action`: `condition`.
 
     Raises
     ------
     ValueError
-        There are no names or no transitions, or a text stands in place of the list.
+        There are no names or no transitions, or a string is given instead of a list.
 
     """
 
@@ -59,27 +59,27 @@ class LifecycleTransition(Action):
 
     @property
     def lifecycle_node_names(self) -> list[list[Substitution]]:
-        """Return the parts of each name."""
+        """Return the node names, as substitutions."""
         return self.__names
 
     @property
     def transition_ids(self) -> list[Any]:
-        """Return the ids, or the substitutions that stand for them."""
+        """Return the transition ids, or the substitutions that evaluate to them."""
         return self.__transition_ids
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """
-        Request the first transition of each node; a chain requests those that follow.
+        Request the first transition of each node; a TransitionChain requests the others.
 
         Parameters
         ----------
         context
-            What substitutions are performed with.
+            The launch context used to perform substitutions.
 
         Returns
         -------
         list of LaunchDescriptionEntity
-            For each node the action that registers its chain, and the one that emits the first
+            For each node, the action that registers its chain and the one that emits the first
             event.
 
         Raises
@@ -101,7 +101,7 @@ class LifecycleTransition(Action):
 
 
 def _some(name: str, values: Iterable[Any]) -> list[Any]:
-    """Return the values as a list, which must not be empty or have been a text."""
+    """Convert values to a list; reject strings and empty lists."""
     found = [] if isinstance(values, str) else list(values)
     if not found:
         raise ValueError(f'{name} of LifecycleTransition must be a list of at least one item')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that loads nodes into a container."""
+"""Launch action that loads composable nodes into a container."""
 
 from __future__ import annotations
 
@@ -31,21 +31,21 @@ class LoadComposableNodes(Action):
     """
     Loads composable nodes into a container that runs or is about to, one after the other.
 
-    They are loaded again whenever a container of this launch has been respawned.
+    They are loaded again whenever a container started by this launch is respawned.
 
     Parameters
     ----------
     composable_node_descriptions
-        The nodes, in this order.
+        The nodes to load, in order.
     target_container
-        The action that runs the container, or its full name.
+        The action that runs the container, or its fully qualified name.
     **kwargs
         As for `Action`: `condition`.
 
     Raises
     ------
     TypeError
-        The container is neither an action nor like a text.
+        The container is neither an action nor a string or substitution.
 
     """
 
@@ -85,7 +85,7 @@ class LoadComposableNodes(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         from launch_ros.descriptions.composable_node import parse_composable_nodes
@@ -97,15 +97,15 @@ class LoadComposableNodes(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Evaluate the descriptions, and start to load the nodes whose conditions hold.
+        Evaluate the descriptions and start loading the nodes whose conditions hold.
 
-        The container is asked while the launch goes on; `get_asyncio_future` is done when it has
-        answered.
+        Loading is asynchronous; the future of `get_asyncio_future` is done when the container has
+        responded to all requests.
 
         Parameters
         ----------
         context
-            What conditions and substitutions are evaluated with.
+            The launch context used to evaluate conditions and substitutions.
 
         Raises
         ------
@@ -132,7 +132,7 @@ class LoadComposableNodes(Action):
     def _load_after_respawn(
         self, context: LaunchContext, requests: list[LoadRequest], name: str
     ) -> None:
-        """Load the same nodes anew whenever the container, of this launch, starts again."""
+        """Reload the same nodes whenever this launch respawns the container."""
         from launch.event_handlers.on_process_start import OnProcessStart
         from launch_ros._service_calls import STARTED_ANEW
         from launch_ros.actions._node_names import UNKNOWN_NAMESPACE
@@ -146,7 +146,7 @@ class LoadComposableNodes(Action):
             return action.node_name.replace(UNKNOWN_NAMESPACE, '') == full_name
 
         def load(event: Any, context: LaunchContext) -> None:
-            # Before it was asked for a node, it has none to load anew.
+            # Without an earlier request there is nothing to reload.
             if self.__client is None or not self.__client.has_asked or context.is_shutdown:
                 return
             if self.__task is not None:
@@ -162,7 +162,7 @@ class LoadComposableNodes(Action):
         name: str,
         process: Optional[asyncio.Future[Any]],
     ) -> None:
-        """Begin to ask the container."""
+        """Start the task that sends load requests to the container."""
         from launch_ros.actions._container_client import ContainerClient
         from launch_ros.ros_adapters import get_ros_adapter
 
@@ -183,11 +183,11 @@ class LoadComposableNodes(Action):
         ]
 
     def _target(self, context: LaunchContext) -> tuple[str, Optional[asyncio.Future[Any]]]:
-        """Return the name of the container, and its process if it is of this launch."""
+        """Return the container name and, if this launch started it, its process future."""
         if isinstance(self.__target_container, ComposableNodeContainer):
             return self.__target_container.node_name, self.__target_container.get_asyncio_future()
         return perform_substitutions(context, self.__target_container), None
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
-        """Return a future that is done when all has been loaded or has failed."""
+        """Return a future that is done when all nodes have been loaded or have failed."""
         return self.__task

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that runs a ROS node."""
+"""Launch action for ROS nodes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ['Node', 'NodeActionExtension']
 
-# Attributes in launch files, by the names that the constructor has for them.
+# Launch file attributes and the constructor arguments that they set.
 _TEXT_ATTRIBUTES = {
     'pkg': 'package',
     'name': 'name',
@@ -53,32 +53,32 @@ class Node(ExecuteProcess):
     Parameters
     ----------
     executable
-        The executable of the package, or a path if there is no package.
+        The name of the executable in the package, or a path if no package is given.
     package
-        The package that has installed it.
+        The package that installs the executable.
     name
-        The node name; if it is left out, the executable itself decides.
+        The node name; by default that of the executable.
     namespace
-        The namespace, below the one that PushROSNamespace has set unless it is absolute.
+        The namespace, relative to that of PushROSNamespace unless it is absolute.
     exec_name
-        The label of the process in the log; the name of the program if it is left out.
+        The label of the process in the log; by default the program name.
     parameters : Optional[list[Any]]
         Dictionaries, paths of parameter files, ParameterFile and Parameter.
     remappings
-        Tuples of a name and what it becomes.
+        Tuples of the original and the new name.
     ros_arguments
-        More arguments for ROS, such as `--log-level`, `debug`.
+        Additional ROS arguments, such as `--log-level`, `debug`.
     arguments : Optional[Iterable[SomeSubstitutionsType]]
-        Arguments for the node itself, in front of those for ROS.
+        Arguments of the node itself, which precede the ROS arguments.
     prefix, cwd, env, additional_env
         As for `ExecuteProcess`.
     **kwargs
-        More arguments of `ExecuteProcess`, such as `output` and `respawn`.
+        Additional arguments of `ExecuteProcess`, such as `output` and `respawn`.
 
     Raises
     ------
     TypeError
-        An argument has the wrong type, such as a text in place of a list.
+        An argument has the wrong type, such as a string instead of a list.
 
     """
 
@@ -151,12 +151,12 @@ class Node(ExecuteProcess):
         parser
             Parses substitutions in its attributes.
         ignore
-            Names of process attributes that a subclass reads itself.
+            Names of process attributes that a subclass parses itself.
 
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         from launch.frontend._process_attributes import parse_command, parse_texts
@@ -176,7 +176,7 @@ class Node(ExecuteProcess):
     @staticmethod
     def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
         """
-        Parse elements `param` into dictionaries and parameter files.
+        Parse `param` elements into dictionaries and parameter files.
 
         Parameters
         ----------
@@ -193,8 +193,7 @@ class Node(ExecuteProcess):
         Raises
         ------
         ValueError
-            An element has neither a value nor nested ones, or both, or an attribute that is
-            unknown.
+            An element has neither a value nor nested elements, or both, or an unknown attribute.
 
         """
         from launch_ros.utilities.parse_parameters import parse_nested_parameters
@@ -213,21 +212,21 @@ class Node(ExecuteProcess):
 
     @property
     def node_name(self) -> str:
-        """Return the full name of the node, with placeholders for what is not known."""
+        """Return the fully qualified node name, with placeholders for unknown parts."""
         return self._known_names().full_name
 
     @property
     def expanded_node_namespace(self) -> str:
-        """Return the namespace of the node, or a placeholder."""
+        """Return the expanded namespace, or a placeholder if it is unknown."""
         return self._known_names().described_namespace
 
     @property
     def expanded_remapping_rules(self) -> Optional[list[tuple[str, str]]]:
-        """Return the remappings with both sides as texts, None before they are known."""
+        """Return the expanded remappings; None before the action has been executed."""
         return self.__expanded_remappings
 
     def is_node_name_fully_specified(self) -> bool:
-        """Return whether both the name and the namespace are known."""
+        """Check whether both the name and the namespace are known."""
         return self._known_names().are_complete
 
     def _known_names(self) -> NodeNames:
@@ -240,7 +239,7 @@ class Node(ExecuteProcess):
         return self.__name
 
     def _perform_substitutions(self, context: LaunchContext) -> NodeNames:
-        """Find out names, parameters and remappings; public tests of launch files call this."""
+        """Expand names, parameters and remappings; public tests of launch files call this."""
         names = expand_node_names(
             context,
             self.__name,
@@ -255,15 +254,15 @@ class Node(ExecuteProcess):
 
     def prepare(self, context: LaunchContext) -> None:
         """
-        Expand the command line, with all ROS arguments behind its last `--ros-args`.
+        Expand the command line, with all ROS arguments after its last `--ros-args`.
 
-        They come in this order: name, namespace, parameters of all nodes, own parameters,
-        remappings, and what extensions add.
+        Their order is: name, namespace, global parameters, own parameters, remappings, and
+        arguments of extensions.
 
         Parameters
         ----------
         context
-            What substitutions are performed with.
+            The launch context used to perform substitutions.
 
         Raises
         ------
@@ -306,9 +305,9 @@ class Node(ExecuteProcess):
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """
-        Start the node as soon as all that is being visited is done.
+        Start the node once the entities of the current visit are done.
 
-        A warning is logged if another node of this launch has the same full name.
+        A warning is logged if another node of this launch has the same fully qualified name.
 
         Parameters
         ----------
@@ -320,7 +319,7 @@ class Node(ExecuteProcess):
         InvalidNameError
             The name or the namespace is not allowed in ROS.
         RuntimeError
-            The action has been executed before.
+            The action has already been executed.
 
         """
         entities = super().execute(context)
@@ -333,7 +332,7 @@ def _words(
     keyword: str,
     values: Optional[Iterable[SomeSubstitutionsType]],
 ) -> list[SomeSubstitutionsType]:
-    """Return the values as a list; a text, which would fall apart into letters, is refused."""
+    """Convert values to a list; reject a string, which would be split into characters."""
     if isinstance(values, str):
         raise TypeError(
             f"the argument '{keyword}' must be a list, but it is the text '{values}'; write "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that puts nodes below a namespace."""
+"""Launch action that pushes a namespace for the nodes that follow."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class PushROSNamespace(Action):
     Parameters
     ----------
     namespace
-        A relative one goes below the current one, an absolute one replaces it.
+        A relative namespace is appended to the current one; an absolute one replaces it.
     **kwargs
         As for `Action`: `condition`.
 
@@ -53,7 +53,7 @@ class PushROSNamespace(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         _, kwargs = super().parse(entity, parser)
@@ -62,7 +62,7 @@ class PushROSNamespace(Action):
 
     @property
     def namespace(self) -> list[Substitution]:
-        """Return the parts of the namespace."""
+        """Return the namespace, as substitutions."""
         return self.__namespace
 
     def execute(self, context: LaunchContext) -> None:
@@ -72,7 +72,7 @@ class PushROSNamespace(Action):
         Parameters
         ----------
         context
-            Its launch configuration `ros_namespace` holds the namespace.
+            The launch context; its configuration `ros_namespace` holds the namespace.
 
         Raises
         ------

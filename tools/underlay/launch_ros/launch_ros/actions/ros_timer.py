@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The timer that follows the time of ROS."""
+"""Launch timer on ROS time."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class ROSTimer(TimerAction):
     """
     Visits actions once, when a period of ROS time is over.
 
-    That is the time of a simulation after SetUseSimTime(True). The timer ends with the launch at
-    the latest, whatever `cancel_on_shutdown` says, as the node that has the clock ends then.
+    That is simulation time after SetUseSimTime(True). The timer ends with the launch at the
+    latest, regardless of `cancel_on_shutdown`, as the node with the clock is destroyed then.
     """
 
     def execute(self, context: LaunchContext) -> None:
@@ -30,7 +30,7 @@ class ROSTimer(TimerAction):
         Parameters
         ----------
         context
-            The context of the running launch, whose own ROS node has the clock.
+            The context of the running launch, whose own ROS node provides the clock.
 
         Raises
         ------
@@ -49,7 +49,7 @@ class ROSTimer(TimerAction):
         loop: asyncio.AbstractEventLoop,
         period_s: float,
     ) -> Alarm:
-        """Let the period begin on the clock of the launch's own node."""
+        """Start the timer on the clock of the launch's own node."""
         from launch_ros.ros_adapters import get_ros_node
 
         def run_out() -> None:
@@ -60,7 +60,7 @@ class ROSTimer(TimerAction):
 
 class Alarm:
     """
-    A one-shot timer of a node, which starts at once.
+    One-shot timer of a node, which starts immediately.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that sets a parameter of all nodes."""
+"""Launch action that sets a global parameter."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class SetParameter(Action):
     name
         The name of the parameter.
     value
-        A scalar, a list, a ParameterValue, or substitutions, whose text gets its type by YAML
+        A scalar, a list, a ParameterValue, or substitutions, whose result is typed by YAML
         rules.
     **kwargs
         As for `Action`: `condition`.
@@ -33,7 +33,7 @@ class SetParameter(Action):
     Raises
     ------
     TypeError
-        A parameter cannot have such a value.
+        The value is not a valid parameter value.
 
     """
 
@@ -58,7 +58,7 @@ class SetParameter(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         from launch_ros.utilities.parse_parameters import parse_value
@@ -72,18 +72,18 @@ class SetParameter(Action):
         """
         Set the parameter for the nodes that follow in this scope.
 
-        The list of parameters is replaced, not changed in place, so that the end of the scope
-        undoes it.
+        The list of parameters is replaced, not modified in place, so that the end of the scope
+        restores it.
 
         Parameters
         ----------
         context
-            Its launch configuration `global_params` holds the parameters of all nodes.
+            The launch context; its configuration `global_params` holds the global parameters.
 
         Raises
         ------
         TypeError
-            A parameter cannot have the value that substitutions stand for.
+            The substituted value is not a valid parameter value.
 
         """
         known = context.launch_configurations.get('global_params', [])

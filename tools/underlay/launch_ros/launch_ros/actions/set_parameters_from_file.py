@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that sets parameters of all nodes from a file."""
+"""Launch action that sets global parameters from a file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class SetParametersFromFile(Action):
     Parameters
     ----------
     filename
-        The path; a relative one is taken from the current folder.
+        The path; relative paths are resolved against the current directory.
     **kwargs
         As for `Action`: `condition`.
 
@@ -51,7 +51,7 @@ class SetParametersFromFile(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         _, kwargs = super().parse(entity, parser)
@@ -67,17 +67,17 @@ class SetParametersFromFile(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Add the file to what the nodes that follow in this scope are given.
+        Add the file to the global parameters of the nodes that follow in this scope.
 
         Parameters
         ----------
         context
-            Its launch configuration `global_params` holds the files and parameters of all nodes.
+            The launch context; its configuration `global_params` holds files and parameters.
 
         Raises
         ------
         FileNotFoundError
-            There is no such file; the text says what may have been meant.
+            The file does not exist; the message suggests similar names.
 
         """
         path = os.path.abspath(perform_substitutions(context, self.__filename))
@@ -89,7 +89,7 @@ class SetParametersFromFile(Action):
 
 
 def _require(path: str) -> None:
-    """Raise an error if a parameter file is not there."""
+    """Raise an error if a parameter file does not exist."""
     if not os.path.isfile(path):
         from launch._missing_file import explain_missing_file
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that remaps a name of all nodes."""
+"""Launch action that adds a global remapping."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class SetRemap(Action):
     Parameters
     ----------
     src, dst
-        The name that is remapped, and the one that it becomes.
+        The original and the new name.
     **kwargs
         As for `Action`: `condition`.
 
@@ -57,7 +57,7 @@ class SetRemap(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         _, kwargs = super().parse(entity, parser)
@@ -67,22 +67,22 @@ class SetRemap(Action):
 
     @property
     def src(self) -> list[Substitution]:
-        """Return the parts of the name that is remapped."""
+        """Return the original name, as substitutions."""
         return self.__src
 
     @property
     def dst(self) -> list[Substitution]:
-        """Return the parts of the name that it becomes."""
+        """Return the new name, as substitutions."""
         return self.__dst
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Add the remapping; those of the nodes themselves come behind it.
+        Add the remapping; it precedes those of the nodes themselves.
 
         Parameters
         ----------
         context
-            Its launch configuration `ros_remaps` holds the remappings of all nodes.
+            The launch context; its configuration `ros_remaps` holds the global remappings.
 
         """
         rule = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that chooses the folder of the log files of nodes."""
+"""Launch action that sets the log directory of nodes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class SetROSLogDir(Action):
     Parameters
     ----------
     new_log_dir
-        The folder, in which `~` is expanded. A relative path lies below the current log folder.
+        The directory; `~` is expanded. A relative path is below the current log directory.
     **kwargs
         As for `Action`: `condition`.
 
@@ -52,7 +52,7 @@ class SetROSLogDir(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         _, kwargs = super().parse(entity, parser)
@@ -62,7 +62,7 @@ class SetROSLogDir(Action):
 
     @property
     def log_dir(self) -> list[Substitution]:
-        """Return the parts of the path."""
+        """Return the path, as substitutions."""
         return self.__log_dir
 
     def execute(self, context: LaunchContext) -> None:
@@ -72,7 +72,7 @@ class SetROSLogDir(Action):
         Parameters
         ----------
         context
-            Its environment is inherited by the processes that follow.
+            The launch context; processes that follow inherit its environment.
 
         """
         from launch.logging._directory import base_directory

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that chooses the clock of the launch itself."""
+"""Launch action that selects the clock of the launch itself."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ class SetUseSimTime(Action):
     """
     Chooses whether the launch's own ROS node follows simulation time.
 
-    The nodes that are launched are not affected; SetParameter('use_sim_time', True) does that.
+    Launched nodes are not affected; use SetParameter('use_sim_time', True) for them.
 
     Parameters
     ----------
     value
-        Whether its clock follows `/clock`.
+        Whether the clock of that node follows `/clock`.
     **kwargs
         As for `Action`: `condition`.
 
     Raises
     ------
     TypeError
-        The value is neither a bool nor like a text.
+        The value is neither a bool nor a string or substitution.
 
     """
 
@@ -54,7 +54,7 @@ class SetUseSimTime(Action):
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         """
         _, kwargs = super().parse(entity, parser)
@@ -64,22 +64,22 @@ class SetUseSimTime(Action):
 
     @property
     def value(self) -> Any:
-        """Return the value, or the substitutions that stand for it."""
+        """Return the value, or the substitutions that evaluate to it."""
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Choose the clock, also of a node that is created only later.
+        Select the clock, also for a node that is created later.
 
         Parameters
         ----------
         context
-            Its global `launch_use_sim_time` keeps the choice.
+            The launch context; its global `launch_use_sim_time` stores the value.
 
         Raises
         ------
         ValueError
-            What a substitution stands for is not a boolean.
+            The substituted value is not a boolean.
 
         """
         from launch_ros.ros_adapters import find_ros_adapter

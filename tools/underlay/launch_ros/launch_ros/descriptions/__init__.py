@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Descriptions of parameters, and of nodes that run in a container."""
+"""Descriptions of parameters and composable nodes."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The description of a node that runs in a container."""
+"""Descriptions of composable nodes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _TAG = 'composable_node'
 
-# Attributes in launch files, by the names that the constructor has for them.
+# Launch file attributes and the constructor arguments that they set.
 _TEXT_ATTRIBUTES = {
     'pkg': 'package',
     'plugin': 'plugin',
@@ -40,26 +40,26 @@ class ComposableNode:
     Parameters
     ----------
     package
-        The package that has the plugin.
+        The package that provides the plugin.
     plugin
-        The name of the node's class, such as `composition::Talker`.
+        The class name of the node, such as `composition::Talker`.
     name
-        The node name; if it is left out, the class itself decides.
+        The node name; by default that of the class.
     namespace
-        The namespace, below the one that PushROSNamespace has set unless it is absolute.
+        The namespace, relative to that of PushROSNamespace unless it is absolute.
     parameters : Optional[list[Any]]
         Dictionaries, paths of parameter files, ParameterFile and Parameter; later ones override.
     remappings
-        Tuples of a name and what it becomes.
+        Tuples of the original and the new name.
     extra_arguments
-        What the container is told, in the same form as parameters.
+        Arguments for the container, in the same form as parameters.
     condition
-        The node is loaded if this is None or fulfilled.
+        The node is loaded if this is None or evaluates to true.
 
     Raises
     ------
     TypeError
-        Parameters or remappings do not have this form.
+        Parameters or remappings do not have the required form.
 
     """
 
@@ -99,14 +99,14 @@ class ComposableNode:
         Returns
         -------
         tuple
-            The class, and the keyword arguments to construct it with.
+            The class and the keyword arguments of its constructor.
 
         Raises
         ------
         AttributeError
             The attribute `pkg`, `plugin` or `name` is missing.
         ValueError
-            The element has attributes or children that are unknown.
+            The element has unknown attributes or children.
 
         """
         from launch.action import Action
@@ -131,22 +131,22 @@ class ComposableNode:
 
     @property
     def package(self) -> list[Substitution]:
-        """Return the parts of the name of the package."""
+        """Return the package name, as substitutions."""
         return self.__package
 
     @property
     def node_plugin(self) -> list[Substitution]:
-        """Return the parts of the name of the class."""
+        """Return the class name of the node, as substitutions."""
         return self.__node_plugin
 
     @property
     def node_name(self) -> Optional[list[Substitution]]:
-        """Return the parts of the name, None if there is none."""
+        """Return the node name, as substitutions; None if not given."""
         return self.__node_name
 
     @property
     def node_namespace(self) -> Optional[list[Substitution]]:
-        """Return the parts of the namespace, None if there is none."""
+        """Return the namespace, as substitutions; None if not given."""
         return self.__node_namespace
 
     @property
@@ -161,22 +161,22 @@ class ComposableNode:
 
     @property
     def extra_arguments(self) -> list[NormalizedParameters]:
-        """Return what the container is told."""
+        """Return the arguments for the container."""
         return self.__extra_arguments
 
     def condition(self) -> Optional[Condition]:
-        """Return the condition, None if the node is always loaded."""
+        """Return the condition; None if the node is always loaded."""
         return self.__condition
 
 
 def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNode]:
     """
-    Parse the children `composable_node` of an element, of which there may be none.
+    Parse the `composable_node` children of an element, if any.
 
     Parameters
     ----------
     entity
-        The element around them.
+        The parent element.
     parser
         Parses substitutions in their attributes.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event handlers that know about ROS nodes."""
+"""Event handlers for ROS nodes."""
 
 from __future__ import annotations
 

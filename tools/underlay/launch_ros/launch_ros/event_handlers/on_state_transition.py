@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the transitions of nodes with a life cycle."""
+"""Event handler for lifecycle transitions."""
 
 from __future__ import annotations
 
@@ -36,15 +36,15 @@ class OnStateTransition(EventHandler):
     Parameters
     ----------
     entities
-        What is visited.
+        The entities to visit.
     target_lifecycle_node
         The action that runs the node.
     transition
         The label of the transition, such as `configure`.
     start_state, goal_state
-        The labels of the state before and of the one now, such as `configuring` and `inactive`.
+        The labels of the previous and the new state, such as `configuring` and `inactive`.
     matcher
-        Called with each event, and decides alone in place of all the others.
+        Predicate of events, instead of all other criteria.
     **kwargs
         As for `EventHandler`: `handle_once`.
 
@@ -78,7 +78,7 @@ class OnStateTransition(EventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Return which events the handler accepts, for people."""
+        """Return a human-readable description of the accepted events."""
         conditions = [f"event.{name} == '{value}'" for name, value in self.__wanted.items()]
         if self.__target is not None:
             conditions.insert(0, f'event.action == {self.__target}')
@@ -99,7 +99,7 @@ class OnStateTransition(EventHandler):
 
 
 def _warn_of_unknown_states(*labels: Optional[str]) -> None:
-    """Say that a handler waits for a state that no node is ever in."""
+    """Log a warning for each label that is not a state of lifecycle nodes."""
     for label in labels:
         if label is None or label in _STATES:
             continue

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The events that ROS nodes bring about."""
+"""Events of ROS nodes."""
 
 from __future__ import annotations
 

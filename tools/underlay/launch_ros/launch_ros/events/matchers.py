@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that tell whether an event belongs to a node."""
+"""Predicates that match actions of nodes."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 def matches_node_name(node_name: str) -> Callable[[Node], bool]:
     """
-    Return a matcher of the nodes of a full name.
+    Return a predicate that matches nodes by fully qualified name.
 
     Parameters
     ----------
     node_name
-        The full name; a leading slash may be left out.
+        The fully qualified name; the leading slash is optional.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitutions that know about ROS packages and parameters."""
+"""Substitutions for ROS packages and parameters."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look up where a package is installed."""
+"""Find the install prefix of a package."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 
 
 class _ExplainedPackageNotFoundError(PackageNotFoundError):
-    """A package was not found; the text says why, as far as it is known."""
+    """A package was not found; the message states why, as far as known."""
 
     def __init__(self, error: KeyError, explanation: str) -> None:
         super().__init__(*error.args)
@@ -29,7 +29,7 @@ def prefix_of(package_name: str) -> str:
     Raises
     ------
     PackageNotFoundError
-        It is not installed; the text says why, as far as the workspace tells.
+        It is not installed; the message states why, as far as the workspace shows.
 
     """
     try:
@@ -39,7 +39,7 @@ def prefix_of(package_name: str) -> str:
 
 
 def _explain(package_name: str) -> str:
-    """Return what the workspace around the current folder tells about a package."""
+    """Explain a missing package from the workspace around the current directory."""
     try:
         from ros_environment.workspace import explain_missing_package
     except ImportError:

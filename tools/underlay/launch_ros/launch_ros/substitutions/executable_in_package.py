@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The path of an executable of a package."""
+"""Substitution for the path of an executable of a package."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class ExecutableInPackage(FindPackagePrefix):
     executable
         The file name of the executable.
     package
-        The package that has installed it.
+        The package that installs the executable.
 
     """
 
@@ -41,11 +41,11 @@ class ExecutableInPackage(FindPackagePrefix):
 
     @property
     def executable(self) -> list[Substitution]:
-        """Return the parts of the name of the executable."""
+        """Return the executable name, as substitutions."""
         return self.__executable
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         package = ' + '.join(sub.describe() for sub in self.package)
         executable = ' + '.join(sub.describe() for sub in self.__executable)
         return f'ExecInPkg(pkg={package}, exec={executable})'
@@ -57,14 +57,14 @@ class ExecutableInPackage(FindPackagePrefix):
         Parameters
         ----------
         context
-            What the names are evaluated with.
+            The launch context used to perform substitutions in the names.
 
         Raises
         ------
         PackageNotFoundError
             The package is not installed.
         SubstitutionFailure
-            It has no such executable; the text says what is missing.
+            The package has no such executable; the message states what is missing.
 
         """
         executable = perform_substitutions(context, self.__executable)
@@ -85,7 +85,7 @@ class ExecutableInPackage(FindPackagePrefix):
 
 
 def _explain(package: str, executable: str, prefix: str) -> str:
-    """Return what the workspace around the current folder tells about an executable."""
+    """Explain a missing executable from the workspace around the current directory."""
     try:
         from ros_environment.workspace import explain_missing_executable
     except ImportError:

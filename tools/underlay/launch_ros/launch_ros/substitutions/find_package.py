@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The folders of ROS packages."""
+"""Substitutions for the install directories of ROS packages."""
 
 from __future__ import annotations
 
@@ -36,22 +36,22 @@ class FindPackage(PathOperator):
 
     @property
     def package(self) -> list[Substitution]:
-        """Return the parts of the name of the package."""
+        """Return the package name, as substitutions."""
         return self.__package
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         package = ' + '.join(sub.describe() for sub in self.__package)
         return f'{type(self).__name__}(pkg={package})'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the folder of the package.
+        Return the directory of the package.
 
         Parameters
         ----------
         context
-            What the name of the package is evaluated with.
+            The launch context used to perform substitutions in the package name.
 
         Raises
         ------
@@ -63,12 +63,12 @@ class FindPackage(PathOperator):
 
     def find(self, package_name: str) -> str:
         """
-        Return the folder of a package; subclasses override this.
+        Return the directory of a package; to be overridden by subclasses.
 
         Parameters
         ----------
         package_name
-            The name of the package, as text.
+            The name of the package, as a string.
 
         """
         raise NotImplementedError
@@ -102,7 +102,7 @@ class FindPackageShare(FindPackagePrefix):
 
     def find(self, package_name: str) -> str:
         """
-        Return the share folder of a package.
+        Return the share directory of a package.
 
         Parameters
         ----------

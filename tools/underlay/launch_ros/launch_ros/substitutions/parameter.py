@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The value of a parameter that was set for all nodes."""
+"""Substitution for the value of a global parameter."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Parameter(Substitution):
     name
         The name of the parameter.
     default
-        What it stands for if the parameter is not set; None makes that a failure.
+        The value if the parameter is not set; None makes that an error.
 
     """
 
@@ -43,23 +43,23 @@ class Parameter(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Return the parts of the name."""
+        """Return the parameter name, as substitutions."""
         return self.__name
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return f'Parameter({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """
-        Return the value as text, or else the default.
+        Return the value as a string, or the default if it is not set.
 
-        Of several values that were set for the same name, the first one counts.
+        If several values were set for the same name, the first one is used.
 
         Parameters
         ----------
         context
-            Its launch configuration `global_params` holds the parameters of all nodes.
+            The launch context; its configuration `global_params` holds the global parameters.
 
         Raises
         ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Helpers for the actions that know about ROS."""
+"""Utilities for the ROS actions of launch."""
 
 from __future__ import annotations
 

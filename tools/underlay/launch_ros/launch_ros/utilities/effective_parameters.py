@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters that a node gets from its command line."""
+"""Determine the effective parameters of a node from its command line."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ def effective_parameters(
     namespace: Optional[str],
 ) -> dict[str, Any]:
     """
-    Return the parameters that a node gets from its command line, by their names.
+    Return the effective parameters of a node, by name, from its command line.
 
-    ROS puts together what is for the same key, at the place where the key comes first; of the keys
-    that match the node the later ones win. Single parameters have the key `/**`.
+    ROS merges entries with the same key at the position of the first one; of the keys that match
+    the node, later ones take precedence. Single parameters have the key `/**`.
 
     Parameters
     ----------
     words
-        The command line, with `-p` and `--params-file`; files that cannot be read are passed over.
+        The command line, with `-p` and `--params-file`; unreadable files are skipped.
     name
         The node name; None matches the wildcards `*` and `**` only.
     namespace
@@ -48,7 +48,7 @@ def effective_parameters(
 
 def parameter_files(words: Sequence[str]) -> list[str]:
     """
-    Return the parameter files that a command line names, without those for dictionaries.
+    Return the parameter files of a command line, except those written for dictionaries.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def parameter_files(words: Sequence[str]) -> list[str]:
 
 
 def _given(words: Sequence[str]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield keys with parameters in the order of the command line."""
+    """Yield keys and their parameters, in the order of the command line."""
     for option, value in zip(words, words[1:]):
         if option == _FILE:
             yield from _in_file(value)
@@ -72,7 +72,7 @@ def _given(words: Sequence[str]) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _in_file(path: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield what a file says; nodes themselves complain about one that cannot be read."""
+    """Yield the entries of a file; skip unreadable ones, which the nodes report themselves."""
     import yaml
 
     try:
@@ -99,7 +99,7 @@ def _flat(value: Any, prefix: str) -> Iterator[tuple[str, Any]]:
 
 
 def _is_for(key: str, name: Optional[str], namespace: Optional[str]) -> bool:
-    """Return whether a key is for a node; one whose name is not known matches wildcards."""
+    """Whether a key matches a node; an unknown node name matches wildcards only."""
     if name is None:
         return key.rpartition('/')[2] in ('*', '**')
     return key_matches(key, name, namespace or '/')

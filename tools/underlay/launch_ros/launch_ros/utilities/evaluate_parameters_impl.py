@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find out the parameters of a node."""
+"""Evaluate the parameters of a node."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ def evaluate_parameter_dict(
     Parameters
     ----------
     context
-        What substitutions are performed with.
+        The launch context used to perform substitutions.
     parameters : Mapping[Any, Any]
-        What `normalize_parameter_dict` has returned.
+        The result of `normalize_parameter_dict`.
 
     Returns
     -------
     dict
-        Plain values, by the names of the parameters.
+        Plain values by parameter name.
 
     Raises
     ------
     TypeError
-        A parameter cannot have the value that substitutions stand for.
+        The substituted value is not a valid parameter value.
 
     """
     evaluated: dict[str, Any] = {}
@@ -57,9 +57,9 @@ def evaluate_parameters(
     Parameters
     ----------
     context
-        What substitutions are performed with.
+        The launch context used to perform substitutions.
     parameters : Iterable[NormalizedParameters]
-        What `normalize_parameters` has returned.
+        The result of `normalize_parameters`.
 
     Returns
     -------
@@ -69,7 +69,7 @@ def evaluate_parameters(
     Raises
     ------
     TypeError
-        A parameter cannot have the value that substitutions stand for.
+        The substituted value is not a valid parameter value.
 
     """
     return [_evaluate(context, element) for element in parameters]

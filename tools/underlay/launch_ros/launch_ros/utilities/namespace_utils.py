@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Put namespaces together."""
+"""Utilities for joining and classifying namespaces."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Optional
 
 def is_root_namespace(namespace: Optional[str]) -> bool:
     """
-    Whether a namespace is the root.
+    Whether a namespace is the root namespace.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ def is_root_namespace(namespace: Optional[str]) -> bool:
 
 def is_namespace_absolute(namespace: Optional[str]) -> bool:
     """
-    Whether a namespace begins with a slash.
+    Whether a namespace is absolute (starts with a slash).
 
     Parameters
     ----------
@@ -34,12 +34,12 @@ def is_namespace_absolute(namespace: Optional[str]) -> bool:
 
 def make_namespace_absolute(namespace: Optional[str]) -> Optional[str]:
     """
-    Put a slash before a relative namespace.
+    Prepend a slash to a relative namespace.
 
     Parameters
     ----------
     namespace
-        An absolute one, and None, is returned as it is.
+        The namespace; an absolute one, or None, is returned unchanged.
 
     """
     if namespace is None or is_namespace_absolute(namespace):
@@ -49,19 +49,19 @@ def make_namespace_absolute(namespace: Optional[str]) -> Optional[str]:
 
 def prefix_namespace(base: Optional[str], namespace: Optional[str]) -> Optional[str]:
     """
-    Join a namespace to a base, without a slash at the end.
+    Join a namespace to a base, without a trailing slash.
 
     Parameters
     ----------
     base
-        What a relative namespace goes below; None or empty leaves it as it is.
+        The parent of a relative namespace; None or empty leaves the namespace unchanged.
     namespace
-        An absolute one replaces the base; None stands for the base itself.
+        The namespace; an absolute one replaces the base, None stands for the base itself.
 
     Returns
     -------
     str or None
-        The namespace, which is relative if the base is; None if there is neither.
+        The namespace, which is relative if the base is; None if both are None.
 
     """
     if namespace is None or is_namespace_absolute(namespace):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bring the parameters of a node into one form."""
+"""Normalize the parameters of a node."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def normalize_parameters(parameters: Any) -> list[NormalizedParameters]:
     Raises
     ------
     TypeError
-        This is not a list, or one of its elements cannot be used.
+        The argument is not a list, or one of its elements is not supported.
 
     """
     if not isinstance(parameters, (list, tuple)):
@@ -64,24 +64,24 @@ def normalize_parameter_dict(
     prefix: Name = (),
 ) -> dict[Name, Any]:
     """
-    Flatten a dictionary of parameters; the names of nested ones are joined by dots.
+    Flatten a dictionary of parameters; nested names are joined by dots.
 
     Parameters
     ----------
     parameters : Mapping[Any, Any]
-        Values and nested dictionaries, by texts or substitutions.
+        Values and nested dictionaries, by strings or substitutions.
     prefix
-        What comes before each name, with the dot.
+        The prefix of each name, including the dot.
 
     Returns
     -------
     dict
-        Values as `normalize_value` returns them, by the parts of the whole names.
+        Values normalized by `normalize_value`, by the substitutions of the full names.
 
     Raises
     ------
     TypeError
-        A name is not like a text, or a parameter cannot have the value.
+        A name is not a string or substitution, or a value is not a valid parameter value.
 
     """
     flat: dict[Name, Any] = {}
@@ -101,5 +101,5 @@ def normalize_parameter_dict(
 
 
 def _describe(name: Name) -> str:
-    """Return the name of a parameter as far as it is known."""
+    """Return a human-readable description of a parameter name."""
     return ''.join(getattr(part, 'text', None) or part.describe() for part in name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make substitutions out of remapping rules."""
+"""Normalize and evaluate remapping rules."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ RemapRule = tuple[list[Substitution], list[Substitution]]
 
 def normalize_remap_rule(remap_rule: Any) -> RemapRule:
     """
-    Turn both sides of a remapping into substitutions.
+    Convert both sides of a remapping to substitutions.
 
     Parameters
     ----------
     remap_rule
-        A tuple of the name that is remapped and what it becomes.
+        A tuple of the original and the new name.
 
     Raises
     ------
     TypeError
-        This is not such a tuple.
+        The argument is not such a tuple.
 
     """
     if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
@@ -46,12 +46,12 @@ def normalize_remap_rule(remap_rule: Any) -> RemapRule:
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> list[RemapRule]:
     """
-    Turn both sides of each remapping into substitutions.
+    Convert both sides of each remapping to substitutions.
 
     Parameters
     ----------
     remap_rules
-        As for `normalize_remap_rule`, which may raise an error.
+        As for `normalize_remap_rule`, whose exceptions propagate.
 
     """
     return [normalize_remap_rule(rule) for rule in remap_rules]
@@ -59,14 +59,14 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> list[RemapRule]:
 
 def evaluate_remap_rule(context: LaunchContext, rule: RemapRule) -> tuple[str, str]:
     """
-    Evaluate both sides of a remapping into texts.
+    Evaluate both sides of a remapping to strings.
 
     Parameters
     ----------
     context
-        What substitutions are performed with.
+        The launch context used to perform substitutions.
     rule
-        What `normalize_remap_rule` has returned.
+        The result of `normalize_remap_rule`.
 
     """
     return perform_substitutions(context, rule[0]), perform_substitutions(context, rule[1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read what a parameter file says about nodes."""
+"""Read parameter files."""
 
 from __future__ import annotations
 
@@ -18,32 +18,32 @@ _WILDCARDS = {'*': '/[^/]+', '**': '(?:/[^/]+)*'}
 
 @dataclass(frozen=True)
 class ParameterFileContent:
-    """What a file holds: parameters for names of nodes, and what is for none."""
+    """The content of a parameter file: parameters by node name, and stray keys."""
 
     path: str
     sections: list[tuple[str, Mapping[Any, Any]]]
-    """The names, which may have wildcards, and what is below their `ros__parameters`."""
+    """Node names, possibly with wildcards, and the mappings below their `ros__parameters`."""
     stray_keys: list[str]
-    """The paths of values that lie outside any `ros__parameters` and so have no effect."""
+    """The paths of values outside any `ros__parameters`, which have no effect."""
 
     def parameters_of(self, node_name: str) -> list[tuple[str, Any]]:
         """
-        Return the parameters for a node, in the order of the file.
+        Return the parameters of a node, in the order of the file.
 
         Parameters
         ----------
         node_name
-            The full name of the node, such as `/front/camera`.
+            The fully qualified name of the node, such as `/front/camera`.
 
         Returns
         -------
         list of tuple
-            Names, with those of nested parameters joined by dots, and values.
+            Names and values; the names of nested parameters are joined by dots.
 
         Raises
         ------
         TypeError
-            A parameter cannot have the value that the file gives it.
+            A value in the file is not a valid parameter value.
 
         """
         found: list[tuple[str, Any]] = []
@@ -55,7 +55,7 @@ class ParameterFileContent:
 
 def read_parameter_file(path: str) -> ParameterFileContent:
     """
-    Read a YAML file of parameters.
+    Read a YAML parameter file.
 
     Parameters
     ----------
@@ -65,9 +65,9 @@ def read_parameter_file(path: str) -> ParameterFileContent:
     Raises
     ------
     FileNotFoundError
-        There is no such file; the text says what may have been meant.
+        The file does not exist; the message suggests similar names.
     ValueError
-        The file is not YAML, or does not map names of nodes to parameters.
+        The file is not valid YAML, or does not map node names to parameters.
 
     """
     content = ParameterFileContent(path, [], [])
@@ -80,14 +80,14 @@ def read_parameter_file(path: str) -> ParameterFileContent:
 
 def matches(pattern: str, node_name: str) -> bool:
     """
-    Whether a key of a parameter file stands for a node.
+    Whether a key of a parameter file matches a node.
 
     Parameters
     ----------
     pattern
-        The key: `*` stands for one part of a name, `**` for any number of them.
+        The key; `*` matches one token of a name, `**` any number of tokens.
     node_name
-        The full name of the node.
+        The fully qualified name of the node.
 
     """
     parts = [part for part in pattern.split('/') if part]
@@ -111,7 +111,7 @@ def _load(path: str) -> Any:
 
 @cache
 def _loader() -> Any:
-    """Return a class that reads numbers such as 1e-3, which YAML 1.1 takes for texts, as ROS."""
+    """Return a loader that parses numbers such as 1e-3 like ROS, not as YAML 1.1 strings."""
     import yaml
 
     class Loader(yaml.SafeLoader):
@@ -123,7 +123,7 @@ def _loader() -> Any:
 
 
 def _collect(tree: Mapping[Any, Any], prefix: str, content: ParameterFileContent) -> None:
-    """Add what is below a name, which may be a nested namespace."""
+    """Collect the sections and stray keys below a name, which may be a namespace."""
     for key, value in tree.items():
         where = f'{prefix}/{str(key).lstrip("/")}'
         if key == _PARAMETERS:
@@ -144,7 +144,7 @@ def _misfit(path: str, where: str, value: Any) -> str:
 
 
 def _flat(parameters: Mapping[Any, Any], prefix: str, path: str) -> Iterator[tuple[str, Any]]:
-    """Yield each parameter; the names of nested ones are joined by dots."""
+    """Yield the parameters; nested names are joined by dots."""
     for key, value in parameters.items():
         name = f'{prefix}{key}'
         if isinstance(value, Mapping):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which nodes a parameter file is for."""
+"""Extract the node names of parameter files."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ PARAMETERS = 'ros__parameters'
 
 def parameter_file_keys(path: str) -> list[str]:
     """
-    Return the names of nodes in a parameter file, with their wildcards.
+    Return the node names in a parameter file, including wildcards.
 
-    Only the lines are looked at, because reading large files as YAML takes long; a file that is
-    not in block style has no names here.
+    The file is scanned line by line, as parsing large files as YAML is slow; no names are found
+    in files that are not in block style.
 
     Parameters
     ----------
     path
-        The file; one that cannot be read has no names.
+        The file; no names are found if it cannot be read.
 
     """
     return _keys(read_lines(path))
@@ -30,12 +30,12 @@ def parameter_file_keys(path: str) -> list[str]:
 
 def read_lines(path: str) -> list[str]:
     """
-    Return the lines of a text file, none if it cannot be read.
+    Return the lines of a text file; an empty list if it cannot be read.
 
     Parameters
     ----------
     path
-        The file, in UTF-8.
+        The file, encoded in UTF-8.
 
     """
     try:
@@ -47,17 +47,17 @@ def read_lines(path: str) -> list[str]:
 
 def key_of(line: str) -> Optional[tuple[str, str]]:
     """
-    Split the key off a line of YAML in block style.
+    Parse the key of a line of YAML in block style.
 
     Parameters
     ----------
     line
-        One line, without its end.
+        One line, without the line break.
 
     Returns
     -------
     tuple of str or None
-        The spaces before the key, and the key without quotes; None if the line begins with none.
+        The indentation and the unquoted key; None if the line does not start with a key.
 
     """
     match = _KEY.match(line)
@@ -84,16 +84,16 @@ def _keys(lines: list[str]) -> list[str]:
 
 def key_matches(key: str, name: str, namespace: Optional[str]) -> bool:
     """
-    Whether a key of a parameter file stands for a node.
+    Whether a key of a parameter file matches a node.
 
     Parameters
     ----------
     key
-        The name of a node, perhaps with the wildcards `*` and `**`.
+        A node name, possibly with the wildcards `*` and `**`.
     name
         The node name.
     namespace
-        The absolute namespace; None if it is not known, so that the key may be for any.
+        The absolute namespace; None if unknown, which matches any namespace.
 
     """
     if namespace is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find what makes a parameter file useless, without reading all of it as YAML."""
+"""Find errors in parameter files, without parsing all of them as YAML."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from launch_ros.utilities.parameter_file_keys import key_of, PARAMETERS, read_li
 
 
 class ParameterFileProblem(NamedTuple):
-    """A line of a file, and what is wrong there."""
+    """A line number and a description of the problem."""
 
     line: int
     text: str
@@ -18,14 +18,14 @@ class ParameterFileProblem(NamedTuple):
 
 def parameter_file_problem(path: str) -> Optional[ParameterFileProblem]:
     """
-    Return the first problem of a parameter file in block style, None if none is found.
+    Return the first problem of a parameter file in block style; None if there is none.
 
-    That is a tab where YAML allows only spaces, or a node without `ros__parameters`.
+    Problems are tabs where YAML allows only spaces, and nodes without `ros__parameters`.
 
     Parameters
     ----------
     path
-        The file; one that cannot be read has no problem here.
+        The file; no problem is reported if it cannot be read.
 
     """
     lines = read_lines(path)
@@ -33,7 +33,7 @@ def parameter_file_problem(path: str) -> Optional[ParameterFileProblem]:
 
 
 def _tab(lines: Sequence[str]) -> Optional[ParameterFileProblem]:
-    """Return the first tab that YAML refuses; where tabs may stand, YAML itself has to tell."""
+    """Return the first tab that YAML rejects; the YAML parser decides where tabs are valid."""
     if not any('\t' in line[: len(line) - len(line.lstrip())] for line in lines):
         return None
     import yaml
@@ -50,7 +50,7 @@ def _tab(lines: Sequence[str]) -> Optional[ParameterFileProblem]:
 
 
 def _entry_without_parameters(lines: Sequence[str]) -> Optional[ParameterFileProblem]:
-    """Return the first name at the margin below which there is something else."""
+    """Return the first top-level name with content but without `ros__parameters`."""
     starts = [number for number, line in enumerate(lines) if (key_of(line) or ' ')[0] == '']
     for start, end in zip(starts, [*starts[1:], len(lines)]):
         block = lines[start:end]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of parameters: those that there are, and those that are written for nodes."""
+"""Check existing parameter files and write temporary ones."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from launch_ros.utilities.yaml_text import parameter_file_text
 
 def is_parameter_file(path: str) -> bool:
     """
-    Whether a file exists; if not, warnings with advice are logged.
+    Whether a parameter file exists; if not, warnings with advice are logged.
 
     Parameters
     ----------
@@ -35,14 +35,14 @@ def is_parameter_file(path: str) -> bool:
 
 def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
     """
-    Write parameters to a temporary parameter file, and return its path.
+    Write parameters to a temporary parameter file and return its path.
 
     Parameters
     ----------
     node_name
-        The full name of the nodes that they are for, or `/**` for all.
+        The fully qualified name of the target nodes, or `/**` for all nodes.
     parameters : Mapping[str, Any]
-        Plain values, by the names of the parameters.
+        Plain values by parameter name.
 
     """
     return write_text(parameter_file_text(node_name, parameters))
@@ -50,7 +50,7 @@ def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
 
 def write_text(text: str) -> str:
     """
-    Write a temporary file, which is removed when the launch ends, and return its path.
+    Write a temporary file and return its path; it is removed when the launch ends.
 
     Parameters
     ----------
@@ -63,12 +63,12 @@ def write_text(text: str) -> str:
 
 def is_written_here(path: str) -> bool:
     """
-    Whether a file is one of the temporary files of the launch.
+    Whether a file is a temporary file of the launch.
 
     Parameters
     ----------
     path
-        The path as it was returned when the file was written.
+        The path, exactly as returned when the file was written.
 
     """
     return is_temporary_file(path)

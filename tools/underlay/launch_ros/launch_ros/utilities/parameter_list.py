@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bring all that sets parameters of a node into one list."""
+"""Merge the sources of a node's parameters into one list."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ def named_values(
     """
     Collect the parameters of a node from dictionaries, files and single parameters.
 
-    What has no effect in a file is logged, once for each file.
+    Entries without effect are logged, once for each file.
 
     Parameters
     ----------
     context
-        What single parameters are evaluated with.
+        The launch context used to evaluate single parameters.
     elements
-        What `evaluate_parameters` has returned.
+        The result of `evaluate_parameters`.
     node_name
-        The full name of the node, for which sections of files are chosen.
+        The fully qualified name of the node, which selects the sections of files.
 
     Returns
     -------
     list of NamedValue
-        Names and values in order; of several with the same name the last one counts.
+        Names and values, in order; the last value of a name takes precedence.
 
     Raises
     ------
@@ -57,7 +57,7 @@ def named_values(
     ValueError
         A file is not a parameter file.
     TypeError
-        A parameter cannot have the value that a file gives it.
+        A value in a file is not a valid parameter value.
 
     """
     found: list[NamedValue] = []
@@ -74,7 +74,7 @@ def named_values(
 
 
 def _warn_of_stray_keys(context: LaunchContext, content: ParameterFileContent) -> None:
-    """Say, once for each file, what has no effect in it."""
+    """Log the entries of a file that have no effect, once for each file."""
     if not content.stray_keys:
         return
     told: set[str] = context.get_locals_as_dict().get(_TOLD) or set()
@@ -102,16 +102,16 @@ def to_parameters_list(
     evaluated_parameters: Iterable[EvaluatedParameters],
 ) -> list[RosParameter]:
     """
-    Convert evaluated parameters into rclpy parameters.
+    Convert evaluated parameters to rclpy parameters.
 
     Parameters
     ----------
     context
-        As for `named_values`, which may raise an error.
+        As for `named_values`, whose exceptions propagate.
     node_name, namespace
-        Of the node; an empty namespace stands for the root.
+        Name and namespace of the node; an empty namespace stands for the root.
     evaluated_parameters
-        What `evaluate_parameters` has returned.
+        The result of `evaluate_parameters`.
 
     """
     full_name = prefix_namespace(namespace or '/', node_name.lstrip('/')) or ''
@@ -123,7 +123,7 @@ def to_parameters_list(
 
 def to_ros_parameter(name: str, value: Any) -> RosParameter:
     """
-    Convert a value into an rclpy parameter of its type.
+    Convert a value to an rclpy parameter of the matching type.
 
     Parameters
     ----------

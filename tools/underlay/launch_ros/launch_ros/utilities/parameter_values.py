@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The values of parameters: which ones there may be, and their types."""
+"""Validate, convert and evaluate parameter values."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ _ADVICE = (
 
 class TypedText:
     """
-    A text that gets its type by YAML rules when it is evaluated.
+    Text that is typed by YAML rules when it is evaluated.
 
     Parameters
     ----------
     parts
-        Texts and substitutions, which are joined.
+        Strings and substitutions, which are concatenated.
 
     Attributes
     ----------
     parts
-        The same, each as a substitution.
+        The parts, each as a substitution.
 
     """
 
@@ -46,19 +46,19 @@ class TypedText:
 
     def evaluate(self, context: LaunchContext, name: str) -> Any:
         """
-        Evaluate the text into the value of a parameter.
+        Evaluate the text to a parameter value.
 
         Parameters
         ----------
         context
-            What substitutions are performed with.
+            The launch context used to perform substitutions.
         name
-            The parameter, for error messages.
+            The parameter name, for error messages.
 
         Raises
         ------
         TypeError
-            A parameter cannot have the value.
+            The value is not a valid parameter value.
 
         """
         return type_text(perform_substitutions(context, self.parts), name)
@@ -66,24 +66,24 @@ class TypedText:
 
 def normalize_value(value: Any, name: str) -> Any:
     """
-    Normalize the value of a parameter, so that it can be evaluated at run time.
+    Normalize a parameter value, so that it can be evaluated at run time.
 
     Parameters
     ----------
     value
         A scalar, a path, a substitution, a ParameterValue, or a list.
     name
-        The parameter, for error messages.
+        The parameter name, for error messages.
 
     Returns
     -------
     Any
-        A plain value, what has an `evaluate` of its own, a TypedText, or a list of those.
+        A plain value, an object with an `evaluate` method, a TypedText, or a list of those.
 
     Raises
     ------
     TypeError
-        A parameter cannot have the value.
+        The value is not a valid parameter value.
 
     """
     if isinstance(value, Substitution):
@@ -115,16 +115,16 @@ def evaluate_value(context: LaunchContext, value: Any, name: str) -> Any:
     Parameters
     ----------
     context
-        What substitutions are performed with.
+        The launch context used to perform substitutions.
     value
-        What `normalize_value` has returned.
+        The result of `normalize_value`.
     name
-        The parameter, for error messages.
+        The parameter name, for error messages.
 
     Raises
     ------
     TypeError
-        A parameter cannot have the value.
+        The value is not a valid parameter value.
 
     """
     if isinstance(value, TypedText):
@@ -138,19 +138,19 @@ def evaluate_value(context: LaunchContext, value: Any, name: str) -> Any:
 
 def type_text(text: str, name: str) -> Any:
     """
-    Convert a text into a value by YAML rules; an empty one stays a text.
+    Convert a text to a value by YAML rules; an empty text stays a string.
 
     Parameters
     ----------
     text
         The text, with all substitutions performed.
     name
-        The parameter, for error messages.
+        The parameter name, for error messages.
 
     Raises
     ------
     TypeError
-        The text is not YAML, or a parameter cannot have the value.
+        The text is not valid YAML, or the value is not a valid parameter value.
 
     """
     if not text:
@@ -166,19 +166,19 @@ def type_text(text: str, name: str) -> Any:
 
 def checked(value: Any, name: str) -> Any:
     """
-    Return a value if a parameter can have it, with lists made uniform.
+    Validate a parameter value; the items of lists are converted to one type.
 
     Parameters
     ----------
     value
         Any plain value.
     name
-        The parameter, for error messages.
+        The parameter name, for error messages.
 
     Raises
     ------
     TypeError
-        A parameter cannot have the value.
+        The value is not a valid parameter value.
 
     """
     if isinstance(value, (list, tuple)):
@@ -192,14 +192,14 @@ def checked(value: Any, name: str) -> Any:
 
 def uniform(items: list[Any], name: str) -> list[Any]:
     """
-    Return a list whose items have one type; integers among floats become floats.
+    Return a list with items of one type; integers among floats become floats.
 
     Parameters
     ----------
     items
         The items.
     name
-        The parameter, for error messages.
+        The parameter name, for error messages.
 
     Raises
     ------

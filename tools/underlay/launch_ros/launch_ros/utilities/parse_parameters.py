@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the parameters and remappings in launch files that are not in Python."""
+"""Parse parameters and remappings of XML and YAML launch files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def parse_parameters(entity: Entity, parser: Parser) -> dict[str, list[Any]]:
     """
-    Parse the children `param` of an element into a keyword argument.
+    Parse the `param` children of an element into a keyword argument.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def parse_parameters(entity: Entity, parser: Parser) -> dict[str, list[Any]]:
 
 def parse_remappings(entity: Entity, parser: Parser) -> dict[str, list[Any]]:
     """
-    Parse the children `remap` of an element into a keyword argument.
+    Parse the `remap` children of an element into a keyword argument.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def parse_remappings(entity: Entity, parser: Parser) -> dict[str, list[Any]]:
 
 def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
     """
-    Parse elements `param` into dictionaries and parameter files.
+    Parse `param` elements into dictionaries and parameter files.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
     Raises
     ------
     ValueError
-        An element has neither a value nor nested ones, or both, or an attribute that is unknown.
+        An element has neither a value nor nested elements, or both, or an unknown attribute.
 
     """
     return [_parse_element(param, parser) for param in params]
@@ -101,22 +101,22 @@ def parse_value(
     parser
         Parses substitutions in attributes.
     type_identifier
-        The type that the element asks for, such as `str` or `list_of_int`; None for YAML rules.
+        The requested type, such as `str` or `list_of_int`; None for YAML rules.
     optional
         Whether the attribute may be missing.
 
     Returns
     -------
     Any
-        The value or its substitutions, as a ParameterValue if it has a type; None if it is
-        missing.
+        The value or its substitutions, as a ParameterValue if a type is requested; None if it
+        is missing.
 
     Raises
     ------
     AttributeError
         The attribute is missing and not optional.
     ValueError
-        There is no such type.
+        The type does not exist.
 
     """
     data_type = None if type_identifier is None else get_data_type_from_identifier(type_identifier)
@@ -163,7 +163,7 @@ def _nested(params: list[Entity], parser: Parser) -> dict[Any, Any]:
 
 
 def _parse_texts(value: Any) -> Any:
-    """Return texts without substitutions as they are, and others with their parts."""
+    """Convert values that consist of plain text to strings; leave others as substitutions."""
     if not isinstance(value, list) or not value:
         return value
     if isinstance(value[0], Substitution):

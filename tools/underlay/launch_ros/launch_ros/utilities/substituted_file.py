@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parameter files with substitutions in them."""
+"""Perform the substitutions in parameter files."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ def substitute_parameter_file(context: LaunchContext, path: str) -> str:
     Parameters
     ----------
     context
-        What substitutions are performed with.
+        The launch context used to perform substitutions.
     path
-        The file, with texts such as `$(var name)` in it.
+        The file, which contains substitutions such as `$(var name)`.
 
     Returns
     -------

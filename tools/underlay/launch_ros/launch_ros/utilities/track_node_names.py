@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Count the nodes of each name."""
+"""Count the launched nodes by fully qualified name."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ _KEY = 'unique_ros_node_names'
 
 def add_node_name(context: LaunchContext, node_name: str) -> int:
     """
-    Count one more node of a full name.
+    Increment the count of nodes with a fully qualified name.
 
     Parameters
     ----------
     context
-        The context of the launch, which keeps the counts.
+        The launch context, which stores the counts.
     node_name
-        The full name of the node.
+        The fully qualified name of the node.
 
     Returns
     -------
     int
-        How many nodes of this name there are now.
+        The number of nodes with this name, including the new one.
 
     """
     counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
@@ -33,14 +33,14 @@ def add_node_name(context: LaunchContext, node_name: str) -> int:
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
     """
-    Return how many nodes of a full name have been created.
+    Return the number of nodes created with a fully qualified name.
 
     Parameters
     ----------
     context
         The context of the launch.
     node_name
-        The full name.
+        The fully qualified name.
 
     """
     counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
@@ -49,16 +49,16 @@ def get_node_name_count(context: LaunchContext, node_name: str) -> int:
 
 def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str) -> None:
     """
-    Count one more node of a full name, and log a warning if it is not the only one.
+    Increment the count of a fully qualified name, and log a warning if it is a duplicate.
 
     Parameters
     ----------
     context
         The context of the launch.
     node_name
-        The full name of the node.
+        The fully qualified name of the node.
     logger_name
-        The logger of the warning.
+        The name of the logger.
 
     """
     count = add_node_name(context, node_name)
@@ -74,7 +74,7 @@ def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str)
 
 def get_node_names(context: LaunchContext) -> list[str]:
     """
-    Return the full names of the nodes that have been created.
+    Return the fully qualified names of the nodes created so far.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Check the names of nodes and namespaces.
+Validate node names and namespaces.
 
-What is valid is recognised here; why something is not, rclpy says, which takes long to import.
+Valid names are recognised here; rclpy, which is slow to import, only explains invalid ones.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ _NAMESPACE = re.compile(r'/|(?=.{1,245}\Z)(/[A-Za-z_][A-Za-z0-9_]*)+')
 
 
 class InvalidNameError(ValueError):
-    """A name is not allowed in ROS; the text says why, and where."""
+    """A name is not allowed in ROS; the message states why, and where."""
 
 
 def validate_node_name(name: str) -> None:
     """
-    Check that a text is a valid node name.
+    Validate a node name.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def validate_node_name(name: str) -> None:
     Raises
     ------
     InvalidNameError
-        It is not allowed in ROS; the text says why, and where.
+        The name is not allowed in ROS; the message states why, and where.
 
     """
     if not _NODE_NAME.fullmatch(name):
@@ -42,7 +42,7 @@ def validate_node_name(name: str) -> None:
 
 def validate_namespace(namespace: str) -> None:
     """
-    Check that a text is a valid absolute namespace.
+    Validate an absolute namespace.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def validate_namespace(namespace: str) -> None:
     Raises
     ------
     InvalidNameError
-        It is not allowed in ROS; the text says why, and where.
+        The name is not allowed in ROS; the message states why, and where.
 
     """
     if not _NAMESPACE.fullmatch(namespace):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write values as YAML that every parser reads in the same way."""
+"""Format values as YAML that every parser reads in the same way."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 def flow_text(value: Any) -> str:
     """
-    Format a scalar or a list as YAML on one line; texts are always quoted.
+    Format a scalar or a list as single-line YAML; strings are always quoted.
 
     Parameters
     ----------
@@ -40,9 +40,9 @@ def parameter_file_text(node_name: str, parameters: Mapping[str, Any]) -> str:
     Parameters
     ----------
     node_name
-        The full name of the nodes that they are for, or `/**` for all.
+        The fully qualified name of the target nodes, or `/**` for all nodes.
     parameters : Mapping[str, Any]
-        Plain values, by the names of the parameters.
+        Plain values by parameter name.
 
     """
     lines = [f'{_quoted(node_name)}:', '  ros__parameters:']
@@ -62,7 +62,7 @@ def _float_text(value: float) -> str:
 
 
 def _quoted(text: str) -> str:
-    """Return a text in single quotes, or with escapes if it has special characters."""
+    """Quote a string, with escapes if it has special characters."""
     if text.isprintable():
         return "'" + text.replace("'", "''") + "'"
     import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that lets the tests begin."""
+"""Launch action that signals that the tests can start."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ class ReadyToTest(Action):
     """Lets the tests begin; of several, all must have been visited."""
 
     def describe(self) -> str:
-        """Return a short description for people."""
+        """Return a short human-readable description."""
         return 'ReadyToTest()'
 
     def execute(self, context: LaunchContext) -> None:
         """
-        Emit the event that lets the tests begin.
+        Emit the event that starts the tests.
 
         Parameters
         ----------

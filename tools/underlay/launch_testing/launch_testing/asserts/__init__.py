@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tests assert about the processes of a launch."""
+"""Assertions about the processes of a launch."""
 
 from __future__ import annotations
 

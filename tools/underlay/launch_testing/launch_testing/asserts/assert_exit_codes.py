@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Assert how processes ended."""
+"""Assertions about the exit codes of processes."""
 
 from __future__ import annotations
 
@@ -32,25 +32,25 @@ def assertExitCodes(  # noqa: N802
     strict_proc_matching: bool = True,
 ) -> None:
     """
-    Assert that a process, or each one, has ended with one of some exit codes.
+    Assert that a process, or every process, has ended with an allowed exit code.
 
-    A process that the signal n has ended counts as -n, and as 128 + n as in a shell.
+    The exit code of a process ended by signal n is -n, or 128 + n as in a shell.
 
     Parameters
     ----------
     proc_info
-        Knows the processes and how they ended.
+        The recorder of process starts and exits.
     allowable_exit_codes
-        The exit codes that are right.
+        The allowed exit codes.
     process, cmd_args, strict_proc_matching
-        As for `resolveProcesses`; without a process, all of them are meant.
+        As for `resolveProcesses`; without a process, all processes are checked.
 
     Raises
     ------
     AssertionError
-        A process has ended with another exit code, or has not ended.
+        A process has ended with a different exit code, or has not ended.
     NoMatchingProcessException
-        No process, or more than one, is the one meant.
+        No process matches, or more than one.
     TypeError
         The exit codes are not a collection.
 
@@ -71,7 +71,7 @@ def assertExitCodes(  # noqa: N802
 
 
 def _complaint(info: Any, allowed: set[int]) -> list[str]:
-    """Return what is wrong with the end of a process, if anything is."""
+    """Return an error message in a list if the exit code is not allowed, else no message."""
     if not isinstance(info, ProcessExited):
         return [f"the process '{info.process_name}' has not ended"]
     code = info.returncode

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Assert what processes have written."""
+"""Assertions about the output of processes."""
 
 from __future__ import annotations
 
@@ -27,31 +27,31 @@ def assertInStream(  # noqa: N802
     stream: Optional[str] = None,
 ) -> None:
     """
-    Assert that a process has written some output to a stream.
+    Assert that a stream of a process contains the expected output.
 
     Parameters
     ----------
     proc_output
-        What the processes have written.
+        The recorded output of the processes.
     expected_output
-        A text, a regular expression, a function of the output, or a list of those for its lines.
+        A string, a regular expression or a predicate of the output, or a list of those for lines.
     process, cmd_args
-        As for `resolveProcesses`; without a process, any of them is enough.
+        As for `resolveProcesses`; without a process, the output of any process matches.
     output_filter
-        A function that the output goes through first.
+        Filter that is applied to the output first.
     strict_proc_matching
-        Whether exactly one process must be meant.
+        Whether exactly one process must match.
     strip_ansi_escape_sequences
-        Whether colours are ignored.
+        Whether ANSI colour codes are stripped.
     stream
-        `stdout` or `stderr`; None accepts each of them, and both together.
+        `stdout` or `stderr`; None matches either of them, or both together.
 
     Raises
     ------
     AssertionError
-        The output is not there; the text shows the last lines.
+        The output was not found; the message shows the last lines.
     NoMatchingProcessException
-        No process, or more than one, is the one meant.
+        No process matches, or more than one.
 
     """
     chosen = resolveProcesses(
@@ -79,7 +79,7 @@ def assertInStdout(  # noqa: N802
     **options: Any,
 ) -> None:
     """
-    Assert that a process has written some output to its standard output.
+    Assert that the standard output of a process contains the expected output.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def assertInStdout(  # noqa: N802
     Raises
     ------
     AssertionError
-        The output is not there.
+        The output was not found.
 
     """
     assertInStream(proc_output, expected_output, process, cmd_args, stream='stdout', **options)
@@ -105,7 +105,7 @@ def assertInStderr(  # noqa: N802
     **options: Any,
 ) -> None:
     """
-    Assert that a process has written some output to its standard error output.
+    Assert that the standard error of a process contains the expected output.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def assertInStderr(  # noqa: N802
     Raises
     ------
     AssertionError
-        The output is not there.
+        The output was not found.
 
     """
     assertInStream(proc_output, expected_output, process, cmd_args, stream='stderr', **options)
@@ -129,7 +129,7 @@ def _complaint(
     chosen: list[Any],
     stream: Optional[str],
 ) -> str:
-    """Return what is missing, and what the processes have written last instead."""
+    """Return an error message with the expected and the last actual output."""
     names = ', '.join(f"'{each.process_details['name']}'" for each in chosen) or 'any process'
     where = f' on {stream}' if stream else ''
     shown = getattr(expected, 'pattern', expected)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Assert what a process has written, in order."""
+"""Assertions about sequences in the output of a process."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 class SequentialTextChecker:
     """
-    Asserts that texts occur one after the other.
+    Checker that texts occur in sequence.
 
     Parameters
     ----------
     text
-        What a process has written.
+        The output of a process.
     name
         The name of the process, for error messages.
 
@@ -39,19 +39,19 @@ class SequentialTextChecker:
         output_filter: Optional[Callable[[str], str]] = None,
     ) -> None:
         """
-        Assert that a text occurs after all those that were found before.
+        Assert that a text occurs after all texts found so far.
 
         Parameters
         ----------
         expected_output
-            The text, or a regular expression.
+            The text or a regular expression.
         output_filter
-            A function that the rest of the output goes through first.
+            Filter that is applied to the remaining output first.
 
         Raises
         ------
         AssertionError
-            The text does not follow; the message shows what does.
+            The text does not follow; the message shows the remaining output.
 
         """
         rest = self._rest if output_filter is None else output_filter(self._rest)
@@ -79,24 +79,24 @@ def assertSequentialStdout(  # noqa: N802
     cmd_args: Any = None,
 ) -> Iterator[SequentialTextChecker]:
     """
-    Assert, in a `with` block, that a process has written texts one after the other.
+    Return a context manager to assert that texts occur in sequence in the standard output.
 
     Parameters
     ----------
     proc_output
-        What the processes have written.
+        The recorded output of the processes.
     process, cmd_args
-        As for `resolveProcesses`; exactly one process must be meant.
+        As for `resolveProcesses`; exactly one process must match.
 
     Yields
     ------
     SequentialTextChecker
-        Asserts one text after the other.
+        The checker, to be called for each text in sequence.
 
     Raises
     ------
     NoMatchingProcessException
-        No process, or more than one, is the one meant.
+        No process matches, or more than one.
 
     """
     (action,) = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event handlers of launch descriptions under test."""
+"""Event handlers for launch descriptions under test."""
 
 from __future__ import annotations
 

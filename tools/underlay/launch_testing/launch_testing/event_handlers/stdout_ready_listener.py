@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A handler of the line by which a process tells that it is ready."""
+"""Event handler for the output by which a process signals that it is ready."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class StdoutReadyListener(OnProcessIO):
     target_action
         The action of the process; None for any process.
     ready_txt
-        The text, which may come in several pieces.
+        The text, which may arrive in several chunks.
     actions
-        What is visited then.
+        The entities to visit.
 
     """
 
@@ -49,7 +49,7 @@ class StdoutReadyListener(OnProcessIO):
         return actions
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a short description for people, and the actions."""
+        """Return a short human-readable description and the actions."""
         actions = self._actions
         listed = [] if actions is None else actions if isinstance(actions, list) else [actions]
         return super().describe()[0], listed

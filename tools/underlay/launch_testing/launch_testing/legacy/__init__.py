@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tests of launch descriptions that came before launch test files."""
+"""Legacy interface for tests of launch descriptions, which predates launch test files."""
 
 from __future__ import annotations
 

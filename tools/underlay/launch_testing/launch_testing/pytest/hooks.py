@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let pytest run launch test files."""
+"""Pytest hooks that collect launch test files."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     Parameters
     ----------
     parser
-        The parser of the command line of pytest.
+        The command line parser of pytest.
 
     """
     parser.addoption(
@@ -63,12 +63,12 @@ def pytest_pycollect_makemodule(
     module_path
         The file.
     parent
-        The collector of its folder.
+        The collector of its directory.
 
     Returns
     -------
     LaunchTestModule or None
-        None leaves the file to others.
+        None leaves the file to other plugins.
 
     """
     if not mentions(module_path, _MARKER):
@@ -81,14 +81,14 @@ def pytest_pycollect_makemodule(
 
 def mentions(path: Path, marker: str) -> bool:
     """
-    Whether the text of a file has a marker in it; nothing is imported.
+    Whether the text of a file contains a marker; nothing is imported.
 
     Parameters
     ----------
     path
         The Python file.
     marker
-        The name of the marker, which stands behind `mark.` there.
+        The name of the marker, which follows `mark.` in the file.
 
     """
     return re.search(rb'\bmark\.%s\b' % marker.encode(), path.read_bytes()) is not None

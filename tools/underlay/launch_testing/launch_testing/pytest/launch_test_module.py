@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A launch test file, as pytest sees it."""
+"""Pytest collector and items of launch test files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class LaunchTestFailure(Exception):
 
 class LaunchTestItem(pytest.Item):
     """
-    The run of all tests of a file on a launch description.
+    Pytest item that runs all tests of a file on a launch description.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class LaunchTestItem(pytest.Item):
         self.test_run = test_run
 
     def runtest(self) -> None:
-        """Launch the description and run the tests; then the environment is as before."""
+        """Launch the description and run the tests; restore the environment afterwards."""
         arguments = self.config.getoption('--launch-args')
         runner = LaunchTestRunner([self.test_run], arguments, stream=io.StringIO())
         environment = dict(os.environ)
@@ -48,7 +48,7 @@ class LaunchTestItem(pytest.Item):
         self._tell(result)
 
     def _tell(self, result: TestResult) -> None:
-        """Report the single tests: as properties for JUnit XML, and why any failed."""
+        """Report the individual tests, as properties for JUnit XML and as failures."""
         for each in result.outcomes:
             self.user_properties.append((f'{each.class_name}.{each.name}', each.outcome))
         problems = result.problems()
@@ -66,9 +66,9 @@ class LaunchTestItem(pytest.Item):
         Parameters
         ----------
         excinfo
-            What `runtest` raised.
+            The exception that `runtest` raised.
         style
-            How pytest shows the traceback of other errors.
+            The traceback style of pytest for other errors.
 
         """
         if isinstance(excinfo.value, LaunchTestFailure):
@@ -76,19 +76,19 @@ class LaunchTestItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Any, int, str]:
-        """Return where the item comes from."""
+        """Return the path, line number and name of the item."""
         function = self.test_run.test_description_function
         return self.path, function.__code__.co_firstlineno - 1, self.name
 
 
 class LaunchTestModule(pytest.Module):
-    """A file that holds a launch test if its function has the marker."""
+    """Test module that contains a launch test if its function has the marker."""
 
     marker = 'launch_test'
     item_class = LaunchTestItem
 
     def collect(self) -> Iterable[Union[pytest.Item, pytest.Collector]]:
-        """Yield the runs of a launch test, or what an ordinary file has."""
+        """Yield the runs of a launch test, or the items of an ordinary module."""
         function = getattr(self.obj, 'generate_test_description', None)
         marks = [mark for mark in getattr(function, 'pytestmark', ()) if mark.name == self.marker]
         if not marks:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run processes in tests, and compare what they write with what is expected."""
+"""Tools to run processes in tests and to match their output."""
 
 from __future__ import annotations
 

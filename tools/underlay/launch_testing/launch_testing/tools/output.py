@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Filter the output of processes, and say what is expected of it."""
+"""Filter and match the output of processes."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ __all__ = [
 
 
 def get_default_filtered_prefixes() -> list[str]:
-    """Return how the lines begin that tests do not care about."""
+    """Return the prefixes of lines that tests ignore by default."""
     return ['pid', 'rc']
 
 
 def get_default_filtered_patterns() -> list[str]:
-    """Return what the lines look like that tests do not care about."""
+    """Return the regular expressions of lines that tests ignore by default."""
     return []
 
 
@@ -45,9 +45,9 @@ def basic_output_filter(
     Parameters
     ----------
     filtered_prefixes
-        How the lines begin that are removed; None takes the defaults.
+        The prefixes of lines to remove; None for the defaults.
     filtered_patterns
-        Regular expressions that such lines match from their beginning; None takes the defaults.
+        Regular expressions of lines to remove, matched from the start; None for the defaults.
 
     """
     if filtered_prefixes is None:
@@ -72,25 +72,25 @@ def expect_output(
     strict: bool = False,
 ) -> bool:
     """
-    Whether an output is as expected.
+    Whether an output matches the expected one.
 
     Either `expected_text` or `expected_lines` is given, and either `text` or `lines`.
 
     Parameters
     ----------
     expected_text
-        A text, a regular expression, a function of the output, or a list of those for its lines.
+        A string, a regular expression or a predicate of the output, or a list of those for lines.
     expected_lines
-        A text, a regular expression or a function for each line.
+        A string, a regular expression or a predicate for each line.
     text, lines
-        The output, as a whole or as its lines.
+        The output, as a whole or as lines.
     strict
-        Whether nothing else may be there.
+        Whether additional output is rejected.
 
     Raises
     ------
     ValueError
-        Both or none of two alternatives are given.
+        Both or neither of two alternatives are given.
 
     """
     if (expected_text is None) == (expected_lines is None):
@@ -116,7 +116,7 @@ def expected_output_from_file(path: Union[str, os.PathLike[str]]) -> list[Expect
     Returns
     -------
     list of ExpectedLine
-        The lines of `path.txt`, or else those of `path.regex` as regular expressions.
+        The lines of `path.txt`, or those of `path.regex` as regular expressions.
 
     Raises
     ------

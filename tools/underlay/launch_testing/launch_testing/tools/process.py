@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a process for the length of a block in a launch that runs already."""
+"""Run processes in a running launch, for the duration of a `with` block."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ _SHUTDOWN_TIMEOUT_S = 30.0
 
 class ProcessProxy:
     """
-    Observes a process of a launch, and waits for it.
+    Proxy that observes a process of a launch and waits for its events.
 
     Parameters
     ----------
     process_action
-        The action of the process, which need not run yet.
+        The action of the process, which need not be running yet.
     proc_info, proc_output
-        What records the processes of the launch, and their output.
+        The recorders of the processes of the launch and of their output.
     output_filter
-        A function that the output goes through first.
+        Filter that is applied to the output first.
 
     """
 
@@ -53,7 +53,7 @@ class ProcessProxy:
 
     def wait_for_startup(self, timeout: float = 10) -> bool:
         """
-        Wait until the process runs, and return whether it does.
+        Wait until the process has started, and return whether it has.
 
         Parameters
         ----------
@@ -81,14 +81,14 @@ class ProcessProxy:
         timeout: Optional[float] = None,
     ) -> bool:
         """
-        Wait until the output fulfils a condition, and return whether it does.
+        Wait until the output satisfies a condition, and return whether it does.
 
         Parameters
         ----------
         condition
-            A function of all output so far; None waits for any output.
+            Predicate of the entire output so far; None waits for any output.
         timeout
-            The timeout in s; None is 10 s.
+            The timeout in s; None for 10 s.
 
         """
         wanted = bool if condition is None else condition
@@ -98,17 +98,17 @@ class ProcessProxy:
 
     @property
     def running(self) -> bool:
-        """Return whether the process runs."""
+        """Whether the process is running."""
         return self._is_known and not self.terminated
 
     @property
     def terminated(self) -> bool:
-        """Return whether the process has ended."""
+        """Whether the process has ended."""
         return self._is_known and isinstance(self._proc_info[self._action], ProcessExited)
 
     @property
     def exit_code(self) -> int:
-        """Return how the process ended."""
+        """Return the exit code; raise a RuntimeError if the process has not ended."""
         info = self._proc_info[self._action]
         if not isinstance(info, ProcessExited):
             raise RuntimeError(f"the process '{info.process_name}' has not ended yet")
@@ -116,17 +116,17 @@ class ProcessProxy:
 
     @property
     def stdout(self) -> str:
-        """Return what the process has written to its standard output."""
+        """Return the standard output of the process so far."""
         return self._text('stdout')
 
     @property
     def stderr(self) -> str:
-        """Return what the process has written to its standard error output."""
+        """Return the standard error of the process so far."""
         return self._text('stderr')
 
     @property
     def output(self) -> str:
-        """Return all that the process has written."""
+        """Return the standard output and the standard error of the process so far."""
         return self._text(None)
 
     @property
@@ -148,7 +148,7 @@ def launch_process(
     output_filter: Optional[Callable[[str], str]] = None,
 ) -> Iterator[ProcessProxy]:
     """
-    Run a process in a launch for the length of a `with` block.
+    Run a process in a launch for the duration of a `with` block.
 
     Parameters
     ----------
@@ -157,14 +157,14 @@ def launch_process(
     process_action
         The action of the process.
     proc_info, proc_output
-        What records the processes of the launch, and their output.
+        The recorders of the processes of the launch and of their output.
     output_filter
-        A function that the output goes through first.
+        Filter that is applied to the output first.
 
     Yields
     ------
     ProcessProxy
-        The process, which has started. It is shut down at the end if it still runs.
+        The started process. It is shut down at the end if it is still running.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compare texts with what is expected of them."""
+"""Match text with the expected output."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LINES_OR_TEXTS = 'a text, a compiled regular expression, a function, or a list 
 
 def remove_ansi_escape_sequences(text: str) -> str:
     """
-    Remove the ANSI escape sequences that colour a text on a terminal.
+    Remove ANSI escape sequences, such as terminal colours, from a text.
 
     Parameters
     ----------
@@ -34,19 +34,19 @@ def remove_ansi_escape_sequences(text: str) -> str:
 
 def build_line_match(expected_line: ExpectedLine, *, strict: bool = False) -> Match:
     """
-    Return a predicate of lines that are as expected.
+    Return a predicate that matches expected lines.
 
     Parameters
     ----------
     expected_line
-        A text or a regular expression that is in the line, or a predicate.
+        A string or a regular expression to find in the line, or a predicate.
     strict
-        Whether the line must be equal to the text, or match the expression from its beginning.
+        Whether the line must be equal to the string, or match the expression from its start.
 
     Raises
     ------
     ValueError
-        What is expected has another type.
+        The type of the expected output is not supported.
 
     """
     if isinstance(expected_line, str):
@@ -63,19 +63,19 @@ def build_line_match(expected_line: ExpectedLine, *, strict: bool = False) -> Ma
 
 def build_text_match(expected_text: Expected, *, strict: bool = False) -> Match:
     """
-    Return a predicate of texts that are as expected.
+    Return a predicate that matches expected text.
 
     Parameters
     ----------
     expected_text
-        A text, a regular expression or a predicate of the whole, or a list of those for its lines.
+        A string, a regular expression or a predicate of the text, or a list of those for lines.
     strict
-        As for `build_line_match`; and whether a list has no other lines in between.
+        As for `build_line_match`; in addition, a list must match without other lines in between.
 
     Raises
     ------
     ValueError
-        What is expected has another type.
+        The type of the expected output is not supported.
 
     """
     if isinstance(expected_text, (str, re.Pattern)) or callable(expected_text):
@@ -95,16 +95,16 @@ def lines_match(
     strict: bool,
 ) -> bool:
     """
-    Whether lines are as expected, in this order.
+    Whether lines match the expected ones, in this order.
 
     Parameters
     ----------
     lines
         The lines.
     expected_lines
-        A text, a regular expression or a predicate for each; may be endless if `strict`.
+        A string, a regular expression or a predicate for each line; may be infinite if `strict`.
     strict
-        Whether each line must be as expected, with no others in between.
+        Whether each line must match, without other lines in between.
 
     """
     if strict:
@@ -134,27 +134,27 @@ def matching_text(
     strip_ansi_escape_sequences: bool = True,
 ) -> bool:
     """
-    Whether the output of a process so far is as expected.
+    Whether the output of a process so far matches the expected one.
 
     Parameters
     ----------
     proc_output
-        What the processes have written.
+        The recorded output of the processes.
     process
         The action of the process.
     expected
         As for `build_text_match`.
     stream
-        `stdout` or `stderr`; None accepts each of them, and both together.
+        `stdout` or `stderr`; None matches either of them, or both together.
     output_filter
-        A function that the output goes through first.
+        Filter that is applied to the output first.
     strip_ansi_escape_sequences
-        Whether colours are ignored.
+        Whether ANSI colour codes are stripped.
 
     Raises
     ------
     ValueError
-        There is no such stream, or what is expected has another type.
+        The stream is unknown, or the type of the expected output is not supported.
 
     """
     if stream not in ('stdout', 'stderr', None):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Helpers of launch tests."""
+"""Utilities for launch tests."""
 
 from __future__ import annotations
 

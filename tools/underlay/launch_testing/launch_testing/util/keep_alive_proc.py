@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A process that does nothing."""
+"""Idle process that keeps a launch running."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 from launch.actions import ExecuteProcess
 
-# Its standard input stays open and silent; a shell is there faster than a Python.
+# The standard input stays open without data; a shell starts faster than Python.
 _WAIT = "trap 'exit 0' INT TERM; while :; do read -r _ || exit 0; done"
 
 
@@ -18,7 +18,7 @@ class KeepAliveProc(ExecuteProcess):
     Parameters
     ----------
     **kwargs
-        Those of `ExecuteProcess`, but for `cmd`.
+        The arguments of `ExecuteProcess`, except `cmd`.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the processes of a launch that a test means."""
+"""Resolve the processes of a launch by action, name or arguments."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ NO_CMD_ARGS: Final = _NoCmdArgs()
 
 
 class NoMatchingProcessException(Exception):
-    """No process, or more than one, is what a test means."""
+    """No process, or more than one, matches the criteria of a test."""
 
 
 class _Handler(Protocol):
-    """What knows processes."""
+    """Protocol of handlers with a list of processes."""
 
     def processes(self) -> list[ExecuteLocal]:
         """Return the actions of the processes."""
@@ -43,18 +43,18 @@ def resolveProcesses(  # noqa: N802
     strict_proc_matching: bool = True,
 ) -> list[ExecuteLocal]:
     """
-    Find the processes that a test means.
+    Resolve processes by action, name or command line arguments.
 
     Parameters
     ----------
     info_obj
-        What knows the processes: `proc_info` or `proc_output`.
+        The handler of the processes: `proc_info` or `proc_output`.
     process
-        The action of a process, a part of its name, or None for all.
+        The action of a process, a substring of its name, or None for all.
     cmd_args
-        One or several words that the command line must have; NO_CMD_ARGS for one without any.
+        One or several arguments that the command line must contain; NO_CMD_ARGS for none.
     strict_proc_matching
-        Whether there must be exactly one, unless `process` is None.
+        Whether exactly one process must match, unless `process` is None.
 
     Returns
     -------
@@ -64,9 +64,9 @@ def resolveProcesses(  # noqa: N802
     Raises
     ------
     NoMatchingProcessException
-        There is none, or more than one if that is strict.
+        No process matches, or more than one in strict mode.
     TypeError
-        The process is given by something else.
+        The process is given by an object of another type.
 
     """
     known = info_obj.processes()
@@ -97,7 +97,7 @@ def _is_meant(action: ExecuteLocal, process: Optional[SomeProcess]) -> bool:
 
 
 def _has(action: ExecuteLocal, cmd_args: Any) -> bool:
-    """Return whether the command line of a process has certain arguments."""
+    """Whether the command line of a process contains the given arguments."""
     command = (action.process_details or {})['cmd']
     if cmd_args is None:
         return True

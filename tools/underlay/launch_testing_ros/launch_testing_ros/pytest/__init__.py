@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of pytest that runs launch tests of ROS nodes."""
+"""Pytest plugin that runs launch tests of ROS nodes."""

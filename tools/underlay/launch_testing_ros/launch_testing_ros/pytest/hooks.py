@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let pytest run launch test files with ROS nodes, each in a domain of its own."""
+"""Pytest hooks that collect launch test files of ROS nodes, each in its own domain."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ def pytest_pycollect_makemodule(
     module_path
         The file.
     parent
-        The collector of its folder.
+        The collector of its directory.
 
     Returns
     -------
     LaunchRosTestModule or None
-        None leaves the file to others.
+        None leaves the file to other plugins.
 
     """
     if not mentions(module_path, _MARKER):

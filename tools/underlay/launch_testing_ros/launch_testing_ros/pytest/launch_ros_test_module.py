@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A launch test file with ROS nodes, as pytest sees it."""
+"""Pytest collector and items of launch test files of ROS nodes."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from launch_testing_ros._domain import isolated_domain
 
 
 class LaunchRosTestItem(LaunchTestItem):
-    """The run of all tests of a file on a launch description, in a domain of its own."""
+    """Pytest item that runs all tests of a file on a launch description, in its own domain."""
 
     def runtest(self) -> None:
-        """Launch the description and run the tests."""
+        """Launch the description and run the tests in an isolated domain."""
         with isolated_domain():
             super().runtest()
 
 
 class LaunchRosTestModule(LaunchTestModule):
-    """A file that holds a launch test if its function has the marker."""
+    """Test module that contains a launch test if its function has the marker."""
 
     marker = 'rostest'
     item_class = LaunchRosTestItem

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Filter what ROS nodes write."""
+"""Filter the output of ROS nodes."""
 
 from __future__ import annotations
 

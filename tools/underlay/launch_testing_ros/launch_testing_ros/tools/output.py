@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Filter what ROS nodes write, whatever middleware they use."""
+"""Filter the output of ROS nodes independently of the RMW implementation."""
 
 from __future__ import annotations
 
@@ -31,16 +31,17 @@ def basic_output_filter(
     filtered_rmw_implementation: Optional[str] = None,
 ) -> Callable[[str], str]:
     """
-    Return a function that removes lines from an output, also those of a middleware.
+    Return a function that removes lines from an output, including those of the middleware.
 
     Parameters
     ----------
     filtered_prefixes
-        How the lines begin that are removed; None or empty takes the defaults.
+        The prefixes of lines to remove; None or empty for the defaults.
     filtered_patterns
-        Regular expressions that such lines match from their beginning; likewise.
+        Regular expressions of lines to remove, matched from the start; None or empty for the
+        defaults.
     filtered_rmw_implementation
-        The middleware whose known lines are removed, too, such as `rmw_connextdds`.
+        The RMW implementation whose known lines are removed, such as `rmw_connextdds`.
 
     """
     prefixes = [*(filtered_prefixes or get_default_filtered_prefixes())]

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of nodes; `nav2_behavior_tree.registry` knows them by name."""
+"""The node types; `nav2_behavior_tree.registry` maps their names to classes."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that let a behavior server act, dock the robot, or cancel what another node began."""
+"""Nodes that run behaviors, dock the robot, or cancel the goals of other nodes."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ def _duration(seconds: float) -> Any:
 
 
 class _Behavior(ActionNode):
-    """A behavior; it counts as a recovery unless its port `is_recovery` says otherwise."""
+    """Base class of behavior nodes, which count as recoveries unless `is_recovery` is false."""
 
     def make_goal(self) -> Any:
-        """Return the goal for the behavior, and count it."""
+        """Make the goal of the behavior, and count the recovery."""
         if self.input('is_recovery') if 'is_recovery' in self.ports else True:
             count_recovery(self)
         goal = self.action.Goal()
@@ -58,12 +58,12 @@ class _Behavior(ActionNode):
         return goal
 
     def fill(self, goal: Any) -> None:
-        """Write what the behavior is to do."""
+        """Fill in the fields of the goal."""
 
 
 @register()
 class Spin(_Behavior):
-    """Turns on the spot."""
+    """Rotates the robot in place."""
 
     action, server, purpose = action.Spin, 'spin', 'The robot could not turn'
     ports: ClassVar[dict[str, Port]] = {
@@ -77,12 +77,12 @@ class Spin(_Behavior):
 
     def fill(self, goal: Any) -> None:
         """
-        Write the angle to the goal.
+        Fill in the angle.
 
         Parameters
         ----------
         goal
-            The goal of the action `Spin`, which is changed.
+            The goal of the action `Spin`, modified in place.
 
         """
         goal.target_yaw = float(self.input('spin_dist'))
@@ -90,7 +90,7 @@ class Spin(_Behavior):
 
 @register()
 class BackUp(_Behavior):
-    """Drives straight back."""
+    """Drives straight backward."""
 
     action, server, purpose = action.BackUp, 'backup', 'The robot could not back up'
     ports: ClassVar[dict[str, Port]] = {
@@ -104,12 +104,12 @@ class BackUp(_Behavior):
 
     def fill(self, goal: Any) -> None:
         """
-        Write the distance and the speed to the goal.
+        Fill in the distance and the speed.
 
         Parameters
         ----------
         goal
-            The goal of the action `BackUp`, which is changed.
+            The goal of the action `BackUp`, modified in place.
 
         """
         goal.target.x = float(self.input('backup_dist'))
@@ -118,7 +118,7 @@ class BackUp(_Behavior):
 
 @register()
 class DriveOnHeading(_Behavior):
-    """Drives straight ahead."""
+    """Drives straight forward."""
 
     action, server = action.DriveOnHeading, 'drive_on_heading'
     purpose = 'The robot could not drive ahead'
@@ -134,12 +134,12 @@ class DriveOnHeading(_Behavior):
 
     def fill(self, goal: Any) -> None:
         """
-        Write the distance and the speed to the goal.
+        Fill in the distance and the speed.
 
         Parameters
         ----------
         goal
-            The goal of the action `DriveOnHeading`, which is changed.
+            The goal of the action `DriveOnHeading`, modified in place.
 
         """
         goal.target.x = float(self.input('dist_to_travel'))
@@ -148,7 +148,7 @@ class DriveOnHeading(_Behavior):
 
 @register()
 class AssistedTeleop(_Behavior):
-    """Lets a person drive, protected from collisions."""
+    """Assisted teleoperation: an operator drives the robot, with collision avoidance."""
 
     action, server = action.AssistedTeleop, 'assisted_teleop'
     purpose = 'Assisted teleoperation ended'
@@ -162,7 +162,7 @@ class AssistedTeleop(_Behavior):
 
 @register()
 class Wait(_Behavior):
-    """Waits."""
+    """Waits for a duration."""
 
     action, server, purpose = action.Wait, 'wait', 'The robot could not wait'
     ports: ClassVar[dict[str, Port]] = {
@@ -173,12 +173,12 @@ class Wait(_Behavior):
 
     def fill(self, goal: Any) -> None:
         """
-        Write the duration to the goal.
+        Fill in the duration.
 
         Parameters
         ----------
         goal
-            The goal of the action `Wait`, which is changed.
+            The goal of the action `Wait`, modified in place.
 
         """
         goal.time = _duration(abs(self.input('wait_duration')))
@@ -186,7 +186,7 @@ class Wait(_Behavior):
 
 @register()
 class DockRobot(ActionNode):
-    """Brings the robot into a dock."""
+    """Docks the robot."""
 
     action, server, purpose = action.DockRobot, 'dock_robot', 'The robot could not be docked'
     ports: ClassVar[dict[str, Port]] = {
@@ -203,7 +203,7 @@ class DockRobot(ActionNode):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the docking server."""
+        """Make the goal for the docking server."""
         goal = action.DockRobot.Goal(
             use_dock_id=self.input('use_dock_id'),
             dock_id=self.input('dock_id') or '',
@@ -227,7 +227,7 @@ class DockRobot(ActionNode):
         Returns
         -------
         NodeStatus
-            SUCCESS, also if the result says otherwise.
+            SUCCESS, even if the result reports a failure.
 
         """
         self.output('success', result.success)
@@ -237,7 +237,7 @@ class DockRobot(ActionNode):
 
 @register()
 class UndockRobot(ActionNode):
-    """Brings the robot out of a dock."""
+    """Undocks the robot."""
 
     action, server, purpose = action.UndockRobot, 'undock_robot', 'The robot could not be undocked'
     ports: ClassVar[dict[str, Port]] = {
@@ -249,7 +249,7 @@ class UndockRobot(ActionNode):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the docking server."""
+        """Make the goal for the docking server."""
         return action.UndockRobot.Goal(
             dock_type=self.input('dock_type') or '',
             max_undocking_time=float(self.input('max_undocking_time')),
@@ -257,7 +257,7 @@ class UndockRobot(ActionNode):
 
     def on_success(self, result: Any) -> NodeStatus:
         """
-        Write whether the robot is out of its dock to the output port.
+        Write whether the robot has left its dock to the output port.
 
         Parameters
         ----------
@@ -267,7 +267,7 @@ class UndockRobot(ActionNode):
         Returns
         -------
         NodeStatus
-            SUCCESS, also if the result says otherwise.
+            SUCCESS, even if the result reports a failure.
 
         """
         self.output('success', result.success)
@@ -275,7 +275,7 @@ class UndockRobot(ActionNode):
 
 
 class _Cancel(ServiceNode):
-    """Cancels all goals of an action; succeeds also if there were none."""
+    """Cancels all goals of an action; also succeeds if there were none."""
 
     service = CancelGoal
     server: ClassVar[str]

@@ -39,7 +39,7 @@ class IfThenElse(Control):
         self._at = 0
 
     def on_tick(self) -> NodeStatus:
-        """Ask, or go on with what was chosen."""
+        """Evaluate the condition, or continue with the chosen child."""
         self.set_state(RUNNING)
         if self._at == 0:
             status = self.children[0].execute_tick()
@@ -58,19 +58,19 @@ class IfThenElse(Control):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop; the question is asked anew next time."""
+        """Halt the children; the condition is evaluated again next time."""
         self._at = 0
         super().on_halt()
 
 
 @register()
 class WhileDoElse(Control):
-    """Asks the first child at each tick; runs the second while it succeeds, else the third."""
+    """Evaluates the first child at each tick; then runs the second on success, else the third."""
 
     least_children, most_children = 2, 3
 
     def on_tick(self) -> NodeStatus:
-        """Ask, stop what is no longer wanted, and run the other one."""
+        """Evaluate the condition, halt the branch that is not chosen, and tick the chosen one."""
         self.set_state(RUNNING)
         status = self.children[0].execute_tick()
         if status is RUNNING:
@@ -88,7 +88,7 @@ class WhileDoElse(Control):
 
 class Switch(Control):
     """
-    Runs the child whose case is the value of a variable; the last child if none is.
+    Runs the child whose case matches the value of a variable; the last child if none does.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class Switch(Control):
         self._running: int | None = None
 
     def on_tick(self) -> NodeStatus:
-        """Choose a child, stop another one that runs, and tick it."""
+        """Choose a child, halt another one that is running, and tick it."""
         self.set_state(RUNNING)
         chosen = self._chosen()
         if self._running is not None and self._running != chosen:
@@ -125,13 +125,13 @@ class Switch(Control):
         return self.cases
 
     def on_halt(self) -> None:
-        """Stop what runs."""
+        """Halt the running child."""
         self._running = None
         super().on_halt()
 
 
 def _matches(value: object, case: str) -> bool:
-    """Whether a value is that of a case: the same text, number or name of a state."""
+    """Whether a value matches that of a case: the same text, number or status name."""
     text = str(value).lower() if isinstance(value, bool) else str(value)
     if text == case:
         return True

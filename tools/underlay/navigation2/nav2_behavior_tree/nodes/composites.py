@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The control nodes of Nav2: pipelines, recoveries, and turns.
+The control nodes of Nav2: pipelines, recoveries, and round robin.
 
 See https://docs.nav2.org/behavior_trees/overview/nav2_specific_nodes.html.
 """
@@ -28,9 +28,9 @@ IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED = tuple(NodeStatus)
 @register()
 class PipelineSequence(Control):
     """
-    Ticks the earlier children again while a later one runs, however they end but by failure.
+    Ticks the earlier children again while a later one is running, unless one of them fails.
 
-    A child gets its first tick when the one before it has succeeded once. The node fails with the
+    A child is first ticked when the one before it has succeeded once. The node fails with the
     first child that fails, and succeeds with the last one.
 
     Parameters
@@ -45,7 +45,7 @@ class PipelineSequence(Control):
         self._furthest = 0
 
     def on_tick(self) -> NodeStatus:
-        """Tick from the first child to the furthest that runs."""
+        """Tick the children from the first to the furthest one that is running."""
         self.set_state(RUNNING)
         skipped = 0
         for index, child in enumerate(self.children):
@@ -63,14 +63,14 @@ class PipelineSequence(Control):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop all children; the first one begins next time."""
+        """Halt all children; restart with the first one."""
         self._furthest = 0
         super().on_halt()
 
 
 @register()
 class NonblockingSequence(Control):
-    """Ticks all children at each tick, also behind one that runs, until all have succeeded."""
+    """Ticks all children at each tick, even after a running one, until all have succeeded."""
 
     def on_tick(self) -> NodeStatus:
         """Tick all children that have not succeeded in this round."""
@@ -89,14 +89,14 @@ class NonblockingSequence(Control):
 
 @register()
 class PersistentSequence(Control):
-    """A Sequence whose place is on the blackboard and outlives it."""
+    """A Sequence whose current child index is on the blackboard and persists."""
 
     ports: ClassVar[dict[str, Port]] = {
         'current_child_idx': in_port('natural', '{current_child_idx}', 'The child to go on with.')
     }
 
     def on_tick(self) -> NodeStatus:
-        """Go on with the child that the blackboard names."""
+        """Continue with the child whose index is on the blackboard."""
         self.set_state(RUNNING)
         at = int(self.input('current_child_idx') or 0)
         while at < len(self.children):
@@ -114,10 +114,10 @@ class PersistentSequence(Control):
 @register()
 class RecoveryNode(Control):
     """
-    Runs the first child; each time it fails, the second one, and the first again.
+    Runs the first child; each time it fails, runs the second one, then retries the first.
 
-    Succeeds with the first child. Fails if the first one has failed `number_of_retries` times
-    after a recovery, or the second one fails.
+    Succeeds if the first child does. Fails if the first one has failed `number_of_retries` times
+    after a recovery, or if the second one fails.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ class RecoveryNode(Control):
         self._at = self._retries = 0
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child whose turn it is; the other one follows in the same tick."""
+        """Tick the current child; the other one may follow in the same tick."""
         limit = self.input('number_of_retries')
         self.set_state(RUNNING)
         while True:
@@ -156,7 +156,7 @@ class RecoveryNode(Control):
             self.halt_child(child)
 
     def on_new_goal(self) -> None:
-        """Grant all retries again."""
+        """Reset the number of retries."""
         self._retries = 0
 
     def _end(self, status: NodeStatus) -> NodeStatus:
@@ -164,7 +164,7 @@ class RecoveryNode(Control):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop the children, and forget the retries."""
+        """Halt the children, and reset the number of retries."""
         self._at = self._retries = 0
         super().on_halt()
 
@@ -172,7 +172,7 @@ class RecoveryNode(Control):
 @register()
 class RoundRobin(Control):
     """
-    Runs the next child each time, and the one after it if that fails; fails when all have failed.
+    Ticks the next child each time, and the one after it if that fails; fails when all have.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ class RoundRobin(Control):
         self._at = self._failed = self._skipped = 0
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child whose turn it is."""
+        """Tick the current child."""
         self.set_state(RUNNING)
         count = len(self.children)
         while self._failed + self._skipped < count:
@@ -204,6 +204,6 @@ class RoundRobin(Control):
         return status
 
     def on_halt(self) -> None:
-        """Stop the children; the first one has the next turn."""
+        """Halt the children; restart with the first one."""
         self._at = self._failed = self._skipped = 0
         super().on_halt()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions about goals, paths, times and error codes."""
+"""Conditions on goals, paths, times and error codes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _GOALS: dict[str, Port] = {
 
 def outcome(holds: bool) -> NodeStatus:
     """
-    Convert a truth value to the status of a condition.
+    Convert a bool to the status of a condition.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def outcome(holds: bool) -> NodeStatus:
 @register('GloballyUpdatedGoal', 'GlobalUpdatedGoal')
 class GloballyUpdatedGoal(TreeNode):
     """
-    Succeeds if the goal is another one than when this node was asked last.
+    Succeeds if the goal has changed since this node was last ticked.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class GloballyUpdatedGoal(TreeNode):
         self._known: tuple[Any, Any] | None = None
 
     def on_tick(self) -> NodeStatus:
-        """Compare the goal."""
+        """Compare the goal with the previous one."""
         goal = self.input('goal'), self.input('goals')
         known, self._known = self._known, goal
         if known is None or all(new is old for new, old in zip(goal, known)):
@@ -77,10 +77,10 @@ class GloballyUpdatedGoal(TreeNode):
 
 @register()
 class GoalUpdated(GloballyUpdatedGoal):
-    """Succeeds if the goal has changed while the nodes around this one were running."""
+    """Succeeds if the goal has changed while the parent nodes were running."""
 
     def on_tick(self) -> NodeStatus:
-        """Compare the goal; the first time it is only noted."""
+        """Compare the goal with the previous one; the first tick only records it."""
         if self.is_fresh:
             self._known = None
         return super().on_tick()
@@ -88,14 +88,14 @@ class GoalUpdated(GloballyUpdatedGoal):
 
 @register()
 class InitialPoseReceived(TreeNode):
-    """Succeeds if the blackboard says that an initial pose was received."""
+    """Succeeds if the blackboard states that an initial pose was received."""
 
     ports: ClassVar[dict[str, Port]] = {
         'initial_pose_received': in_port('boolean', '{initial_pose_received}', 'Whether it was.')
     }
 
     def on_tick(self) -> NodeStatus:
-        """Look."""
+        """Check the blackboard."""
         return outcome(bool(self.input('initial_pose_received')))
 
 
@@ -104,7 +104,7 @@ class IsPathValid(ServiceNode):
     """
     Succeeds if a path is free of obstacles.
 
-    Ticked again, it returns the last answer and asks anew; it only waits for the first one.
+    Later ticks return the last response and send a new request; only the first one waits.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ class IsPathValid(ServiceNode):
         self._known: NodeStatus | None = None
 
     def on_tick(self) -> NodeStatus:
-        """Tell what is known, or wait for the first answer."""
+        """Return the last response, or wait for the first one."""
         if self.is_fresh or self.input('path') is not self._path():
             self._known = None
         if self._known is not None and self._future is not None:
@@ -146,7 +146,7 @@ class IsPathValid(ServiceNode):
         return None if self._request is None else self._request.path
 
     def make_request(self) -> Any:
-        """Return the request with the path."""
+        """Make the request with the path."""
         return IsPathValidService.Request(path=self.required('path'))
 
     def on_answer(self, response: Any) -> NodeStatus:
@@ -167,7 +167,7 @@ class IsPathValid(ServiceNode):
         return outcome(response.is_valid)
 
     def on_halt(self) -> None:
-        """Forget what is known."""
+        """Forget the last response."""
         self._known = None
         super().on_halt()
 
@@ -175,7 +175,7 @@ class IsPathValid(ServiceNode):
 @register()
 class TimeExpired(TreeNode):
     """
-    Succeeds each time some time has passed.
+    Succeeds each time a period has passed.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ class TimeExpired(TreeNode):
         self._start_s = 0.0
 
     def on_tick(self) -> NodeStatus:
-        """Look at the clock; the first time the time begins."""
+        """Check the clock; the first tick starts the timer."""
         now_s = self.context.now_s()
         if self.is_fresh or now_s < self._start_s:
             self._start_s = now_s
@@ -205,7 +205,7 @@ class TimeExpired(TreeNode):
 @register()
 class PathExpiringTimer(TreeNode):
     """
-    Succeeds when a path is older than some time; a new path restarts the timer.
+    Succeeds when a path is older than a limit; a new path restarts the timer.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ class PathExpiringTimer(TreeNode):
         self._has_begun = False
 
     def on_tick(self) -> NodeStatus:
-        """Look at the path and the clock."""
+        """Check the path and the clock."""
         now_s, path = self.context.now_s(), self.input('path')
         if not self._has_begun or path is not self._path or now_s < self._start_s:
             self._has_begun, self._path, self._start_s = True, path, now_s
@@ -239,7 +239,7 @@ class PathExpiringTimer(TreeNode):
 
 @register()
 class AreErrorCodesPresent(TreeNode):
-    """Succeeds if an error code is one of those to look for."""
+    """Succeeds if an error code is one of those to detect."""
 
     ports: ClassVar[dict[str, Port]] = {
         'error_code': in_port('natural', REQUIRED, 'The error code: {key}.'),
@@ -247,7 +247,7 @@ class AreErrorCodesPresent(TreeNode):
     }
 
     def on_tick(self) -> NodeStatus:
-        """Compare the codes."""
+        """Compare the error codes."""
         codes = self.input('error_codes_to_check') or ()
         return outcome(self.input('error_code') in codes)
 

@@ -30,7 +30,7 @@ IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED = tuple(NodeStatus)
 
 
 class _InOrder(Control):
-    """Ticks children one after another as long as they end as `goes_on` says."""
+    """Base class of nodes that tick children in order while their status is `goes_on`."""
 
     goes_on: ClassVar[NodeStatus]
     ends: ClassVar[NodeStatus]
@@ -43,7 +43,7 @@ class _InOrder(Control):
         self._skipped = 0
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child whose turn it is, and the next ones."""
+        """Tick the current child, and the next ones."""
         if self.state is not RUNNING:
             self._skipped = 0
         self.set_state(RUNNING)
@@ -78,7 +78,7 @@ class _InOrder(Control):
         return self.finish(self.ends)
 
     def on_halt(self) -> None:
-        """Stop all children; begin with the first one next time, or where it was."""
+        """Halt all children; restart with the first one or continue with the current one."""
         if not self.keeps_place:
             self._at = 0
         super().on_halt()
@@ -100,7 +100,7 @@ class AsyncSequence(Sequence):
 
 @register()
 class SequenceWithMemory(Sequence):
-    """A Sequence that goes on with the child that failed, not with the first."""
+    """A Sequence that resumes with the child that failed, not with the first."""
 
     keeps_place = True
 
@@ -120,13 +120,13 @@ class AsyncFallback(Fallback):
 
 
 class _Reactive(Control):
-    """Ticks all children from the first on at each tick."""
+    """Base class of reactive nodes, which tick all children from the first on at each tick."""
 
     goes_on: ClassVar[NodeStatus]
     ends: ClassVar[NodeStatus]
 
     def on_tick(self) -> NodeStatus:
-        """Tick children until one runs, or ends the node."""
+        """Tick children until one is running, or ends the node."""
         self.set_state(RUNNING)
         all_skipped = True
         for child in self.children:
@@ -146,14 +146,14 @@ class _Reactive(Control):
 
 @register()
 class ReactiveSequence(_Reactive):
-    """A Sequence that checks the earlier children again while a later one runs."""
+    """A Sequence that checks the earlier children again while a later one is running."""
 
     goes_on, ends = SUCCESS, FAILURE
 
 
 @register()
 class ReactiveFallback(_Reactive):
-    """A Fallback that checks the earlier children again while a later one runs."""
+    """A Fallback that checks the earlier children again while a later one is running."""
 
     goes_on, ends = FAILURE, SUCCESS
 
@@ -213,7 +213,7 @@ class Parallel(Control):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop all children."""
+        """Halt all children."""
         self._ends.clear()
         super().on_halt()
 

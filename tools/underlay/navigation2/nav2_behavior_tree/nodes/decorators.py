@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The decorators of BehaviorTree.CPP v4: what becomes of the end of a child, how often, how long.
+The decorators of BehaviorTree.CPP v4, which map the status of a child, repeat it or limit it.
 
 See https://www.behaviortree.dev/docs/nodes-library/decoratornode.
 """
@@ -32,7 +32,7 @@ IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED = tuple(NodeStatus)
 
 
 class _Mapping(Decorator):
-    """Tells another end than that of its child."""
+    """Base class of decorators that map the final status of their child."""
 
     becomes: ClassVar[dict[NodeStatus, NodeStatus]]
 
@@ -47,34 +47,34 @@ class _Mapping(Decorator):
 
 @register()
 class Inverter(_Mapping):
-    """Fails when its child succeeds, and the other way round."""
+    """Fails when its child succeeds, and vice versa."""
 
     becomes = {SUCCESS: FAILURE, FAILURE: SUCCESS}
 
 
 @register()
 class ForceSuccess(_Mapping):
-    """Succeeds however its child ends."""
+    """Succeeds whatever the final status of its child."""
 
     becomes = {SUCCESS: SUCCESS, FAILURE: SUCCESS}
 
 
 @register()
 class ForceFailure(_Mapping):
-    """Fails however its child ends."""
+    """Fails whatever the final status of its child."""
 
     becomes = {SUCCESS: FAILURE, FAILURE: FAILURE}
 
 
 @register()
 class KeepRunningUntilFailure(_Mapping):
-    """Begins its child anew until it fails."""
+    """Restarts its child until it fails."""
 
     becomes = {SUCCESS: RUNNING, FAILURE: FAILURE}
 
 
 class _Again(Decorator):
-    """Begins its child anew as long as it ends in a certain way, up to a number of times."""
+    """Base class of decorators that restart their child after a certain status, up to a limit."""
 
     again: ClassVar[NodeStatus]
     counter: ClassVar[str]
@@ -84,7 +84,7 @@ class _Again(Decorator):
         self._count = 0
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child; after an end that leads to another round, begin that."""
+        """Tick the child; start another round if its status requires it."""
         limit = self.input(self.counter)
         self.set_state(RUNNING)
         while limit == -1 or self._count < limit:
@@ -106,14 +106,14 @@ class _Again(Decorator):
         return self.again
 
     def on_halt(self) -> None:
-        """Stop the child, and forget the rounds."""
+        """Halt the child, and reset the count of rounds."""
         self._count = 0
         super().on_halt()
 
 
 @register()
 class Repeat(_Again):
-    """Succeeds after a number of successes of its child in a row."""
+    """Succeeds after a number of consecutive successes of its child."""
 
     again, counter = SUCCESS, 'num_cycles'
     ports: ClassVar[dict[str, Port]] = {
@@ -134,7 +134,7 @@ class RetryUntilSuccessful(_Again):
 @register()
 class Delay(Decorator):
     """
-    Starts its child after a time.
+    Starts its child after a delay.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ class Delay(Decorator):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop the child, and wait anew next time."""
+        """Halt the child, and restart the delay next time."""
         self._end_s = None
         super().on_halt()
 
@@ -174,7 +174,7 @@ class Delay(Decorator):
 @register()
 class Timeout(Decorator):
     """
-    Halts its child and fails if that takes longer than a time.
+    Halts its child and fails if it exceeds a time limit.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ class Timeout(Decorator):
         self._end_s: float | None = None
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child while there is time."""
+        """Tick the child until the time limit."""
         now_s, limit = self.context.now_s(), self.required('msec')
         if self._end_s is None:
             self._end_s = now_s + 1e-3 * limit
@@ -208,7 +208,7 @@ class Timeout(Decorator):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop the child."""
+        """Halt the child."""
         self._end_s = None
         super().on_halt()
 
@@ -234,7 +234,7 @@ class RunOnce(Decorator):
         self._end: NodeStatus | None = None
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child if it has not ended before."""
+        """Tick the child unless it has already ended."""
         if self._end is not None:
             return SKIPPED if self.input('then_skip') else self._end
         self.set_state(RUNNING)
@@ -248,7 +248,7 @@ class RunOnce(Decorator):
 @register()
 class Precondition(Decorator):
     """
-    Runs its child if a script is true when it starts; returns another status otherwise.
+    Runs its child if a script is true at the start; otherwise returns another status.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ class Precondition(Decorator):
     Raises
     ------
     TreeError
-        The script cannot be read, or `else` is no status.
+        The script cannot be parsed, or `else` is not a status.
 
     """
 
@@ -279,7 +279,7 @@ class Precondition(Decorator):
         self._has_begun = False
 
     def on_tick(self) -> NodeStatus:
-        """Ask the script, then tick the child until it ends."""
+        """Evaluate the script, then tick the child until it ends."""
         if not self._has_begun:
             if not self._script(self.blackboard):
                 return self._else
@@ -292,13 +292,13 @@ class Precondition(Decorator):
         return self.finish(status)
 
     def on_halt(self) -> None:
-        """Stop the child, and ask anew next time."""
+        """Halt the child, and evaluate the script again next time."""
         self._has_begun = False
         super().on_halt()
 
 
 class _WhenUpdated(Decorator):
-    """Runs its child when an entry of the blackboard was set since the last time."""
+    """Base class of decorators that run their child when a blackboard entry was set again."""
 
     otherwise: ClassVar[NodeStatus]
     ports: ClassVar[dict[str, Port]] = {'entry': in_port('any', REQUIRED, 'The entry: {key}.')}
@@ -310,7 +310,7 @@ class _WhenUpdated(Decorator):
             raise self.error("'entry' has to be a key of the blackboard such as '{goal}'.")
 
     def on_tick(self) -> NodeStatus:
-        """Compare, and tick the child."""
+        """Check for an update of the entry, and tick the child."""
         if self.child.state is not RUNNING:
             version = self.blackboard.version(self.config.bindings['entry'].key or '')
             if version == self._seen:
@@ -323,13 +323,13 @@ class _WhenUpdated(Decorator):
 
 @register()
 class SkipUnlessUpdated(_WhenUpdated):
-    """Is skipped while an entry stays as it is."""
+    """Is skipped while an entry is not updated."""
 
     otherwise = SKIPPED
 
 
 @register()
 class WaitValueUpdate(_WhenUpdated):
-    """Waits while an entry stays as it is."""
+    """Returns RUNNING while an entry is not updated."""
 
     otherwise = RUNNING

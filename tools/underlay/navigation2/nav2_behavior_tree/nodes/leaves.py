@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The leaves of BehaviorTree.CPP v4: fixed ends, scripts, and entries of the blackboard."""
+"""The leaf nodes of BehaviorTree.CPP v4: constants, scripts, and blackboard entries."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RUNNING, SUCCESS, FAILURE = NodeStatus.RUNNING, NodeStatus.SUCCESS, NodeStatus.F
 
 @register()
 class AlwaysSuccess(TreeNode):
-    """Succeeds."""
+    """Always succeeds."""
 
     def on_tick(self) -> NodeStatus:
         """Succeed."""
@@ -27,7 +27,7 @@ class AlwaysSuccess(TreeNode):
 
 @register()
 class AlwaysFailure(TreeNode):
-    """Fails."""
+    """Always fails."""
 
     def on_tick(self) -> NodeStatus:
         """Fail."""
@@ -47,7 +47,7 @@ class Script(TreeNode):
     Raises
     ------
     TreeError
-        The script cannot be read.
+        The script cannot be parsed.
 
     """
 
@@ -58,7 +58,7 @@ class Script(TreeNode):
         self._script = _Script(self.input('code'), config.file, config.line)
 
     def on_tick(self) -> NodeStatus:
-        """Run it."""
+        """Run the script."""
         self._script(self.blackboard)
         return SUCCESS
 
@@ -68,7 +68,7 @@ class ScriptCondition(Script):
     """Succeeds if a script is true."""
 
     def on_tick(self) -> NodeStatus:
-        """Ask it."""
+        """Evaluate the script."""
         return SUCCESS if self._script(self.blackboard) else FAILURE
 
 
@@ -82,7 +82,7 @@ class SetBlackboard(TreeNode):
     }
 
     def on_tick(self) -> NodeStatus:
-        """Set it."""
+        """Set the entry."""
         binding = self.config.bindings['output_key']
         self.blackboard.set(binding.key or str(binding.value), self.required('value'))
         return SUCCESS
@@ -95,7 +95,7 @@ class UnsetBlackboard(TreeNode):
     ports: ClassVar[dict[str, Port]] = {'key': in_port('text', REQUIRED, 'The entry.')}
 
     def on_tick(self) -> NodeStatus:
-        """Remove it."""
+        """Remove the entry."""
         binding = self.config.bindings['key']
         self.blackboard.unset(binding.key or str(binding.value))
         return SUCCESS
@@ -104,7 +104,7 @@ class UnsetBlackboard(TreeNode):
 @register()
 class WasEntryUpdated(TreeNode):
     """
-    Succeeds if an entry was set since this node was asked last.
+    Succeeds if an entry was set since this node was last ticked.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class WasEntryUpdated(TreeNode):
         self._seen = 0
 
     def on_tick(self) -> NodeStatus:
-        """Compare."""
+        """Compare the version of the entry with the previous one."""
         version = self.blackboard.version(self.config.bindings['entry'].key or '')
         is_new, self._seen = version != self._seen, version
         return SUCCESS if is_new else FAILURE
@@ -129,7 +129,7 @@ class WasEntryUpdated(TreeNode):
 @register()
 class Sleep(TreeNode):
     """
-    Succeeds after a time.
+    Succeeds after a duration.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ class Sleep(TreeNode):
         self._end_s = 0.0
 
     def on_tick(self) -> NodeStatus:
-        """Wait."""
+        """Wait for the duration."""
         now_s = self.context.now_s()
         if self.state is not RUNNING:
             self._end_s = now_s + 1e-3 * self.required('msec')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that plan, smooth and follow paths, and those that navigate as a whole."""
+"""Nodes that plan, smooth and follow paths, and that call other navigators."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _SECOND_NS = 1e-9
 
 
 class _Planning(ActionNode):
-    """Asks for a path; an empty one stands on the blackboard after a failure."""
+    """Base class of planning nodes; after a failure, an empty path is on the blackboard."""
 
     purpose = 'The planner found no way to the goal'
 
@@ -73,13 +73,13 @@ class ComputePathToPose(_Planning):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the planner."""
+        """Make the goal for the planner."""
         goal = action.ComputePathToPose.Goal(goal=self.required('goal'))
         self._set_start(goal)
         return goal
 
     def changed_goal(self) -> Any:
-        """Plan anew at once if the goal is another one."""
+        """Replan immediately if the goal has changed."""
         return self.make_goal() if self.input('goal') is not self._goal.goal else None
 
 
@@ -95,20 +95,20 @@ class ComputePathThroughPoses(_Planning):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the planner."""
+        """Make the goal for the planner."""
         self._goals = self.required('goals')
         goal = action.ComputePathThroughPoses.Goal(goals=list(self._goals))
         self._set_start(goal)
         return goal
 
     def changed_goal(self) -> Any:
-        """Plan anew at once if the goals are others."""
+        """Replan immediately if the goals have changed."""
         return self.make_goal() if self.input('goals') is not self._goals else None
 
 
 @register()
 class SmoothPath(ActionNode):
-    """Makes a path smooth."""
+    """Smooths a path."""
 
     action, server = action.SmoothPath, 'smooth_path'
     purpose = 'The path could not be made smooth'
@@ -125,7 +125,7 @@ class SmoothPath(ActionNode):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the smoother."""
+        """Make the goal for the smoother."""
         return action.SmoothPath.Goal(
             path=self.required('unsmoothed_path'),
             smoother_id=self.input('smoother_id') or '',
@@ -135,7 +135,7 @@ class SmoothPath(ActionNode):
 
     def on_success(self, result: Any) -> NodeStatus:
         """
-        Write the smoothed path, and how it was made, to the output ports.
+        Write the smoothed path, and the details of the smoothing, to the output ports.
 
         Parameters
         ----------
@@ -145,7 +145,7 @@ class SmoothPath(ActionNode):
         Returns
         -------
         NodeStatus
-            SUCCESS, also if smoothing was not completed.
+            SUCCESS, even if smoothing was not completed.
 
         """
         took = result.smoothing_duration
@@ -157,7 +157,7 @@ class SmoothPath(ActionNode):
 
 @register()
 class FollowPath(ActionNode):
-    """Drives along a path, and along each newer one that stands on the blackboard meanwhile."""
+    """Follows a path, and each newer one that appears on the blackboard meanwhile."""
 
     action, server = action.FollowPath, 'follow_path'
     purpose = 'The controller could not follow the path'
@@ -179,7 +179,7 @@ class FollowPath(ActionNode):
         )
 
     def make_goal(self) -> Any:
-        """Return the goal for the controller."""
+        """Make the goal for the controller."""
         path, controller, goal_checker, progress_checker = self._parts()
         return action.FollowPath.Goal(
             path=path,
@@ -200,7 +200,7 @@ class FollowPath(ActionNode):
 
 @register()
 class NavigateToPose(ActionNode):
-    """Navigates to a pose with a tree of its own, by another navigator."""
+    """Navigates to a pose with its own tree, through another navigator."""
 
     action, server = action.NavigateToPose, 'navigate_to_pose'
     purpose = 'The robot could not be navigated to the pose'
@@ -212,7 +212,7 @@ class NavigateToPose(ActionNode):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the navigator."""
+        """Make the goal for the navigator."""
         return action.NavigateToPose.Goal(
             pose=self.required('goal'), behavior_tree=self.input('behavior_tree') or ''
         )
@@ -220,7 +220,7 @@ class NavigateToPose(ActionNode):
 
 @register()
 class NavigateThroughPoses(ActionNode):
-    """Navigates through poses with a tree of its own, by another navigator."""
+    """Navigates through poses with its own tree, through another navigator."""
 
     action, server = action.NavigateThroughPoses, 'navigate_through_poses'
     purpose = 'The robot could not be navigated through the poses'
@@ -232,7 +232,7 @@ class NavigateThroughPoses(ActionNode):
     }
 
     def make_goal(self) -> Any:
-        """Return the goal for the navigator."""
+        """Make the goal for the navigator."""
         return action.NavigateThroughPoses.Goal(
             poses=list(self.required('goals')), behavior_tree=self.input('behavior_tree') or ''
         )

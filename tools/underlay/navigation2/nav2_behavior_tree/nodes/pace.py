@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decorators that say how often their child runs: by rate, distance, speed, goal or once."""
+"""Decorators that limit how often their child runs: by rate, distance, speed, goal or once."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ _GOALS = {
 
 
 class _Paced(Decorator):
-    """Ticks its child at first, while it runs, and when it is due again after a success."""
+    """Ticks its child at first, while it is running, and when it is due again after a success."""
 
     def __init__(self, config: NodeConfig) -> None:
         super().__init__(config)
         self._is_first = True
 
     def begin(self) -> None:
-        """Count from here."""
+        """Restart the measurement."""
 
     def is_due(self) -> bool:
-        """Whether the child has to run again."""
+        """Whether the child is due again."""
         raise NotImplementedError
 
     def on_new_goal(self) -> None:
-        """Run the child at the next tick."""
+        """Make the child due at the next tick."""
         self._is_first = True
 
     def on_tick(self) -> NodeStatus:
-        """Tick the child if it is its time; the node is running in between."""
+        """Tick the child if it is due; the node is running in between."""
         if self.state is IDLE:
             self.begin()
             self._is_first = True
@@ -63,23 +63,23 @@ class _Paced(Decorator):
 
 @register()
 class RateController(_Paced):
-    """Runs its child at most so many times a second."""
+    """Runs its child at a limited rate."""
 
     ports: ClassVar[dict[str, Port]] = {'hz': in_port('number', '10.0', 'The rate in Hz.')}
 
     def begin(self) -> None:
-        """Count from now."""
+        """Restart the period."""
         self._start_s = self.context.now_s()
 
     def is_due(self) -> bool:
-        """Whether the period is over; also after the clock was set back."""
+        """Whether the period is over; also if the clock has jumped back."""
         passed_s = self.context.now_s() - self._start_s
         return bool(passed_s * self.input('hz') >= 1.0 or passed_s < 0.0)
 
 
 @register()
 class DistanceController(_Paced):
-    """Runs its child each time the robot has gone some way."""
+    """Runs its child each time the robot has travelled a distance."""
 
     ports: ClassVar[dict[str, Port]] = {
         'distance': in_port('number', '1.0', 'The way in m.'),
@@ -94,18 +94,18 @@ class DistanceController(_Paced):
         return pose
 
     def begin(self) -> None:
-        """Measure from here."""
+        """Restart the distance at the current pose."""
         self._start = self._pose()
 
     def is_due(self) -> bool:
-        """Whether the robot is far enough."""
+        """Whether the robot has travelled far enough."""
         return bool(self._start.distance_to(self._pose()) >= self.input('distance'))
 
 
 @register()
 class SpeedController(_Paced):
     """
-    Runs its child more often the faster the robot is, and at once for a new goal.
+    Runs its child at a rate that grows with the robot's speed, and immediately for a new goal.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ class SpeedController(_Paced):
     Raises
     ------
     TreeError
-        A rate is not greater than 0, or the limits of the speed are not in order.
+        A rate is not greater than 0, or the minimum speed is not below the maximum.
 
     """
 
@@ -136,7 +136,7 @@ class SpeedController(_Paced):
             raise self.error("'max_speed' has to be greater than 'min_speed'.")
 
     def begin(self) -> None:
-        """Count from now, at the rate of this speed."""
+        """Restart the period, at the rate of the current speed."""
         self._start_s = self.context.now_s()
         self._goal = self.input('goal'), self.input('goals')
         speed = abs(self.context.ros.speed_m_s())
@@ -146,7 +146,7 @@ class SpeedController(_Paced):
         self._period_s = 1.0 / (slow + share * (fast - slow))
 
     def is_due(self) -> bool:
-        """Whether the period is over, or the goal is another one."""
+        """Whether the period is over, or the goal has changed."""
         passed_s = self.context.now_s() - self._start_s
         goal = self.input('goal'), self.input('goals')
         if any(new is not old for new, old in zip(goal, self._goal)) and goal != self._goal:
@@ -173,15 +173,15 @@ class GoalUpdatedController(_Paced):
         self._goal: tuple[Any, Any] = (None, None)
 
     def on_new_goal(self) -> None:
-        """Do nothing: `is_due` sees it."""
+        """Do nothing: `is_due` detects the new goal."""
 
     def begin(self) -> None:
-        """Note the goal if nothing was noted, so that one that comes meanwhile counts."""
+        """Record the goal if none is recorded, so that a change during the run is detected."""
         if self.state is IDLE:
             self._goal = self.input('goal'), self.input('goals')
 
     def is_due(self) -> bool:
-        """Whether the goal is another one."""
+        """Whether the goal has changed."""
         goal = self.input('goal'), self.input('goals')
         if all(new is old for new, old in zip(goal, self._goal)) or goal == self._goal:
             return False
@@ -220,7 +220,7 @@ class SingleTrigger(Decorator):
 @register()
 class PathLongerOnApproach(Decorator):
     """
-    Runs its child if a new path to the same goal is much longer, and the goal was near.
+    Runs its child if a new path to the same goal is much longer while the goal is near.
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ class PathLongerOnApproach(Decorator):
         self._new: Any = None
 
     def on_tick(self) -> NodeStatus:
-        """Compare the path with the one before; tick the child until it has ended."""
+        """Compare the path with the previous one; tick the child until it has ended."""
         if self.child.state is not RUNNING:
             self._new = self.input('path')
             if not self._is_longer():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that change goals and paths on the blackboard, and the decorator that updates goals."""
+"""Nodes that modify goals and paths on the blackboard, and the decorator that updates goals."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ RUNNING, SUCCESS, FAILURE = NodeStatus.RUNNING, NodeStatus.SUCCESS, NodeStatus.F
 
 @register()
 class RemovePassedGoals(TreeNode):
-    """Leaves out the first goals as long as the robot is near them; the last one stays."""
+    """Removes the leading goals that the robot is near; the last one is kept."""
 
     ports: ClassVar[dict[str, Port]] = {
         'input_goals': in_port('poses', '{goals}', 'The goals.'),
@@ -66,7 +66,7 @@ class RemovePassedGoals(TreeNode):
 
 @register()
 class TruncatePath(TreeNode):
-    """Cuts the end of a path off; its last pose looks to the end as it was."""
+    """Truncates the end of a path; the new last pose faces the original end."""
 
     ports: ClassVar[dict[str, Port]] = {
         'input_path': in_port('path', '{path}', 'The path.'),
@@ -75,7 +75,7 @@ class TruncatePath(TreeNode):
     }
 
     def on_tick(self) -> NodeStatus:
-        """Cut the path."""
+        """Truncate the path."""
         path = self.required('input_path')
         poses = path_poses(path)
         if not len(poses):
@@ -98,7 +98,7 @@ class TruncatePath(TreeNode):
 @register()
 class TruncatePathLocal(TreeNode):
     """
-    Keeps the part of a path that is near the robot.
+    Extracts the part of a path that is near the robot.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ class TruncatePathLocal(TreeNode):
         self._near = 0
 
     def on_tick(self) -> NodeStatus:
-        """Find the robot on the path, and cut it."""
+        """Find the robot on the path, and truncate it."""
         path = self.required('input_path')
         if path is not self._path:
             self._path, self._near, self._poses = path, 0, path_poses(path)
@@ -156,7 +156,7 @@ class TruncatePathLocal(TreeNode):
 
 @register()
 class GetPoseFromPath(TreeNode):
-    """Writes a pose of a path."""
+    """Extracts a pose of a path."""
 
     ports: ClassVar[dict[str, Port]] = {
         'path': in_port('path', '{path}', 'The path.'),
@@ -165,7 +165,7 @@ class GetPoseFromPath(TreeNode):
     }
 
     def on_tick(self) -> NodeStatus:
-        """Write it; the frame is that of the path where the pose has none."""
+        """Write the pose; its frame is that of the path if the pose has none."""
         path, index = self.required('path'), self.input('index')
         if not -len(path.poses) <= index < len(path.poses):
             self.fail(f'The path has {len(path.poses)} poses; there is none with index {index}.')
@@ -180,7 +180,7 @@ class GetPoseFromPath(TreeNode):
 @register()
 class GoalUpdater(Decorator):
     """
-    Lets a topic change the goal while its child runs.
+    Updates the goal from a topic while its child is running.
 
     Parameters
     ----------
@@ -218,6 +218,6 @@ class GoalUpdater(Decorator):
 
 
 def _is_older(update: PoseStamped, goal: PoseStamped) -> bool:
-    """Whether an update was made before the goal; one without a time was not."""
+    """Whether an update is older than the goal; one without a stamp never is."""
     stamp = Time.from_msg(update.header.stamp)
     return bool(stamp.nanoseconds > 0 and stamp < Time.from_msg(goal.header.stamp))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that take what a topic names, such as a planner, or a default."""
+"""Nodes that select a plugin, such as a planner, by a topic or a default."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ['Selector']
 
 class Selector(TreeNode):
     """
-    Writes the name that was published last, or the default; fails if there is neither.
+    Writes the most recently published name, or the default; fails if there is neither.
 
     Parameters
     ----------

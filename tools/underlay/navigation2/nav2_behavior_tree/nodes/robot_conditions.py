@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions about the robot: where it is, how it moves, its battery, its transforms."""
+"""Conditions on the robot: its pose, motion, battery and transforms."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class GoalReached(TreeNode):
         )
 
     def on_tick(self) -> NodeStatus:
-        """Measure the distance."""
+        """Measure the distance to the goal."""
         frame, ros = self.input('global_frame'), self.context.ros
         robot = ros.robot_pose(frame, self.input('robot_base_frame'))
         goal = ros.pose_in(self.required('goal'), frame)
@@ -61,7 +61,7 @@ class GoalReached(TreeNode):
 @register()
 class DistanceTraveled(TreeNode):
     """
-    Succeeds each time the robot has travelled some distance.
+    Succeeds each time the robot has travelled a distance.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class DistanceTraveled(TreeNode):
         self._start = Pose2D(0.0, 0.0, 0.0)
 
     def on_tick(self) -> NodeStatus:
-        """Measure the way; the first time it begins."""
+        """Measure the distance; the first tick starts it."""
         robot: Pose2D = self.context.ros.robot_pose(
             self.input('global_frame'), self.input('robot_base_frame')
         )
@@ -96,7 +96,7 @@ class DistanceTraveled(TreeNode):
 @register()
 class TransformAvailable(TreeNode):
     """
-    Succeeds if the transform between two frames is known; once it was, it counts as known.
+    Succeeds if the transform between two frames is available, or was once.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ class TransformAvailable(TreeNode):
         self._was_found = False
 
     def on_tick(self) -> NodeStatus:
-        """Look it up."""
+        """Look up the transform."""
         if not self._was_found:
             self._was_found = self.context.ros.can_transform(
                 self.required('parent'), self.required('child')
@@ -125,17 +125,17 @@ class TransformAvailable(TreeNode):
 
 @register()
 class IsStuck(TreeNode):
-    """Succeeds if the robot brakes harder than it can by itself: it has hit something."""
+    """Succeeds if the robot decelerates harder than it can by itself, as after a collision."""
 
     def on_tick(self) -> NodeStatus:
-        """Look at the acceleration."""
+        """Check the acceleration."""
         return outcome(self.context.ros.acceleration_m_s2() < _BRAKE_LIMIT_M_S2)
 
 
 @register()
 class IsBatteryLow(TreeNode):
     """
-    Succeeds if the charge of the battery, or its voltage, is low.
+    Succeeds if the charge or voltage of the battery is low.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ class IsBatteryLow(TreeNode):
         self._battery = config.context.ros.latest(BatteryState, self.input('battery_topic'))
 
     def on_tick(self) -> NodeStatus:
-        """Look at the battery; nothing is low while nothing is known."""
+        """Check the battery state; fail while none is known."""
         battery = self._battery.message
         if battery is None:
             return FAILURE
@@ -184,7 +184,7 @@ class IsBatteryCharging(TreeNode):
         self._battery = config.context.ros.latest(BatteryState, self.input('battery_topic'))
 
     def on_tick(self) -> NodeStatus:
-        """Look at the battery."""
+        """Check the battery state."""
         battery = self._battery.message
         charging = BatteryState.POWER_SUPPLY_STATUS_CHARGING
         return outcome(battery is not None and battery.power_supply_status == charging)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that ask services: clear costmaps, global localization, goals that are occupied."""
+"""Nodes that call services: clear costmaps, global localization, goals in collision."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _UNKNOWN_COST = 255.0
 
 
 class _Clearing(ServiceNode):
-    """Clears a costmap; that counts as a recovery."""
+    """Base class of nodes that clear a costmap, which counts as a recovery."""
 
     distance: ClassVar[bool] = True
     ports: ClassVar[dict[str, Port]] = {
@@ -56,7 +56,7 @@ class _Clearing(ServiceNode):
     }
 
     def make_request(self) -> Any:
-        """Return the request with its distance."""
+        """Make the request with its distance."""
         count_recovery(self)
         request = self.service.Request()
         if self.distance:
@@ -66,7 +66,7 @@ class _Clearing(ServiceNode):
 
 @register()
 class ClearEntireCostmap(_Clearing):
-    """Forgets all obstacles of a costmap."""
+    """Clears all obstacles of a costmap."""
 
     service, distance = ClearEntire, False
     ports: ClassVar[dict[str, Port]] = _SERVICE
@@ -74,21 +74,21 @@ class ClearEntireCostmap(_Clearing):
 
 @register()
 class ClearCostmapExceptRegion(_Clearing):
-    """Forgets obstacles that are far from the robot."""
+    """Clears the obstacles that are far from the robot."""
 
     service = ClearExceptRegion
 
 
 @register()
 class ClearCostmapAroundRobot(_Clearing):
-    """Forgets obstacles near the robot."""
+    """Clears the obstacles near the robot."""
 
     service = ClearAroundRobot
 
 
 @register()
 class ClearCostmapAroundPose(_Clearing):
-    """Forgets obstacles near a pose."""
+    """Clears the obstacles near a pose."""
 
     service = ClearAroundPose
     ports: ClassVar[dict[str, Port]] = {
@@ -97,7 +97,7 @@ class ClearCostmapAroundPose(_Clearing):
     }
 
     def make_request(self) -> Any:
-        """Return the request with its pose."""
+        """Make the request with its pose."""
         pose = self.required('pose')
         request = super().make_request()
         request.pose = pose
@@ -106,20 +106,20 @@ class ClearCostmapAroundPose(_Clearing):
 
 @register()
 class ReinitializeGlobalLocalization(ServiceNode):
-    """Makes the localization look for the robot everywhere."""
+    """Triggers global localization."""
 
     service, default_service = Empty, 'reinitialize_global_localization'
     ports: ClassVar[dict[str, Port]] = _OPTIONAL
 
     def make_request(self) -> Any:
-        """Return the request; that counts as a recovery."""
+        """Make the request; it counts as a recovery."""
         count_recovery(self)
         return Empty.Request()
 
 
 @register()
 class RemoveInCollisionGoals(ServiceNode):
-    """Leaves out the goals that are occupied in a costmap."""
+    """Removes the goals that are in collision in a costmap."""
 
     service, default_service = GetCost, '/global_costmap/get_cost_global_costmap'
     ports: ClassVar[dict[str, Port]] = {
@@ -136,7 +136,7 @@ class RemoveInCollisionGoals(ServiceNode):
     }
 
     def make_request(self) -> Any:
-        """Begin with the first goal."""
+        """Start with the first goal."""
         self._goals = list(self.input('input_goals') or [])
         self._kept: list[Any] = []
         self._at = 0
@@ -151,18 +151,17 @@ class RemoveInCollisionGoals(ServiceNode):
 
     def on_answer(self, response: Any) -> NodeStatus:
         """
-        Keep or drop the goal whose cost was asked for, and go on with the next one.
+        Keep or remove the goal whose cost was requested, and continue with the next one.
 
         Parameters
         ----------
         response
-            The response of `nav2_msgs/GetCost`; a negative cost is outside of the costmap.
+            The response of `nav2_msgs/GetCost`; a negative cost means outside of the costmap.
 
         Returns
         -------
         NodeStatus
-            RUNNING while goals are left to ask about, then SUCCESS, or FAILURE if all are
-            occupied.
+            RUNNING while goals are left to check, then SUCCESS, or FAILURE if all are occupied.
 
         """
         cost = response.cost

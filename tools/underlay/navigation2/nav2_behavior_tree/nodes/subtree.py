@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that stands for another tree of the file."""
+"""The node that runs another tree of the file."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ __all__ = ['SubTree']
 
 
 class SubTree(Decorator):
-    """Runs another tree; its ports are values that both trees share."""
+    """Runs another tree; its ports are entries that both trees share."""
 
     def on_tick(self) -> NodeStatus:
-        """Tick the root of the tree."""
+        """Tick the root of the subtree."""
         if self.state is NodeStatus.IDLE:
             self.set_state(NodeStatus.RUNNING)
         status = self.child.execute_tick()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start navigation: a map or SLAM, localisation, and what finds the way."""
+"""Start navigation: map server and AMCL or SLAM, and the navigation servers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PASSED_ON = ('namespace', 'use_sim_time', 'autostart', 'params_file', 'use_respa
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Start the container, if there is to be one, and include the other launch files."""
+    """Start the container, if requested, and include the other launch files."""
     slam, localization = LaunchConfiguration('slam'), LaunchConfiguration('use_localization')
     names = [name for name in DESCRIPTIONS if name != 'container_name']
     composed = {

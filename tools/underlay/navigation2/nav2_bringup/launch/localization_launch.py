@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Localise the robot in a map: map_server and amcl."""
+"""Localise the robot in a map with map_server and amcl."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def generate_launch_description() -> LaunchDescription:
                 server_actions(SERVERS, MANAGER, {YAML_FILENAME: given}),
                 condition=IfCondition(NotEqualsSubstitution(given, '')),
             ),
-            GroupAction(  # with the map that the parameter file names
+            GroupAction(  # with the map from the parameter file
                 server_actions(SERVERS, MANAGER),
                 condition=IfCondition(EqualsSubstitution(given, '')),
             ),

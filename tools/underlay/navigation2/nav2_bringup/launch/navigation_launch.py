@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the way: planner, controller, smoother, behaviours, their trees and what guards speed."""
+"""Start the navigation servers: planner, controller, smoother, behaviours and others."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ VIEW = [FindPackageShare('nav2_bringup'), 'rviz', 'nav2_default_view.rviz']
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Start RViz; its end is that of the launch."""
+    """Start RViz; the launch ends with it."""
     used = LaunchConfiguration('use_namespace')
     rviz = Node(
         package='rviz2',

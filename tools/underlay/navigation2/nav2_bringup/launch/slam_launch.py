@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a map: slam_toolbox, and map_saver, which writes it."""
+"""Start SLAM: slam_toolbox, and map_saver to save the map."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SERVERS = [Server('nav2_map_server', 'map_saver_server', 'nav2_map_server::MapSa
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Start slam_toolbox, with the parameter file if that has something for it."""
+    """Start slam_toolbox, with the parameter file if it has parameters for the node."""
     slam = PythonLaunchDescriptionSource(
         PathJoinSubstitution(
             [FindPackageShare('slam_toolbox'), 'launch', 'online_async_launch.py']

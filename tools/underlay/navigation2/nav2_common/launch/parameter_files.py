@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a file of parameters, change it, and hand the launch a copy that goes with its end."""
+"""Substitutions that rewrite a parameter file to a temporary copy, deleted after the launch."""
 
 from __future__ import annotations
 
@@ -30,17 +30,17 @@ class RewrittenYaml(Substitution):
     source_file
         The path of the file.
     param_rewrites
-        New values by names. A name without dots, or one that ends the path of a value, changes it
-        wherever it is; a whole path such as `amcl.ros__parameters.use_sim_time` changes the value
-        there, or adds it.
+        New values by names. A name without dots, or the end of a path, changes each matching
+        value; a whole path such as `amcl.ros__parameters.use_sim_time` changes the value there, or
+        adds it.
     root_key
-        A key below which the whole is put, such as the namespace of a robot; may be empty.
+        A key to nest the whole file below, such as the namespace of a robot; may be empty.
     key_rewrites
         New keys by old ones.
     convert_types
-        Whether new values that read as numbers or as true and false become that.
+        Whether new values that parse as numbers or booleans are converted.
     value_rewrites
-        New values by old ones, wherever they are.
+        New values by old ones, anywhere in the file.
 
     """
 
@@ -84,7 +84,7 @@ class RewrittenYaml(Substitution):
         Raises
         ------
         SubstitutionFailure
-            The file cannot be read, is no YAML, or has something else than names at the top.
+            The file cannot be read, is not YAML, or is not a mapping at the top level.
 
         """
         data = _read(perform_substitutions(context, self.__source_file))
@@ -126,7 +126,7 @@ class ReplaceString(Substitution):
     replacements
         New texts by old ones.
     condition
-        Without it, or if it holds, texts are replaced; otherwise the file itself is meant.
+        If omitted or true, texts are replaced; otherwise the original file is used.
 
     """
 
@@ -159,7 +159,7 @@ class ReplaceString(Substitution):
         """
         Write the copy, and return its path.
 
-        If the condition does not hold, it is the path of the file itself.
+        If the condition is false, return the path of the original file.
 
         Parameters
         ----------
@@ -222,7 +222,7 @@ class HasNodeParams(Substitution):
         Raises
         ------
         SubstitutionFailure
-            The file cannot be read, is no YAML, or has something else than names at the top.
+            The file cannot be read, is not YAML, or is not a mapping at the top level.
 
         """
         data = _read(perform_substitutions(context, self.__source_file))
@@ -234,7 +234,7 @@ _Parts = list[tuple[list[Substitution], list[Substitution]]]
 
 
 def _parts(texts: _Texts) -> _Parts:
-    """Return keys and values as what can be performed."""
+    """Convert keys and values to substitutions."""
     return [
         (normalize_to_list_of_substitutions(key), normalize_to_list_of_substitutions(value))
         for key, value in texts.items()
@@ -266,7 +266,7 @@ def _read(path: str) -> Any:
 
 
 def _with_values(data: Any, values: Mapping[str, Any], path: str = '') -> Any:
-    """Return the data with other values for names, and for ends of paths."""
+    """Replace the values of names, and of ends of paths, in the data."""
     if not isinstance(data, dict):
         return data
     changed = {}
@@ -281,7 +281,7 @@ def _with_values(data: Any, values: Mapping[str, Any], path: str = '') -> Any:
 
 
 def _add(data: Any, keys: list[str], value: Any) -> None:
-    """Set the value at a path, with what is missing on the way."""
+    """Set the value at a path, creating missing keys."""
     for key in keys[:-1]:
         data = data.setdefault(key, {})
         if not isinstance(data, dict):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where several robots begin, from one argument of a command line."""
+"""Parse the initial poses of several robots from a command line argument."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _KEYS = ('x', 'y', 'z', 'roll', 'pitch', 'yaw')
 
 class ParseMultiRobotPose:
     """
-    Reads robots from the command line: `robots:="r1={x: 1.0, y: 2.0, yaw: 1.57}; r2={x: 0.0}"`.
+    Parser of robot poses: `robots:="r1={x: 1.0, y: 2.0, yaw: 1.57}; r2={x: 0.0}"`.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class ParseMultiRobotPose:
         Raises
         ------
         ValueError
-            The argument is not of that form.
+            The argument does not have that format.
 
         """
         robots = {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start the loopback simulator in place of a robot; the navigation is started beside it."""
+"""Start the loopback simulator in place of a robot; start navigation separately."""
 
 import os
 
@@ -11,7 +11,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description():
-    """Describe the simulator and the transform that joins the robot's model to it."""
+    """Describe the simulator and the static transform that connects the robot's model to it."""
     bringup = get_package_share_directory('nav2_bringup')
     return LaunchDescription(
         [

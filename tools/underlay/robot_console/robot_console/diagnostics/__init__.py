@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the parts of a robot are."""
+"""Diagnostic status of the components of a robot."""
 
 from robot_console.diagnostics.condition import Condition, ERROR, OK, STALE, WARN
 from robot_console.diagnostics.diagnostic_book import DiagnosticBook

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How one part of a robot is."""
+"""Diagnostic status of one component of a robot."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MOST_VALUES = 200
 
 
 class Condition(NamedTuple):
-    """What a part says about itself, with a level of diagnostic_msgs."""
+    """Diagnostic status of a component, with a level of diagnostic_msgs."""
 
     level: int
     message: str
@@ -23,18 +23,18 @@ class Condition(NamedTuple):
 
 def condition(level: int, message: str, hardware: str, values: list[tuple[str, str]]) -> Condition:
     """
-    Convert a diagnostic status to a `Condition`, with long texts shortened.
+    Convert a diagnostic status to a `Condition`, truncating long texts.
 
     Parameters
     ----------
     level
         The level of diagnostic_msgs, from `OK` to `STALE`; any other counts as `ERROR`.
     message
-        What the part says.
+        The message of the component.
     hardware
         The hardware id.
     values
-        Pairs of key and value; only the first 200 are kept.
+        Key-value pairs; only the first 200 are kept.
 
     """
     if level not in (OK, WARN, ERROR, STALE):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How all parts of a robot are, the worst first."""
+"""Diagnostic status of all components of a robot, sorted by severity."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ CHANGES = 20
 
 
 class _Part:
-    """A part of a robot, with what it said and when that was."""
+    """A component of a robot, with its latest status and the changes of its level."""
 
     def __init__(self) -> None:
-        """Begin with a part that has not said anything."""
+        """Initialise a component without a status."""
         self.now = Condition(STALE, '')
         self.heard_s = 0.0
         self.changes: deque[tuple[float, int, str]] = deque(maxlen=CHANGES)
 
     def take(self, said: Condition, now_s: float, wall_s: float) -> None:
-        """Take what it says; changes of the level are remembered."""
+        """Store a status, and record a change of the level."""
         if not self.changes or said.level != self.now.level:
             self.changes.append((wall_s, said.level, said.message))
         self.now = said
@@ -34,20 +34,20 @@ class _Part:
 
 class DiagnosticBook:
     """
-    The newest diagnostic status of each part of a robot, the worst first.
+    The latest diagnostic status of each component of a robot, sorted by severity.
 
-    A part that says nothing for a while is stale. Times are seconds of a steady clock; those of
-    changes are of the wall.
+    A component without a recent status is stale. Times are in seconds of a monotonic clock; those
+    of level changes are wall time.
 
     Parameters
     ----------
     stale_s
-        After how long without a status a part is stale, in s.
+        The time without a status after which a component is stale, in s.
 
     Attributes
     ----------
     left_out
-        How many statuses were dropped because there were too many parts.
+        The number of statuses that were dropped because there were too many components.
 
     """
 
@@ -58,18 +58,18 @@ class DiagnosticBook:
 
     def take(self, name: str, said: Condition, now_s: float, wall_s: float) -> None:
         """
-        Store the status of a part; that of a new one is dropped if there are 1000 parts already.
+        Store the status of a component; new components are dropped once there are 1000.
 
         Parameters
         ----------
         name
-            The name of the part.
+            The name of the component.
         said
             Its status.
         now_s
-            When it came, of `time.monotonic`.
+            The time of reception, from `time.monotonic`.
         wall_s
-            The same moment of `time.time`, for the list of changes of the level.
+            The same time from `time.time`, for the history of level changes.
 
         """
         part = self._parts.get(name)
@@ -82,17 +82,18 @@ class DiagnosticBook:
 
     def rows(self, now_s: float) -> list[tuple[str, int, str]]:
         """
-        List all parts, the worst first: errors, stale ones, warnings, and those that are well.
+        List all components, sorted by severity: errors, stale, warnings, OK.
 
         Parameters
         ----------
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         Returns
         -------
         list of tuple
-            Name, level and message of each part; parts of the same level are sorted by name.
+            Name, level and message of each component; components of the same level are sorted by
+            name.
 
         """
         rows = [
@@ -103,20 +104,19 @@ class DiagnosticBook:
 
     def details(self, name: str, now_s: float) -> dict[str, Any] | None:
         """
-        Get everything that is known of one part, for the page.
+        Return the details of one component, for the page.
 
         Parameters
         ----------
         name
-            The name of the part.
+            The name of the component.
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         Returns
         -------
         dict or None
-            The status with its age in s and the last changes of the level; None for an unknown
-            part.
+            The status with its age in s and the last level changes; None for an unknown component.
 
         """
         part = self._parts.get(name)
@@ -135,12 +135,12 @@ class DiagnosticBook:
 
     def forget_stale(self, now_s: float) -> None:
         """
-        Remove the parts that are stale, and reset `left_out`.
+        Remove stale components, and reset `left_out`.
 
         Parameters
         ----------
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         """
         self._parts = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A ghost of the robot, which stands as the robot was told to."""
+"""A ghost of the robot at the commanded joint positions."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ DEFAULTS = {
 
 
 def _with_default(each: Property) -> Property:
-    """Return a property of a robot with the default that it has of a ghost."""
+    """Return a property of the robot display with the default of the ghost."""
     return replace(each, default=DEFAULTS.get(each.path, each.default))
 
 
@@ -40,7 +40,8 @@ class CommandedRobot(RobotModel):
     """
     The robot as its joints were told to stand, at the place where it is.
 
-    Joints that were told nothing are shown as they are. It is hidden a second after commands.
+    Joints without a command are shown as measured. The ghost is hidden a second after the last
+    command.
     """
 
     CLASS = 'robot_console/CommandedRobot'
@@ -56,14 +57,14 @@ class CommandedRobot(RobotModel):
     )
 
     def start(self) -> None:
-        """Ask for the description, and listen to the commands."""
+        """Request the description, and subscribe to the joint commands."""
         self._joints: CommandedJoints | None = None
         self._commands: PolledTopic | None = None
         super().start()
         self._hear(self.topic_of(COMMANDS))
 
     def stop(self) -> None:
-        """Show the ghost no longer."""
+        """Hide the ghost, and unsubscribe."""
         if self._commands is not None:
             self._commands.close()
         self._commands = None
@@ -71,7 +72,7 @@ class CommandedRobot(RobotModel):
 
     def on_change(self, path: str) -> None:
         """
-        Apply a changed property: subscribe again for another command topic, redraw for others.
+        Apply a changed property: resubscribe for another command topic, redraw otherwise.
 
         Parameters
         ----------
@@ -87,7 +88,7 @@ class CommandedRobot(RobotModel):
 
     def topic_of(self, path: str) -> str:
         """
-        Get the topic that a property names, in the namespace of the robot.
+        Return the topic of a property, resolved in the namespace of the robot.
 
         Parameters
         ----------
@@ -98,7 +99,7 @@ class CommandedRobot(RobotModel):
         return below(self.values['Namespace'], super().topic_of(path))
 
     def look(self) -> Look:
-        """Return how the ghost looks: a little larger than the robot, where it is inside of it."""
+        """Return the appearance of the ghost: slightly larger than the robot, to avoid overlap."""
         color: Color | None = None
         if self.values[OWN_COLOR]:
             red, green, blue = (part / 255.0 for part in self.values['Color'])
@@ -107,7 +108,7 @@ class CommandedRobot(RobotModel):
 
     def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
         """
-        Get the pose of the root link, and a function that gives the commanded pose of each joint.
+        Return the pose of the root link, and a function for the commanded pose of each joint.
 
         Parameters
         ----------
@@ -117,9 +118,10 @@ class CommandedRobot(RobotModel):
         Returns
         -------
         tuple
-            The pose of the root in the fixed frame, None if it is unknown or nothing was commanded
-            in the last second; and what gives the pose of a joint's child link in the frame of the
-            parent link (m, quaternion w, x, y, z). Joints without a command are where tf says.
+            The pose of the root link in the fixed frame, None if it is unknown or nothing was
+            commanded in the last second; and a function that returns the pose of a joint's child
+            link in the frame of the parent link (m, quaternion w, x, y, z). Joints without a
+            command have the pose from tf.
 
         """
         if self._joints is None or self._joints.model is not model:
@@ -167,7 +169,7 @@ class CommandedRobot(RobotModel):
             self.say('Command', self._refusal, Level.ERROR)
 
     def _obey(self, joints: CommandedJoints) -> None:
-        """Take the commands that have come."""
+        """Apply the joint commands that were received."""
         if self._commands is None:
             return
         for message, time_s in self._commands.take():
@@ -179,7 +181,7 @@ class CommandedRobot(RobotModel):
                 self.status.forget('Message')
 
     def _without_command(self) -> str:
-        """Say that there is no command, and who could give one."""
+        """Format the message why there is no command: none received, or no publisher."""
         if self._refusal:
             return f'{self._refusal}.'
         node = self.context.node
@@ -190,7 +192,7 @@ class CommandedRobot(RobotModel):
 
 
 def _not_known(names: Sequence[str]) -> str:
-    """Name joints of a command that the robot does not have."""
+    """Format a warning that names joints of a command that the robot does not have."""
     if not names:
         return ''
     more = f' and {len(names) - MAX_NAMES} more' if len(names) > MAX_NAMES else ''

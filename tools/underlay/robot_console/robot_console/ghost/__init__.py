@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The robot as it was told to stand; without ROS."""
+"""Commanded pose of the robot; without ROS."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the links of a robot would be if its joints were where they were told to be."""
+"""Forward kinematics of the commanded joint positions."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ VALID_S = 1.0
 
 class CommandedJoints:
     """
-    The joint positions commanded in the last second, and the poses of the links they lead to.
+    The joint positions commanded in the last second, and the link poses that result from them.
 
-    Several commands may each be about some of the joints.
+    Each command may contain only some of the joints.
 
     Parameters
     ----------
@@ -48,19 +48,19 @@ class CommandedJoints:
 
     def take(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
         """
-        Store a command; positions that are not finite are ignored.
+        Store a command; non-finite positions are ignored.
 
         Parameters
         ----------
         names, positions
-            The joints, and where they are to be, in rad or m.
+            The joints and their commanded positions, in rad or m.
         now_s
-            When the command came, of `time.time`.
+            The time of reception, from `time.time`.
 
         Raises
         ------
         ValueError
-            There are not as many positions as names; the text ends a sentence.
+            The numbers of positions and names differ; the message completes a sentence.
 
         """
         if len(positions) != len(names):
@@ -77,7 +77,7 @@ class CommandedJoints:
         Parameters
         ----------
         now_s
-            The time of `time.time`.
+            The current time, from `time.time`.
 
         """
         return any(now_s - at_s < VALID_S for _, at_s in self._told.values())
@@ -86,18 +86,18 @@ class CommandedJoints:
         """
         Compute the commanded forward kinematics, joint by joint.
 
-        Mimic joints follow. Fixed joints are included as long as anything was commanded.
+        Mimic joints follow their leaders. Fixed joints are included while any joint is commanded.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`; commands older than a second do not count.
+            The current time, from `time.time`; commands older than a second are ignored.
 
         Returns
         -------
         dict
-            By joint, the pose of its child link in the frame of its parent link, in m and as a
-            quaternion w, x, y, z. Joints that were not commanded are missing.
+            The pose of the child link of each joint, by joint name, in the frame of the parent
+            link: translation in m, quaternion w, x, y, z. Joints without a command are missing.
 
         """
         told = {
@@ -116,6 +116,6 @@ class CommandedJoints:
 
 
 def _pose(pose: JointPose) -> Pose:
-    """Return a pose as the page wants it."""
+    """Convert a pose to the quaternion order of the page: w, x, y, z."""
     x, y, z, qx, qy, qz, qw = pose
     return Pose((x, y, z), (qw, qx, qy, qz))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of joints as HTML, which is sent several times a second and therefore short."""
+"""Rendering of the joint table as HTML, kept short because it is sent several times a second."""
 
 from __future__ import annotations
 
@@ -54,12 +54,12 @@ def table_html(groups: Iterable[RowGroup]) -> str:
     Parameters
     ----------
     groups
-        The rows by limb; those beyond 300 are counted instead of shown.
+        The rows by limb; rows beyond the first 300 are only counted.
 
     Returns
     -------
     str
-        The table; '' without joints.
+        The table; '' if there are no joints.
 
     """
     parts = []
@@ -84,7 +84,7 @@ def notes_html(notes: Iterable[tuple[str, bool]]) -> str:
     Parameters
     ----------
     notes : Iterable[tuple[str, bool]]
-        Sentences, each with whether it is a warning.
+        Messages, each with whether it is a warning.
 
     """
     lines = ''.join(
@@ -129,7 +129,7 @@ def _error(row: JointRow) -> str:
 
 
 def _load(value: float | None, maximum: float | None, digits: int) -> str:
-    """Return a cell with a bar that grows towards the maximum."""
+    """Render a cell with a bar proportional to the fraction of the maximum."""
     if value is None:
         return NONE
     text = f'{value:.{digits}f}'

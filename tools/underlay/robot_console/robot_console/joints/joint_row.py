@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A joint, as the table shows it."""
+"""A row of the joint table."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NEAR_LIMIT = 0.05
 
 @dataclass(frozen=True)
 class JointRow:
-    """What a joint does, what it was told, and what it may do."""
+    """Measured state, commanded position and description of a joint."""
 
     name: str
     label: str
@@ -29,18 +29,18 @@ class JointRow:
 
     @property
     def is_angle(self) -> bool:
-        """Tell if positions are angles; a joint that nobody describes is taken to turn."""
+        """Whether positions are angles; joints without a description are taken as revolute."""
         return self.joint is None or self.joint.kind != 'prismatic'
 
     @property
     def limits(self) -> Limits | None:
-        """Return how far the joint goes."""
+        """Return the position limits of the joint."""
         limits = self.joint.limits if self.joint else None
         return limits if limits and limits.lower < limits.upper else None
 
     @property
     def error(self) -> float | None:
-        """Return how far the joint is from where it was told to be."""
+        """Return the position error: target minus measured position."""
         if self.target is None or self.state.position is None:
             return None
         return self.target - self.state.position
@@ -52,13 +52,13 @@ class JointRow:
         Parameters
         ----------
         position
-            In rad or m; None if it is not known.
+            In rad or m; None if unknown.
 
         Returns
         -------
         float or None
-            0 at the lower limit and below, 1 at the upper one and above; None without a position
-            or without limits.
+            0 at or below the lower limit, 1 at or above the upper limit; None without a position
+            or limits.
 
         """
         if position is None or self.limits is None:
@@ -69,7 +69,7 @@ class JointRow:
 
 def position_level(row: JointRow) -> Level:
     """
-    Rate how close a joint is to its position limits.
+    Rate the proximity of a joint to its position limits.
 
     Parameters
     ----------
@@ -94,19 +94,19 @@ def position_level(row: JointRow) -> Level:
 
 def load_level(value: float | None, maximum: float | None) -> Level:
     """
-    Rate how close a velocity or an effort is to its maximum.
+    Rate the proximity of a velocity or an effort to its maximum.
 
     Parameters
     ----------
     value
-        The measured value, of either sign; None if it is not known.
+        The measured value, of either sign; None if unknown.
     maximum
-        The greatest magnitude allowed, in the same unit; None if there is no limit.
+        The maximum magnitude, in the same unit; None if there is no limit.
 
     Returns
     -------
     Level
-        WARN from 90 % of the maximum on, ERROR beyond it, otherwise OK.
+        WARN from 90 % of the maximum, ERROR beyond it, otherwise OK.
 
     """
     if value is None or maximum is None or abs(value) < NEAR * maximum:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What messages say about joints."""
+"""The joint states received on a topic."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Numbers = Sequence[float]
 
 @dataclass(frozen=True)
 class JointState:
-    """What is known of a joint, in radians or metres, per second, newton metres or newtons."""
+    """State of a joint (rad or m, per second, N m or N); unknown quantities are None."""
 
     position: float | None = None
     velocity: float | None = None
@@ -26,10 +26,10 @@ class JointState:
 
 class JointStates:
     """
-    The newest that messages of a topic have said about each joint.
+    The latest state of each joint, received on a topic.
 
-    Several may publish, each about some of the joints. A message is only looked at when somebody
-    wants to know, so that fast ones cost little.
+    Several publishers may each cover some of the joints. Messages are only processed when the
+    states are requested, so that high message rates cost little.
     """
 
     def __init__(self) -> None:
@@ -48,17 +48,17 @@ class JointStates:
         now_s: float,
     ) -> None:
         """
-        Store a message; its content is only looked at when `states` is asked for.
+        Store a message; it is only processed when `states` is requested.
 
         Parameters
         ----------
         names
             The joints.
         positions, velocities, efforts
-            One number for each name (rad or m, per second, N m or N), or none at all. Lists of
-            another length are ignored, and `complaint` says so.
+            One number per name (rad or m, per second, N m or N), or empty. Lists of another length
+            are ignored, which `complaint` reports.
         now_s
-            When the message came, of `time.time`.
+            The time of reception, from `time.time`.
 
         """
         self.received += 1
@@ -69,13 +69,13 @@ class JointStates:
 
     @property
     def states(self) -> Mapping[str, JointState]:
-        """Return what is known of each joint of which something has come in the last minute."""
+        """Return the states of the joints that were received in the last minute."""
         if self._waiting:
             self._look()
         return self._states
 
     def _look(self) -> None:
-        """Look at the messages that have come; what does not fit to the names is left out."""
+        """Process the stored messages; lists whose length does not match the names are ignored."""
         waiting, self._waiting = self._waiting, {}
         for names, (positions, velocities, efforts, at_s) in waiting.items():
             lists = {'positions': positions, 'velocities': velocities, 'efforts': efforts}
@@ -95,7 +95,7 @@ class JointStates:
 
 
 def _number(numbers: Numbers, index: int, count: int) -> float | None:
-    """Return one of the numbers, if there is one for each name and this one is finite."""
+    """Return one of the numbers, or None if it is not finite or the list length does not match."""
     if len(numbers) != count or not isfinite(numbers[index]):
         return None
     return float(numbers[index])

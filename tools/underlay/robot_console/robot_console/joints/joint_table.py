@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The joints of a robot in groups, with what is known of them."""
+"""The joints of a robot with their states, grouped by limb."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class RowGroup:
 
 
 class JointTable:
-    """Puts together what is measured, what is commanded, and what the description says."""
+    """Combines measured states, commanded positions and the robot description."""
 
     def __init__(self) -> None:
         self.measured = JointStates()
@@ -36,7 +36,7 @@ class JointTable:
 
     def describe(self, model: RobotModel) -> None:
         """
-        Set the robot description, which gives limbs, kinds of joints and limits.
+        Set the robot description, which provides limbs, joint types and limits.
 
         Parameters
         ----------
@@ -49,23 +49,23 @@ class JointTable:
 
     @property
     def is_described(self) -> bool:
-        """Tell if there has been a description."""
+        """Whether a robot description was received."""
         return self._model is not None
 
     def groups(self, now_s: float, search: str = '') -> list[RowGroup]:
         """
         Build the rows of the table, grouped by limb.
 
-        Commanded positions older than a second are left out; measured states that old are marked
-        stale.
+        Commanded positions older than a second are omitted; measured states older than that are
+        marked stale.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`.
+            The current time, from `time.time`.
         search
-            Only joints are listed whose name, or whose limb's title, contains this text; upper and
-            lower case are the same, and so are spaces and underscores.
+            Text that the name or the limb title of a listed joint must contain; case-insensitive,
+            with spaces equal to underscores.
 
         """
         measured, commanded = self.measured.states, self.commanded.states
@@ -94,7 +94,7 @@ class JointTable:
         return groups
 
     def _grouped(self, *told: Mapping[str, JointState]) -> Sequence[Limb]:
-        """Return the limbs, which only change when there are other joints."""
+        """Return the limbs, which are recomputed only when the set of joints changes."""
         names = frozenset().union(*told)
         if self._model is not None:
             names = names.union(joint.name for joint in self._model.moving_joints)

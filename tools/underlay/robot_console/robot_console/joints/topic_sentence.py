@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What there is to say about a topic that messages should come from."""
+"""Status messages of the joint topics."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ LATE_S = 1.0
 
 class TopicWatch:
     """
-    The message rate of a joint topic in a sentence, or why nothing comes.
+    Status message of a joint topic: its message rate, or why no messages arrive.
 
     Parameters
     ----------
     topic
         The fully qualified name of the topic.
     states
-        What its messages are stored in, which counts them.
+        The store of its messages, which counts them.
 
     """
 
@@ -31,12 +31,12 @@ class TopicWatch:
 
     def is_late(self, now_s: float) -> bool:
         """
-        Check whether no message has come for a second.
+        Check whether no message has arrived for a second.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`.
+            The current time, from `time.time`.
 
         """
         last_s = self._states.last_s
@@ -44,14 +44,14 @@ class TopicWatch:
 
     def sentence(self, now_s: float, publishers: int) -> str:
         """
-        Describe the topic in a sentence: joints and messages a second, or since when it is silent.
+        Format the status of the topic: joints and message rate, or the duration of silence.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`.
+            The current time, from `time.time`.
         publishers
-            How many publishers the topic has; used only if it is silent.
+            The number of publishers of the topic; used only if it is silent.
 
         """
         self._count(now_s)
@@ -62,7 +62,7 @@ class TopicWatch:
         return missing(self.topic, None if last_s is None else now_s - last_s, publishers)
 
     def _count(self, now_s: float) -> None:
-        """Count messages over seconds that are whole, so that the number rests."""
+        """Compute the message rate over whole seconds, so that its display does not flicker."""
         if self._since is None:
             self._since = now_s, self._states.received
         before_s, before = self._since
@@ -73,16 +73,16 @@ class TopicWatch:
 
 def missing(topic: str, for_s: float | None, publishers: int) -> str:
     """
-    Describe in a sentence a topic on which no messages come.
+    Format the status of a topic on which no messages arrive.
 
     Parameters
     ----------
     topic
         The name of the topic.
     for_s
-        For how long it has been silent, in s; None if nothing has come yet.
+        The time without messages, in s; None if none has arrived yet.
     publishers
-        How many publishers it has.
+        The number of its publishers.
 
     """
     what = 'Nothing has come yet' if for_s is None else f'Nothing for {for_s:.0f} s'

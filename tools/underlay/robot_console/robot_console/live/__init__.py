@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Panels whose small pages are told what is new, as long as somebody looks at them."""
+"""Panels with a web page that receives updates while it is open."""
 
 from robot_console.live.channel import Channel
 from robot_console.live.live_panel import LivePanel

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a small page is told, and what it asks for."""
+"""Messages to and requests from the page of a live panel."""
 
 from __future__ import annotations
 
@@ -22,24 +22,25 @@ REFUSED = 1008
 
 class Channel:
     """
-    The connections of a live panel: sends what is new, and runs the actions that pages ask for.
+    The connections of a live panel: sends updates, and runs the actions that pages request.
 
-    A page connects while it is visible. What it asks for, `{'do': ...}`, is done in the thread
-    of the node by the action of that name; one that raises ValueError has its reason sent back.
+    A page is connected while it is visible. Its requests, `{'do': ...}`, are handled in the thread
+    of the node by the action of that name; if the action raises ValueError, the message is sent
+    back.
 
     Parameters
     ----------
     queue
-        Work for the thread of the node.
+        Transfers work to the thread of the node.
     greet
-        Sends the current state to a viewer that has just connected.
+        Sends the current state to a new viewer.
     actions
-        What pages may ask for, by name: called with the viewer and the whole message.
+        The actions that pages may request, by name: called with the viewer and the whole message.
 
     Attributes
     ----------
     viewers
-        Those who are connected; for the thread of the node only.
+        The connected viewers; for use in the thread of the node only.
 
     """
 
@@ -71,7 +72,7 @@ class Channel:
                 viewer.tell_text(text)
 
     def end(self) -> None:
-        """End all connections."""
+        """Close all connections."""
         self._is_over = True
         for viewer in self.viewers:
             viewer.close()
@@ -79,9 +80,9 @@ class Channel:
 
     async def talk(self, connection: ServerConnection) -> None:
         """
-        Serve one connection until it is closed, in the thread of the page.
+        Serve one connection until it is closed, in the thread of the page server.
 
-        A message that is too long, no JSON, or names no action closes it.
+        A message that is too long, is not JSON, or names no action closes the connection.
 
         Parameters
         ----------
@@ -131,7 +132,7 @@ class Channel:
 
 
 def _parsed(text: str | bytes, actions: Mapping[str, Action]) -> Mapping[str, Any] | None:
-    """Return what a page asks for, or None if no page would ask for that."""
+    """Parse and validate a request; None if it is invalid."""
     if len(text) > LONGEST:
         return None
     try:

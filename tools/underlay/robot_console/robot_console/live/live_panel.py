@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A panel that is a small page, which is told what is new."""
+"""A panel with a web page that receives updates."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ __all__ = ['LivePanel']
 
 class LivePanel(Panel):
     """
-    A panel that is a small page; `refresh` is called now and then, `begin` and `end` once.
+    A panel with a web page; `refresh` is called periodically, `begin` and `end` once.
 
-    As long as nobody looks at the page, it costs nothing but what `begin` has begun.
+    While no page is open, the only cost is that of the subscriptions made in `begin`.
     """
 
     PAGE: ClassVar[str]
-    """The name of the page, and of its file."""
+    """The name of the page and of its file."""
     PACKAGE: ClassVar[str] = 'robot_console'
-    """The package that has the file, in its folder `web`."""
+    """The package that contains the file, in its folder `web`."""
     PERIOD_S: ClassVar[float] = 0.2
     PROPERTIES: ClassVar[tuple[Property, ...]] = (NAMESPACE,)
 
@@ -51,25 +51,25 @@ class LivePanel(Panel):
             raise
 
     def update(self) -> None:
-        """Tell what is new, a few times a second."""
+        """Send updates, a few times a second."""
         if self._pace.is_due():
             self.refresh()
 
     def close(self) -> None:
-        """Remove the page, and end what it needed."""
+        """Remove the page, and release the resources of the panel."""
         self._page.close()
         self.end()
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {}
 
     def begin(self) -> None:
-        """Begin what is done also while nobody looks; nobody comes before."""
+        """Start work that continues without viewers; called before the first one connects."""
 
     def greet(self, viewer: Viewer) -> None:
         """
@@ -83,24 +83,24 @@ class LivePanel(Panel):
         """
 
     def refresh(self) -> None:
-        """Tell what is new."""
+        """Send updates to the viewers."""
 
     def end(self) -> None:
-        """End what has been begun."""
+        """Stop the work that was started in `begin`."""
 
     def full_name(self, topic: str) -> str:
         """
-        Resolve the topic name of a robot to a fully qualified one.
+        Resolve the topic name of a robot to a fully qualified name.
 
         Parameters
         ----------
         topic
-            The name; a relative one is put into the namespace of the panel.
+            The name; a relative name is placed in the namespace of the panel.
 
         Raises
         ------
         ValueError
-            It is no valid topic name; the text is a sentence.
+            The name is not a valid topic name; the message is a full sentence.
 
         """
         return topic_of_robot(self.context.node, self.values['Namespace'], topic)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Somebody who looks at a small page."""
+"""A viewer of the page of a panel."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from websockets.exceptions import ConnectionClosed
 __all__ = ['Viewer']
 
 MOST_WAITING = 4_000_000
-"""So many letters may wait for a browser that does not read; then it has to come again."""
+"""Maximum number of queued characters for a slow browser; beyond it, the connection is dropped."""
 
 
 class Viewer:
     """
-    Somebody who looks at a small page.
+    A browser connection to the page of a panel.
 
-    `tell` and `tell_text` are for the thread of the node, `close` is for any thread, and all else
-    for that of the page. What a browser does not
-    read in time is dropped together with the connection; it gets all anew when it comes back.
+    `tell` and `tell_text` are called from the thread of the node, `close` from any thread, and
+    everything else from the thread of the page server. If a browser does not read in time, the
+    connection is dropped with the queue; the full state is sent again when it reconnects.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class Viewer:
 
     def __init__(self, connection: ServerConnection) -> None:
         self.wish: Any = None
-        """What a panel remembers of this viewer: a topic, the name of a node."""
+        """State that a panel stores for this viewer, such as a topic or the name of a node."""
         self._connection = connection
         self._loop = asyncio.get_running_loop()
         self._waiting: deque[str] = deque()
@@ -60,14 +60,14 @@ class Viewer:
         Parameters
         ----------
         text
-            A JSON object, encoded already.
+            A JSON object, already encoded.
 
         """
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._put, text)
 
     async def send_all(self) -> None:
-        """Send what waits, until the connection is closed."""
+        """Send queued messages until the connection is closed."""
         try:
             while self._size <= MOST_WAITING:
                 await self._news.wait()
@@ -80,7 +80,7 @@ class Viewer:
             pass
 
     def close(self) -> None:
-        """End the connection at once, from any thread."""
+        """Abort the connection; may be called from any thread."""
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._abort)
 

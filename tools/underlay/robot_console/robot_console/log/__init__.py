@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What nodes say, and which of it is worth an interruption."""
+"""Log messages of nodes, and notifications of errors."""
 
 from robot_console.log.interruptions import Interruptions
 from robot_console.log.log_book import LogBook, LogLine

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Errors for which it is worth to interrupt somebody."""
+"""Notifications of errors in the log."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LONGEST = 300
 
 
 class Interruption(NamedTuple):
-    """What is shown to somebody who looks at something else."""
+    """Notification shown to users of other tabs."""
 
     title: str
     text: str
@@ -22,14 +22,14 @@ class Interruption(NamedTuple):
 
 class Interruptions:
     """
-    Collects errors of the log, and limits how often they pop up.
+    Collects errors of the log, and limits the rate of their notifications.
 
     Parameters
     ----------
     period_s
-        The least time between two interruptions, in s.
+        The minimum time between two notifications, in s.
     silence_s
-        A text of a node is shown again only if it was not logged for so long, in s.
+        The time since a text was last logged by a node after which it is shown again, in s.
 
     """
 
@@ -42,14 +42,14 @@ class Interruptions:
 
     def add(self, line: LogLine, now_s: float) -> None:
         """
-        Queue a line of the log if it is an error that is due to be shown.
+        Queue a log line if it is an error that should be shown.
 
         Parameters
         ----------
         line
             The line; levels below ERROR are ignored.
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         """
         if line.level < ERROR:
@@ -62,18 +62,18 @@ class Interruptions:
 
     def due(self, now_s: float) -> Interruption | None:
         """
-        Get the interruption that is to be shown now, which empties the queue.
+        Return the notification to show now, and empty the queue.
 
         Parameters
         ----------
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         Returns
         -------
         Interruption or None
-            The first error that waits, and how many others there are; None if none waits, or the
-            last interruption was too recent.
+            The first queued error with the number of the others; None if the queue is empty or the
+            last notification was too recent.
 
         """
         if not self._waiting or now_s < self._next_s:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The newest of what nodes say."""
+"""The latest log lines of nodes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LONGEST = 2000
 
 
 class LogLine(NamedTuple):
-    """What a node said; the level is 10 (debug), 20, 30, 40 or 50 (fatal)."""
+    """Log line of a node; the level is 10 (debug), 20, 30, 40 or 50 (fatal)."""
 
     time_s: float
     level: int
@@ -25,23 +25,23 @@ class LogLine(NamedTuple):
 
 class LogBook:
     """
-    The newest lines of the log, with counts of all.
+    The latest log lines, with counts of all lines.
 
     Parameters
     ----------
     kept
-        How many lines are kept.
+        The number of lines to keep.
     namespace
-        Lines of nodes outside of this namespace are ignored; '' for none.
+        Lines of nodes outside this namespace are ignored; '' for all nodes.
 
     Attributes
     ----------
     count
-        How many lines have been added.
+        The total number of added lines.
     counts
-        The same by level.
+        The number of added lines by level.
     nodes
-        The names of the loggers that have said something.
+        The names of the loggers seen so far.
 
     """
 
@@ -59,13 +59,13 @@ class LogBook:
         Parameters
         ----------
         line
-            The line, with the name of the logger, such as `robot1.camera`, as its node.
+            The line, with the logger name, such as `robot1.camera`, as its node.
 
         Returns
         -------
         LogLine or None
-            The line as it is kept: the level rounded down to one of the five, a long text
-            shortened. None if it is of another namespace.
+            The stored line: the level rounded down to one of the five, a long text truncated. None
+            if it is from another namespace.
 
         """
         if not self._is_ours(line.node):
@@ -79,12 +79,12 @@ class LogBook:
 
     def since(self, count: int) -> list[LogLine]:
         """
-        Get the lines added after a count, as far as they are still kept.
+        Return the lines added after a count that are still kept.
 
         Parameters
         ----------
         count
-            The value that `count` had; 0 for all.
+            A previous value of `count`; 0 for all.
 
         """
         fresh = min(self.count - count, len(self._lines))
@@ -92,7 +92,7 @@ class LogBook:
 
     def news(self, count: int) -> dict[str, Any]:
         """
-        Get the lines added after a count, with the counts by level and the nodes, for the page.
+        Return the lines added after a count, with the counts by level and the nodes, for the page.
 
         Parameters
         ----------
@@ -112,7 +112,7 @@ class LogBook:
 
 
 def _level(level: int) -> int:
-    """Return the level of the five that a number belongs to."""
+    """Round a level down to one of the five levels."""
     return min(max(level // 10 * 10, DEBUG), FATAL)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Says, always in sight, that what is shown is recorded."""
+"""Badge that stays visible while recorded data is shown."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ __all__ = ['Badge']
 SUBJECT = 'Playing'
 RECORDED = 'This is recorded, not live.'
 MIXED = 'Recorded and live are mixed.'
-# Over the scene, below toasts, and not among the widgets, which a person may scroll or fold away;
-# these are 24em wide.
+# Over the scene and below toasts; not among the widgets, which are 24em wide and which users may
+# scroll or collapse.
 STYLE = (
     'position: fixed; bottom: 1em; left: max(9em, 50vw - 12em); transform: translateX(-50%); '
     'z-index: 1000; width: max-content; max-width: 17em; '
@@ -28,7 +28,7 @@ COLORS = {RECORDED: '#7048e8', MIXED: '#e8590c'}
 
 class Badge:
     """
-    A badge over the scene, and a note in the summary of the page, while a recording is played.
+    A badge over the scene, and an entry in the status summary, while a recording is played.
 
     Parameters
     ----------
@@ -44,14 +44,14 @@ class Badge:
 
     def update(self, name: str, is_mixed: bool = False) -> None:
         """
-        Show which recording is played; call it where widgets are added to no tab.
+        Show which recording is played; call it outside any tab.
 
         Parameters
         ----------
         name
             The name of the recording; '' removes the badge.
         is_mixed
-            Whether live nodes publish the same topics at the same time.
+            Whether live nodes publish on the same topics at the same time.
 
         """
         said = name, MIXED if is_mixed else RECORDED
@@ -66,7 +66,7 @@ class Badge:
         self._say(*said)
 
     def _say(self, name: str, sentence: str) -> None:
-        """Say it where the page says how things are."""
+        """Update the entry in the status summary of the page."""
         visualizer = self._context.visualizer
         if visualizer is None:
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Widgets to choose one of the recordings of a folder."""
+"""Widgets to select one of the recordings of a folder."""
 
 from __future__ import annotations
 
@@ -23,21 +23,20 @@ PERIOD_S = 4.0
 
 class BagChooser:
     """
-    Widgets to choose a recording of a folder, which is read in a background thread.
+    Widgets to select a recording from a folder, which is read in a background thread.
 
     Call `add_details` once before the first `update`.
 
     Parameters
     ----------
     context
-        The context of the panel; the widgets are added where its GUI is at the moment.
+        The context of the panel; the widgets are added at the current position of its GUI.
     folder
         The path of the folder.
     unfinished
-        Returns the path of the recording that is being made, which is not listed; '' if there is
-        none.
+        Returns the path of the recording in progress, which is not listed; '' if there is none.
     chosen
-        Called when another recording is chosen.
+        Called when another recording is selected.
 
     """
 
@@ -61,7 +60,7 @@ class BagChooser:
         context.on_input(self._list, self._choose)
 
     def add_details(self) -> None:
-        """Add the widget with the topics, which may stand elsewhere."""
+        """Add the widget with the topics, which may be placed elsewhere."""
         gui = self._context.gui
         self._topics: Any = gui.add_folder('Topics', expand_by_default=False, visible=False)
         with self._topics:
@@ -69,19 +68,19 @@ class BagChooser:
 
     @property
     def bag(self) -> Bag | None:
-        """Return the recording that is chosen, if it can be played."""
+        """Return the selected recording if it can be played, else None."""
         bag = self._bags.get(self._list.value)
         return None if bag is None or bag.problem else bag
 
     def update(self) -> None:
-        """Have somebody look, now and then."""
+        """Rescan the folder periodically, in a background thread."""
         if not self._is_looking and self._pace.is_due():
             self._is_looking = True
             threading.Thread(target=self._look, daemon=True).start()
 
     def choose(self, path: str) -> None:
         """
-        Choose a new recording as soon as it is found in the folder.
+        Select a new recording as soon as it is found in the folder.
 
         Parameters
         ----------
@@ -93,11 +92,11 @@ class BagChooser:
         self._pace.hurry()
 
     def close(self) -> None:
-        """Change the widgets no longer, whatever is still found."""
+        """Stop updating the widgets, even if a scan is still running."""
         self._is_over = True
 
     def _look(self) -> None:
-        unfinished = self._unfinished()  # what is finished meanwhile may have been read before
+        unfinished = self._unfinished()  # it may finish during the scan, after it was read
         try:
             bags = self._shelf.look()
         finally:

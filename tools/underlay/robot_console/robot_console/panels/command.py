@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell a robot in words what to do."""
+"""Panel to command a robot in natural language."""
 
 from __future__ import annotations
 
@@ -36,11 +36,10 @@ class Command(LivePanel):
     """
     A conversation with a robot, and the plan that it works on.
 
-    What is typed is published as a text, and so is `stop`. The state of the plan is a text in
-    JSON: `command`, `state` (running, succeeded, failed or canceled), and `steps`, each with
-    `text` and `state`. What is said into the browser's microphone is published as sound, 16 kHz,
-    mono, S16LE, for a speech recogniser. The panel appears by itself when somebody listens to
-    `user_command`.
+    Typed text is published as a string, and so is `stop`. The state of the plan is a JSON string:
+    `command`, `state` (running, succeeded, failed or canceled), and `steps`, each with `text` and
+    `state`. Audio from the browser's microphone is published as 16 kHz mono S16LE for a speech
+    recogniser. The panel is added automatically when a node subscribes to `user_command`.
 
     """
 
@@ -63,23 +62,23 @@ class Command(LivePanel):
     @classmethod
     def is_wanted(cls, node: Node) -> bool:
         """
-        Return whether somebody takes commands.
+        Check whether a node subscribes to commands.
 
         Parameters
         ----------
         node
-            The page's node; the topic is relative to its namespace.
+            The node of the page; the topic is relative to its namespace.
 
         """
         name = node.resolve_topic_name(TOPIC)
         return any(each.topic_type == TYPE for each in node.get_subscriptions_info_by_topic(name))
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {'topic': self._name('Command Topic'), 'longest': LONGEST}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {
             'tell': self._tell,
             'hear': self._hear,
@@ -87,7 +86,7 @@ class Command(LivePanel):
         }
 
     def begin(self) -> None:
-        """Listen, also while nobody looks, so that the conversation is kept."""
+        """Create publishers and subscriptions; the conversation is kept also without viewers."""
         node = self.context.node
         self._lines: deque[tuple[float, str, str]] = deque(maxlen=KEPT)
         self._plan: dict[str, Any] = {}
@@ -109,18 +108,18 @@ class Command(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Tell somebody who comes what was said before.
+        Send the previous conversation and the plan to a new viewer.
 
         Parameters
         ----------
         viewer
-            Who has opened the panel.
+            The viewer that has opened the panel.
 
         """
         viewer.tell(lines=list(self._lines), plan=self._plan, fresh=True)
 
     def end(self) -> None:
-        """Listen and publish no longer."""
+        """Destroy the subscriptions and publishers."""
         for each in self._subscriptions:
             self.context.node.destroy_subscription(each)
         for publisher in (self._commands, self._sound):
@@ -139,7 +138,7 @@ class Command(LivePanel):
         self._publish(text.strip())
 
     def _hear(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
-        """Publish a piece of sound from the browser's microphone."""
+        """Publish a chunk of audio from the browser's microphone."""
         try:
             sound = base64.b64decode(message.get('sound', ''), validate=True)
         except (TypeError, ValueError, binascii.Error):
@@ -174,7 +173,7 @@ class Command(LivePanel):
 
 
 def _sound_publisher(node: Node, topic: str) -> Any:
-    """Make a publisher of sound, or None: a robot without a voice does without these messages."""
+    """Create the audio publisher; None if the message package is not installed."""
     try:
         from audio_common_msgs.msg import AudioData
     except ImportError:

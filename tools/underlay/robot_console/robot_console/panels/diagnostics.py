@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the parts of a robot are."""
+"""Panel with the diagnostic status of the components of a robot."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ class Diagnostics(LivePanel):
     )
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {'topic': self._topic(), 'stale': self.values['Stale After']}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {'choose': self._choose, 'forget': self._forget}
 
     def begin(self) -> None:
-        """Listen, also while nobody looks, so that changes are remembered."""
+        """Subscribe to diagnostics, which records changes also without viewers."""
         self._book = DiagnosticBook(self.values['Stale After'])
         self._told: Any = None
         self._ear = self.context.node.create_subscription(
@@ -54,7 +54,7 @@ class Diagnostics(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send the parts and their levels to a viewer that has just connected.
+        Send the components and their levels to a new viewer.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class Diagnostics(LivePanel):
         viewer.tell(**self._told)
 
     def refresh(self) -> None:
-        """Tell what has changed."""
+        """Send the changes to the viewers."""
         if not self.channel.viewers:
             return
         state = self._state()
@@ -78,7 +78,7 @@ class Diagnostics(LivePanel):
                 self._tell_details(viewer)
 
     def end(self) -> None:
-        """Listen no longer."""
+        """Destroy the subscription."""
         self.context.node.destroy_subscription(self._ear)
 
     def _topic(self) -> str:

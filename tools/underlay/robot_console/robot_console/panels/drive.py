@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drive a robot with a stick on the screen, or with keys."""
+"""Panel to drive a robot with an on-screen stick or keys."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Drive(Panel):
     )
 
     def start(self) -> None:
-        """Add the page with the stick."""
+        """Create the velocity publisher, and add the page with the stick."""
         namespace, node = self.values['Namespace'], self.context.node
         self._link = link_of(self.context, namespace)
         self._limits = SpeedLimits(
@@ -50,7 +50,7 @@ class Drive(Panel):
         self._page = SmallPage(self.context, 'drive', namespace, settings, talks)
 
     def close(self) -> None:
-        """Stop a robot that is being driven."""
+        """Remove the page, which stops a robot that is being driven."""
         self._page.close()
         self._publisher.wait_for_all_acked(Duration(seconds=0.2))
         self.context.node.destroy_publisher(self._publisher)
@@ -60,7 +60,7 @@ class Drive(Panel):
         return DriveSession(self._link, person, self._limits, self._say, count_listeners)
 
     def _say(self, velocity: Velocity) -> None:
-        """Publish a velocity, in the thread of the connection."""
+        """Publish a velocity command, in the thread of the connection."""
         twist = Twist(
             linear=Vector3(x=velocity.forward_m_s, y=velocity.left_m_s),
             angular=Vector3(z=velocity.turn_rad_s),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The joints of a robot: measured, commanded, and how much they can."""
+"""Panel with the joints of a robot: measured and commanded states and their limits."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class JointsPanel(Panel):
     )
 
     def start(self) -> None:
-        """Add the widgets, and listen."""
+        """Add the widgets, and subscribe to the topics."""
         self._table = JointTable()
         self._pace = Pace(PERIOD_S)
         self._topics: list[tuple[PolledTopic, JointStates]] = []
@@ -56,7 +56,7 @@ class JointsPanel(Panel):
             self._trouble = f'A topic of the panel cannot be subscribed: {error}'
 
     def update(self) -> None:
-        """Show what is new, if anybody looks."""
+        """Update the table if any browser is connected."""
         if not self._pace.is_due() or not self.context.server.get_clients():
             return
         self._take()
@@ -68,7 +68,7 @@ class JointsPanel(Panel):
         self._rows.content = rows
 
     def close(self) -> None:
-        """Listen no longer."""
+        """Destroy the subscriptions."""
         if self._description is not None:
             self._description.close()
         for topic, _ in self._topics:
@@ -109,7 +109,7 @@ class JointsPanel(Panel):
             self._trouble = ''
 
     def _said(self, now_s: float) -> list[tuple[str, bool]]:
-        """Return what there is to say, and whether it is a warning."""
+        """Return the status messages, each with whether it is a warning."""
         node = self.context.node
         said = []
         for watch in self._watches:

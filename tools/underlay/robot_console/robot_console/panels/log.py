@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What nodes say."""
+"""Panel with the log messages of nodes."""
 
 from __future__ import annotations
 
@@ -40,15 +40,15 @@ class Log(LivePanel):
     )
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {'topic': self._topic(), 'kept': self.values['Kept Messages']}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {'all': lambda viewer, message: self.greet(viewer)}
 
     def begin(self) -> None:
-        """Listen, also while nobody looks."""
+        """Subscribe to the log, also without viewers."""
         self._book = LogBook(self.values['Kept Messages'], self.values['Namespace'])
         self._interruptions = Interruptions()
         self._told = 0
@@ -58,7 +58,7 @@ class Log(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send all lines that are kept to a viewer that has just connected.
+        Send all stored lines to a new viewer.
 
         Parameters
         ----------
@@ -70,7 +70,7 @@ class Log(LivePanel):
         viewer.tell(fresh=True, **self._book.news(0))
 
     def refresh(self) -> None:
-        """Tell what is new, and interrupt for errors."""
+        """Send new lines to the viewers, and show notifications of errors."""
         self._tell_all()
         interruption = self._interruptions.due(time.monotonic())
         if interruption and self.values['Pop Up Errors']:
@@ -78,7 +78,7 @@ class Log(LivePanel):
                 client.add_notification(*interruption, auto_close_seconds=SHOWN_S, color='red')
 
     def end(self) -> None:
-        """Listen no longer."""
+        """Destroy the subscription."""
         self.context.node.destroy_subscription(self._ear)
 
     def _topic(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Widgets to save what has just happened."""
+"""Widgets to save the messages of the last seconds."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ class MemoryFolder:
     context
         The context of the panel.
     folder
-        The path of the folder in which recordings are saved; created if need be.
+        The path of the folder in which recordings are saved; created if necessary.
     namespace
-        The namespace of the robot whose topics are kept; '' for all topics.
+        The namespace of the robot whose topics are buffered; '' for all topics.
     limits
-        How much is kept: in s, and in MiB.
+        The limits of the buffer: in s, and in MiB.
     done
-        Called with the path of a recording that was saved.
+        Called with the path of a saved recording.
 
     """
 
@@ -61,7 +61,7 @@ class MemoryFolder:
         context.on_click(self._button, self._save)
 
     def update(self) -> None:
-        """Show what is kept."""
+        """Update the status of the message buffer."""
         child = self._child
         if child is None:
             return
@@ -77,7 +77,7 @@ class MemoryFolder:
         assign(self._button, disabled=child.is_ending or not child.facts.get('messages'))
 
     def close(self) -> None:
-        """Keep nothing any longer."""
+        """Stop buffering messages."""
         if self._child is not None:
             self._child.close()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a robot knows to be where."""
+"""Panel with the objects that a robot has detected."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ class Objects(LivePanel):
     """
     A list of the objects of a latched `vision_msgs/Detection3DArray`.
 
-    An object's name is its longest class (`red mug` beside `mug`); its identity is its `id`. The
-    panel appears by itself when somebody publishes `objects`.
+    The name of an object is its longest class (`red mug` beside `mug`); its identity is its `id`.
+    The panel is added automatically when a node publishes `objects`.
 
     """
 
@@ -39,12 +39,12 @@ class Objects(LivePanel):
     @classmethod
     def is_wanted(cls, node: Node) -> bool:
         """
-        Return whether there are remembered objects.
+        Check whether a node publishes detected objects.
 
         Parameters
         ----------
         node
-            The page's node; the topic is relative to its namespace.
+            The node of the page; the topic is relative to its namespace.
 
         """
         name = node.resolve_topic_name(TOPIC)
@@ -53,11 +53,11 @@ class Objects(LivePanel):
         return any(each.topic_type == TYPE for each in node.get_publishers_info_by_topic(name))
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {'topic': self._topic(), 'missing': '' if _message_type() else MISSING}
 
     def begin(self) -> None:
-        """Listen; the topic is latched and seldom changes."""
+        """Subscribe to the objects; the topic is latched and rarely changes."""
         self._state: dict[str, Any] = {'objects': [], 'frame': '', 'heard': False, 'left_out': 0}
         kind = _message_type()
         self._subscription = kind and self.context.node.create_subscription(
@@ -66,18 +66,18 @@ class Objects(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Tell somebody who comes what is known.
+        Send the known objects to a new viewer.
 
         Parameters
         ----------
         viewer
-            Who has opened the panel.
+            The viewer that has opened the panel.
 
         """
         viewer.tell(**self._state)
 
     def end(self) -> None:
-        """Listen no longer."""
+        """Destroy the subscription."""
         if self._subscription:
             self.context.node.destroy_subscription(self._subscription)
 
@@ -96,7 +96,7 @@ class Objects(LivePanel):
 
 
 def _message_type() -> Any:
-    """Return the class of the messages; None if its package is not built."""
+    """Return the message class; None if its package is not built."""
     try:
         return import_module('vision_msgs.msg').Detection3DArray
     except (ImportError, AttributeError):
@@ -104,7 +104,7 @@ def _message_type() -> Any:
 
 
 def _row(detection: Any) -> dict[str, Any]:
-    """Return what the page shows of an object: lengths in m, numbers that are none as null."""
+    """Format an object for the page: lengths in m, non-finite values as null."""
     names = [each.hypothesis.class_id for each in detection.results]
     centre, size = detection.bbox.center.position, detection.bbox.size
     variances = [each.pose.covariance[i] for each in detection.results[:1] for i in (0, 7, 14)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of nodes."""
+"""Panel with the parameters of nodes."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class Parameters(LivePanel):
     PERIOD_S = 1.0
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {'choose': self._choose, 'set': self._set}
 
     def begin(self) -> None:
-        """Ask nobody yet."""
+        """Initialise the service calls and caches."""
         self._calls = ServiceCalls(self.context.node)
         self._nodes: list[str] = []
         self._known: dict[str, RemoteParameters] = {}
@@ -40,7 +40,7 @@ class Parameters(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send the list of nodes with parameters to a viewer that has just connected.
+        Send the list of nodes with parameters to a new viewer.
 
         Parameters
         ----------
@@ -52,12 +52,12 @@ class Parameters(LivePanel):
         viewer.tell(nodes=self._nodes)
 
     def update(self) -> None:
-        """Go on with calls, and tell what is new."""
+        """Process pending service calls, and send updates."""
         self._calls.update()
         super().update()
 
     def refresh(self) -> None:
-        """Tell which nodes there are, and forget those at which nobody looks."""
+        """Send the list of nodes if it has changed, and drop nodes without viewers."""
         viewers = self.channel.viewers
         wanted = {viewer.wish for viewer in viewers}
         self._known = {name: each for name, each in self._known.items() if name in wanted}
@@ -70,7 +70,7 @@ class Parameters(LivePanel):
             self.channel.tell(nodes=nodes)
 
     def end(self) -> None:
-        """Ask nobody any longer."""
+        """Cancel service calls, and destroy the subscription."""
         self._calls.close()
         self._listen(False)
 
@@ -124,7 +124,7 @@ class Parameters(LivePanel):
                 viewer.tell(node=node, **values)
 
     def _listen(self, is_wanted: bool) -> None:
-        """Listen to what nodes tell about their parameters, while somebody looks at one."""
+        """Subscribe to parameter events while a viewer has selected a node."""
         node = self.context.node
         if is_wanted and self._ear is None:
             self._ear = node.create_subscription(

@@ -26,17 +26,18 @@ __all__ = ['PlayFolder']
 PLAY, PAUSE, STOP = 'Play', 'Pause', 'Stop'
 SPEEDS = ('0.1', '0.25', '0.5', '1', '2', '5', '10')
 REST_S = 0.4
-"""A moment that is chosen with the slider takes effect when it has rested so long."""
+"""Time in s for which the slider must rest before the player seeks to its position."""
 OWN_NODE = 'rosbag2_player'
 OF_ALL = ('/parameter_events', '/rosout')
-"""Topics of all nodes, which are never only recorded."""
+"""Topics of all nodes, which always have live publishers."""
 
 
 class PlayFolder:
     """
     Widgets to play a recording, in a child process.
 
-    What was recorded of commands is left out unless somebody wants it: a robot would obey.
+    Recorded commands are excluded unless they are selected, because a live robot would execute
+    them.
 
     Parameters
     ----------
@@ -45,14 +46,14 @@ class PlayFolder:
     folder
         The path of the folder with the recordings.
     commands
-        Patterns of the topics that robots obey, as for `commands_among`.
+        Patterns of the topics that command robots, as for `commands_among`.
     unfinished
-        Returns the path of the recording that is being made, '' if there is none.
+        Returns the path of the recording in progress, '' if there is none.
 
     Attributes
     ----------
     chooser
-        The widgets that choose the recording.
+        The widgets that select the recording.
 
     """
 
@@ -86,14 +87,14 @@ class PlayFolder:
         context.on_input(self._obeyed, lambda value: self._describe())
 
     def follow(self) -> None:
-        """Forget the frames of another time, for each frame of the page: messages are waiting."""
+        """Clear transforms after a jump in time; called per frame, before messages are read."""
         jumps = self._child.facts.get('jumps', 0) if self._child else 0
         if jumps > self._jumps:
             self._forget_frames()
         self._jumps = jumps
 
     def update(self) -> None:
-        """Show how it goes on."""
+        """Update the widgets with the state of the player."""
         self.chooser.update()
         child, bag = self._child, self._bag
         if child is None or bag is None:
@@ -108,7 +109,7 @@ class PlayFolder:
         assign(self._text, content=self._state(child, bag))
 
     def close(self) -> None:
-        """End the playing."""
+        """Stop the playback."""
         self.chooser.close()
         if self._child is not None:
             self._child.close()
@@ -162,7 +163,7 @@ class PlayFolder:
             assign(self._text, content=f'✖ {escaped(child.failure)}')
 
     def _forget_frames(self) -> None:
-        """Let frames that are older than the newest known ones count."""
+        """Clear the tf buffer, so that transforms older than its newest ones are accepted."""
         if self._context.frames is not None:
             self._context.frames.buffer.clear()
 
@@ -174,7 +175,7 @@ class PlayFolder:
         self._wish = position_s, time.monotonic() + REST_S
 
     def _follow_wish(self, child: Child) -> None:
-        """Jump to the chosen moment; until the player is there the slider stays where it is."""
+        """Seek to the selected time; the slider stays there until the player has arrived."""
         if self._wish is None or time.monotonic() < self._wish[1]:
             return
         position_s, _ = self._wish
@@ -187,7 +188,7 @@ class PlayFolder:
             assign(self._time, value=round(min(facts['position_s'], self._time.max), 2))
 
     def _state(self, child: Child, bag: Bag) -> str:
-        """Return what is going on."""
+        """Format the state of the player."""
         facts = child.facts
         if child.is_ending:
             return 'Stopping ...'
@@ -206,7 +207,7 @@ class PlayFolder:
         return '\n\n'.join([notes[0], *(f'⚠ {escaped(note)}' for note in notes[1:])])
 
     def _others(self, bag: Bag) -> dict[str, set[str]]:
-        """Return by topic the nodes that publish what is being played, besides the player."""
+        """Return the nodes other than the player that publish on the played topics, by topic."""
         node, ignored = self._context.node, {*self._left_out(bag), *OF_ALL}
         others: dict[str, set[str]] = defaultdict(set)
         for topic in (each.name for each in bag.topics if each.name not in ignored):
@@ -217,13 +218,13 @@ class PlayFolder:
         return others
 
     def _left_out(self, bag: Bag) -> list[str]:
-        """Return the topics of a recording that are not to be played."""
+        """Return the topics of a recording that are excluded from playback."""
         if self._obeyed.value:
             return []
         return commands_among((each.name for each in bag.topics), self._patterns)
 
     def _describe(self) -> None:
-        """Say what would be played, and what left out."""
+        """Show which topics would be excluded from playback."""
         if self._child is not None:
             return
         bag = self.chooser.bag

@@ -21,24 +21,25 @@ __all__ = ['PlotChart']
 HEIGHT = 240
 FREE = {'x': uplot.Scale(time=False)}
 AROUND_ZERO = {**FREE, 'y': uplot.Scale(range=(-0.1, 0.1))}
-"""Without it, uPlot shows curves that are all zero on a scale to 100."""
+"""Otherwise, uPlot shows curves that are all zero on a scale up to 100."""
 X_AXIS = uplot.Series(label='s')
 WIDER = 1.0 + 1e-9
-"""uPlot lays out an axis when its scale changes; one made without width would stay empty."""
+"""uPlot lays out an axis only when its scale changes; one created hidden would stay empty."""
 NO_CURVE = uplot.Series(label='', show=False)
 
 
 class PlotChart:
     """
-    The viser widget that draws curves over the last seconds.
+    The viser widget that draws curves over a time window.
 
-    The widget is another one whenever the number of curves or the scale changes: a browser takes
-    curves and options of a widget one after the other, and uPlot fails where they do not match.
+    The widget is replaced whenever the number of curves or the scale changes: a browser receives
+    the curves and the options of a widget one after the other, and uPlot fails if they do not
+    match.
 
     Parameters
     ----------
     server
-        The server of the page; the widget is added where its GUI is at the moment.
+        The server of the page; the widget is added at the current position of its GUI.
 
     """
 
@@ -56,9 +57,9 @@ class PlotChart:
         Parameters
         ----------
         window_s
-            The length of the window, in s; its right end is now.
+            The length of the window, in s; it ends at the current time.
         curves
-            The values of each curve (800,), at the times of `slice_times`; NaN makes a gap.
+            The values of each curve (800,), at the times of `slice_times`; NaN creates a gap.
 
         """
         self._is_wider = not self._is_wider
@@ -70,11 +71,11 @@ class PlotChart:
                 self._chart.remove()
                 self._chart = self._new_chart(times)
             shown = curves or [np.zeros(len(times))]
-            # The arrays of viser know numbers only, but uPlot takes nothing but null for a gap.
+            # Arrays of viser contain numbers only, but uPlot requires null for a gap.
             self._chart._queue_update('data', tuple(map(_encoded, (times, *shown))))
 
     def _new_chart(self, times: Numbers) -> Any:
-        """Add a widget for the curves that there are now."""
+        """Add a widget for the current number of curves."""
         gui: GuiApi = self._server.gui
         series = [
             uplot.Series(label=f'{number}', stroke=color, width=1.5, spanGaps=False)
@@ -92,6 +93,6 @@ class PlotChart:
 
 
 def _encoded(numbers: Numbers) -> Any:
-    """Return a list with None for what is no number, as it goes over the wire."""
+    """Encode numbers as a MessagePack list, with NaN as null."""
     values = [value if value == value else None for value in numbers.tolist()]
     return msgspec.Raw(msgspec.msgpack.encode(values))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What widgets choose series for."""
+"""Interface of a plot to the widgets that select its series."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ __all__ = ['Plot']
 
 
 class Plot(Protocol):
-    """What series are chosen for."""
+    """A plot whose series can be selected."""
 
     context: Context
 
     def full_name(self, topic: str) -> str:
         """
-        Resolve the topic name of a robot to a fully qualified one.
+        Resolve the topic name of a robot to a fully qualified name.
 
         Parameters
         ----------
         topic
-            The name; a relative one is put into the namespace of the robot.
+            The name; a relative name is placed in the namespace of the robot.
 
         Raises
         ------
         ValueError
-            It is no valid topic name; the text is a sentence.
+            The name is not a valid topic name; the message is a full sentence.
 
         """
 
@@ -40,13 +40,13 @@ class Plot(Protocol):
         Parameters
         ----------
         series
-            The series, in the order of their colours; those that are plotted already keep their
+            The series, in the order of their colours; those that are already plotted keep their
             values.
 
         Raises
         ------
         PathError
-            They are too many.
+            There are too many series.
 
         """
 
@@ -62,7 +62,7 @@ class Plot(Protocol):
         Raises
         ------
         PathError
-            The text is no series, or there are too many already.
+            The text is not a valid series, or there are too many series already.
 
         """
 
@@ -73,6 +73,6 @@ class Plot(Protocol):
         Parameters
         ----------
         text
-            The series as it is listed; an unknown one is ignored.
+            The series as listed; an unknown series is ignored.
 
         """

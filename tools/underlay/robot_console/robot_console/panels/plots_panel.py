@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Curves of numbers that are in messages."""
+"""Panel with plots of numeric message fields."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class PlotsPanel(Panel):
     )
 
     def start(self) -> None:
-        """Add the widgets, and listen."""
+        """Add the widgets, and subscribe to the topics."""
         node = self.context.node
         self._board = PlotBoard(self.values['Window'])
         self._listener = TopicListener(node, self.full_name, self._found, self._board.take)
@@ -51,7 +51,7 @@ class PlotsPanel(Panel):
             self._chooser.say(f'Series of the file: {error}')
 
     def update(self) -> None:
-        """Draw what is new, if anybody looks."""
+        """Draw new values if any browser is connected."""
         if self._look.is_due():
             self._listen()
         self._chooser.update()
@@ -68,13 +68,13 @@ class PlotsPanel(Panel):
             self._legend.content = legend_html(self._board.plotted)
 
     def close(self) -> None:
-        """Listen no longer."""
+        """Destroy the subscriptions."""
         self._listener.close()
         self._chooser.close()
 
     def full_name(self, topic: str) -> str:
         """
-        Resolve the topic name of a robot to a fully qualified one.
+        Resolve the topic name of a robot to a fully qualified name.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class PlotsPanel(Panel):
         Raises
         ------
         ValueError
-            It is no valid topic name.
+            The name is not a valid topic name.
 
         """
         return topic_of_robot(self.context.node, self.values['Namespace'], topic)
@@ -101,7 +101,7 @@ class PlotsPanel(Panel):
         Raises
         ------
         PathError
-            They are too many.
+            There are too many series.
 
         """
         self._board.replace(series)
@@ -119,7 +119,7 @@ class PlotsPanel(Panel):
         Raises
         ------
         PathError
-            The text is no series, or there are too many already.
+            The text is not a valid series, or there are too many series already.
 
         """
         self._board.add(text)
@@ -152,7 +152,7 @@ class PlotsPanel(Panel):
         self._chooser = SeriesChooser(self)
 
     def _follow(self) -> None:
-        """Show and hear what is plotted now."""
+        """Draw the current series, and subscribe to their topics."""
         plotted = self._board.plotted
         texts = [str(each.series) for each in plotted]
         self.values['Series'] = '; '.join(texts)
@@ -176,7 +176,7 @@ class PlotsPanel(Panel):
         self._chart.draw(window_s, self._board.drawn(time.time()))
 
     def _press(self, event: Any) -> None:
-        """Do what a button says; a thread of the page calls this."""
+        """Post the action of a button to the node thread; called from a thread of the page."""
         pressed, client = event.target.value, event.client
         self.context.queue.post(lambda: self._do(pressed, client))
 

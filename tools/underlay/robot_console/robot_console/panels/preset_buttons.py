@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plot series that are often wanted together."""
+"""Presets of series that are often plotted together."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ IMU_TYPE = 'sensor_msgs/msg/Imu'
 
 class PresetButtons:
     """
-    Buttons that plot series often wanted together, chosen by what the robot publishes now.
+    Buttons that plot preset series, selected from the data that the robot publishes now.
 
     Parameters
     ----------
     plot
         The plot whose series are replaced.
     samples
-        Gets the messages from which joints are chosen; its `update` is called by its owner.
+        Receives the messages from which joints are selected; its `update` is called by its owner.
     say
-        Shows a sentence to whoever presses a button; '' removes it.
+        Shows a message to the user; '' removes it.
 
     Attributes
     ----------
     types
-        The types of the topics that there are, by name; to be set by the owner.
+        The types of the available topics, by topic name; set by the owner.
 
     """
 
@@ -47,7 +47,7 @@ class PresetButtons:
 
     def choose(self, preset: str) -> None:
         """
-        Plot the series of a preset, if need be as soon as messages have come.
+        Plot the series of a preset, if necessary once messages have arrived.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class PresetButtons:
             self._samples.ask(topics, lambda found: self._show_joints(topics, found))
 
     def _show_joints(self, topics: Sequence[str], found: Mapping[str, Any]) -> None:
-        """Show the joints of some messages, if they have come."""
+        """Plot the joints of the received messages, or report missing messages."""
         silent = [topic for topic in topics if topic not in found]
         if silent:
             names = ' and '.join(map(self._plot.full_name, silent))
@@ -76,7 +76,7 @@ class PresetButtons:
             self._show(effort(STATES, dict(zip(state.name, state.effort))))
 
     def _imu(self) -> list[str]:
-        """Return the series of the first inertial measurement unit."""
+        """Return the series of the first IMU."""
         imus = sorted(topic for topic, kind in self.types.items() if kind == IMU_TYPE)
         return imu(imus[0]) if imus else []
 

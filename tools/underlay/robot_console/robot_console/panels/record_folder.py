@@ -25,18 +25,18 @@ RECORD, STOP = 'Record', 'Stop recording'
 
 class RecordFolder:
     """
-    Widgets to record all topics of a robot, or chosen ones, in a child process.
+    Widgets to record all topics of a robot, or selected ones, in a child process.
 
     Parameters
     ----------
     context
         The context of the panel.
     folder
-        The path of the folder in which recordings are made; created if need be.
+        The path of the folder in which recordings are made; created if necessary.
     namespace
         The namespace of the robot whose topics are recorded; '' for all topics.
     done
-        Called with the path of a recording when recording has ended, even if it failed.
+        Called with the path of a recording when it has ended, even if it failed.
 
     """
 
@@ -68,11 +68,11 @@ class RecordFolder:
 
     @property
     def path(self) -> str:
-        """Return the recording that is being made, or ''."""
+        """Return the path of the recording in progress, or ''."""
         return self._path if self._child is not None else ''
 
     def update(self) -> None:
-        """Show how it goes on."""
+        """Update the widgets with the state of the recorder."""
         if self._all.value is False and not self._child:
             self._offer_topics()
         if self._child is None:
@@ -91,7 +91,7 @@ class RecordFolder:
         assign(self._text, content=f'{state} **{name}**: {length}, {size_text(size)}')
 
     def close(self) -> None:
-        """Finish what is being recorded."""
+        """Stop the recorder; it finishes the recording."""
         if self._child is not None:
             self._child.close()
 
@@ -114,14 +114,15 @@ class RecordFolder:
         assign(self._button, label=STOP)
 
     def _chosen(self) -> list[str]:
-        """Return the options that choose topics, or raise ValueError."""
+        """Return the recorder options that select topics, or raise ValueError."""
         if self._all.value:
             regex = regex_of_robot(self._namespace)
             return ['--regex', regex] if regex else ['--all']
         topics = topics_in(self._topics.value)
         if not topics:
             raise ValueError('No topic is chosen: add some, or record all.')
-        # As names, since the recorder takes what begins with a dash for an option.
+        # Resolved to absolute names, since the recorder treats arguments with a leading dash as
+        # options.
         return ['--topics', *(full_topic_name(self._context.node, each) for each in topics)]
 
     def _finish(self, child: Child) -> None:
@@ -156,7 +157,7 @@ class RecordFolder:
 
 
 def _folder_bytes(folder: str) -> int:
-    """Return how large the files of a folder are, without the room that is reserved."""
+    """Return the total size of the files in a folder, without reserved space."""
     try:
         with os.scandir(folder) as entries:
             return sum(each.stat().st_size for each in entries if not each.name.startswith('.'))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record, save what has just happened, play, and export."""
+"""Panel to record, save the last seconds, play and export."""
 
 from __future__ import annotations
 
@@ -48,17 +48,17 @@ class Recordings(Panel):
         self._parts = (self._record, self._memory, self._play, self._scene)
 
     def update(self) -> None:
-        """Show how things go on."""
+        """Update the widgets of all folders."""
         self._play.follow()
         if self._pace.is_due():
             for part in self._parts:
                 part.update()
 
     def close(self) -> None:
-        """End all processes, in order."""
+        """Stop all child processes in order."""
         for part in self._parts:
             part.close()
 
     def _choose(self, path: str) -> None:
-        """Offer a new recording to be played."""
+        """Select a new recording for playback."""
         self._play.chooser.choose(path)

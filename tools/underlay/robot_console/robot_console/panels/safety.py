@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The stop button, and what one must know before one presses it."""
+"""Panel with the emergency stop and the state relevant to safety."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Safety(Panel):
     """
     A button that stops the robot, whether it hears that, whether it is real, who is in control.
 
-    A press is published in the thread of the connection, whatever else the page is busy with.
+    A press is published in the thread of the connection, even while the page is busy.
     """
 
     CLASS = 'robot_console/Safety'
@@ -60,14 +60,14 @@ class Safety(Panel):
         self._page = SmallPage(self.context, 'safety', namespace, settings, talks, ALWAYS_ORDER)
 
     def update(self) -> None:
-        """Look who is there, now and then, and at once when the robot has said something."""
+        """Update the facts periodically, and at once when the robot has published its state."""
         now_s, heard = time.monotonic(), self._link.holds_because
         if now_s - self._looked_s >= PERIOD_S or heard != self._heard:
             self._looked_s, self._heard = now_s, heard
             self._facts = self._look()
 
     def close(self) -> None:
-        """End the page: the robot notices if this console was in control."""
+        """Remove the page; the robot detects it if this console was in control."""
         self._page.close()
         self._pace.close()
 
@@ -75,7 +75,7 @@ class Safety(Panel):
         return SafetySession(self._link, person, lambda: self._facts)
 
     def _look(self) -> Facts:
-        """Return what the graph of nodes says about the robot."""
+        """Collect the facts about the robot from the ROS graph."""
         node, topic = self.context.node, self._link.stop_topic
         own = node.get_fully_qualified_name()
         speakers = _names(node.get_publishers_info_by_topic(topic)) - {own}
@@ -95,5 +95,5 @@ def _names(ends: Iterable[Any]) -> set[str]:
 
 
 def _may_be_robot(name: str) -> bool:
-    """Tell it from hidden nodes and recorders, which do nothing about a stop."""
+    """Exclude hidden nodes and recorders, which do not react to an emergency stop."""
     return not name.rpartition('/')[2].startswith(NO_ROBOTS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Widgets to download what the scene has shown."""
+"""Widgets to download the recent history of the scene."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class SceneFolder:
     context
         The context of the panel.
     seconds
-        How much of the scene is kept, in s.
+        The duration of the scene that is kept, in s.
     max_page_mib
-        How large the file may be, in MiB; about twice as much is kept in memory.
+        The maximum size of the file, in MiB; about twice as much is kept in memory.
     is_on
-        Whether the scene is kept from the beginning.
+        Whether recording of the scene is on initially.
 
     """
 
@@ -53,7 +53,7 @@ class SceneFolder:
         self._turn(is_on)
 
     def update(self) -> None:
-        """Show what is kept."""
+        """Update the status of the scene recording."""
         tape = self._tape
         if tape is None:
             return
@@ -63,7 +63,7 @@ class SceneFolder:
         assign(self._button, disabled=self._is_busy)
 
     def close(self) -> None:
-        """Keep nothing any longer."""
+        """Stop recording the scene, and discard it."""
         if self._tape is not None:
             self._tape.close()
             self._tape = None
@@ -76,7 +76,7 @@ class SceneFolder:
         assign(self._button, disabled=not is_on or self._is_busy)
 
     def _make(self, client: Any) -> None:
-        """Make the file in another thread, and give it to the browser that asked."""
+        """Create the file in a background thread, and send it to the browser that requested it."""
         if self._tape is None or client is None or self._is_busy:
             return
         self._is_busy = True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Choose what is plotted."""
+"""Widgets to select the plotted series."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ LOOK_S = 2.0
 
 class SeriesChooser:
     """
-    Widgets to choose presets and fields of messages, and to type paths.
+    Widgets to select presets and message fields, and to enter paths.
 
     Parameters
     ----------
     plot
-        The plot that gets the series; the widgets are added to the GUI of its context.
+        The plot that receives the series; the widgets are added to the GUI of its context.
 
     """
 
@@ -53,13 +53,13 @@ class SeriesChooser:
             context.on_input(self._listed, self._remove)
 
     def update(self) -> None:
-        """Offer the topics that there are."""
+        """Update the list of available topics."""
         self._samples.update()
         if self._look.is_due():
             self._offer_topics()
 
     def close(self) -> None:
-        """Ask for nothing any longer."""
+        """Cancel pending requests for messages."""
         self._samples.close()
 
     def list_series(self, texts: Sequence[str]) -> None:
@@ -69,7 +69,7 @@ class SeriesChooser:
         Parameters
         ----------
         texts
-            The series that are plotted.
+            The plotted series.
 
         """
         _offer(self._listed, texts)
@@ -88,7 +88,7 @@ class SeriesChooser:
         self._said.content = shown
 
     def _offer_topics(self) -> None:
-        """Offer the topics whose messages have numbers."""
+        """Offer the topics whose messages have numeric fields."""
         types = {
             self._short(name): kinds[0]
             for name, kinds in self._node.get_topic_names_and_types()
@@ -108,7 +108,7 @@ class SeriesChooser:
             return []
 
     def _short(self, name: str) -> str:
-        """Return a topic as paths name it: those of the robot without its namespace."""
+        """Return a topic as named in paths: relative to the namespace of the robot if possible."""
         robot = self._plot.full_name('x')[:-1]
         short = name.removeprefix(robot)
         return short if self._plot.full_name(short) == name else name
@@ -146,7 +146,7 @@ class SeriesChooser:
 
 
 def _offer(dropdown: Any, texts: Sequence[str]) -> None:
-    """Offer texts; what is chosen stays if it is still there."""
+    """Set the options of a dropdown; the selected one is kept if it is still available."""
     options = (NOTHING, *texts)
     if dropdown.options != options:
         dropdown.options = options

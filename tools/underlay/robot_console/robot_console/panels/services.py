@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of a robot, which can be called."""
+"""Panel to call the services of a robot."""
 
 from __future__ import annotations
 
@@ -37,21 +37,21 @@ class Services(LivePanel):
     )
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         return {'timeout': self.values['Timeout'], 'space': self._space()}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {'choose': self._choose, 'call': self._call}
 
     def begin(self) -> None:
-        """Call nothing yet."""
+        """Initialise the service calls."""
         self._calls = ServiceCalls(self.context.node)
         self._rows: list[tuple[str, str, bool]] = []
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send the list of services to a viewer that has just connected.
+        Send the list of services to a new viewer.
 
         Parameters
         ----------
@@ -63,12 +63,12 @@ class Services(LivePanel):
         viewer.tell(rows=self._rows)
 
     def update(self) -> None:
-        """Go on with calls, and tell what is new."""
+        """Process pending service calls, and send updates."""
         self._calls.update()
         super().update()
 
     def refresh(self) -> None:
-        """Tell which services there are."""
+        """Send the list of services if it has changed."""
         if not self.channel.viewers:
             return
         rows = self._found()
@@ -77,7 +77,7 @@ class Services(LivePanel):
             self.channel.tell(rows=rows)
 
     def end(self) -> None:
-        """Call nothing any longer."""
+        """Cancel pending service calls."""
         self._calls.close()
 
     def _space(self) -> str:
@@ -85,7 +85,7 @@ class Services(LivePanel):
         return f'/{namespace}/' if namespace else '/'
 
     def _found(self) -> list[tuple[str, str, bool]]:
-        """Return name and type of all services, and whether somebody offers it."""
+        """Return the name and type of each service, and whether a node offers it."""
         node, space = self.context.node, self._space()
         return [
             (name, ', '.join(types), node.count_services(name) > 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of a robot."""
+"""Panel with the topics of a robot."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Topics(LivePanel):
     """
     All topics, with types and ends; rates when they are wanted, and the newest message of one.
 
-    Nothing is subscribed but what somebody has chosen.
+    Only topics that a viewer has selected are subscribed to.
     """
 
     CLASS = 'robot_console/Topics'
@@ -30,16 +30,16 @@ class Topics(LivePanel):
     PERIOD_S = 0.5
 
     def settings(self) -> dict[str, Any]:
-        """Return what the page is to know from the beginning."""
+        """Return the initial settings of the page."""
         namespace = self.values['Namespace']
         return {'below': f'/{namespace}/' if namespace else '/', 'me': self._own_name()}
 
     def actions(self) -> Mapping[str, Action]:
-        """Return what the page may ask for."""
+        """Return the actions that the page may request."""
         return {'choose': self._choose, 'rates': self._want_rates}
 
     def begin(self) -> None:
-        """Subscribe nothing yet."""
+        """Initialise the panel; topics are subscribed to only on request."""
         node = self.context.node
         self._rates = RateListener(node, self.context.queue.post)
         self._watches: dict[str, TopicWatch] = {}
@@ -49,7 +49,7 @@ class Topics(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send the list of topics, and known rates, to a viewer that has just connected.
+        Send the list of topics and known rates to a new viewer.
 
         Parameters
         ----------
@@ -62,7 +62,7 @@ class Topics(LivePanel):
         viewer.tell(**self._told)
 
     def refresh(self) -> None:
-        """Tell what has changed."""
+        """Update the subscriptions, and send changes to the viewers."""
         viewers = self.channel.viewers
         self._want.intersection_update(viewers)
         if viewers:
@@ -78,7 +78,7 @@ class Topics(LivePanel):
         self._tell_details()
 
     def end(self) -> None:
-        """Subscribe no longer."""
+        """Destroy all subscriptions."""
         self._rates.stop()
         self._follow(set())
 
@@ -94,7 +94,7 @@ class Topics(LivePanel):
             self._rates.stop()
 
     def _follow(self, wanted: set[str]) -> None:
-        """Watch the topics that somebody has chosen, and no others."""
+        """Watch only the topics that viewers have selected."""
         types = {topic: self._types[topic] for topic in wanted if topic in self._types}
         for topic, watch in list(self._watches.items()):
             if types.get(topic) != watch.type_names:
@@ -143,7 +143,7 @@ class Topics(LivePanel):
 
 
 def _rate_text(rate_hz: float | None, came: bool) -> str:
-    """Return a rate in three digits."""
+    """Format a rate with three significant digits."""
     if rate_hz is None:
         return '< 0.5 Hz' if came else 'quiet'
     digits = 0 if rate_hz >= 100 else 1 if rate_hz >= 10 else 2

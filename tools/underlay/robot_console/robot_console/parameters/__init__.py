@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of nodes, as texts and from texts."""
+"""Conversion of node parameters to and from text, and access to them."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters of ROS as a page wants them, and back."""
+"""Conversion of ROS parameters to and from the format of the page."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ KINDS = {each.name: number for number, each in TYPES.items()}
 
 def value_text(value: ParameterValue) -> str:
     """
-    Format the value of a parameter as one would type it.
+    Format the value of a parameter as a user would type it.
 
     Parameters
     ----------
     value
-        The value; '' is returned if it is not set.
+        The value; '' is returned if the parameter is not set.
 
     """
     plain = to_plain_value(value)
@@ -43,14 +43,14 @@ def described(value: ParameterValue, descriptor: ParameterDescriptor | None) -> 
     Parameters
     ----------
     value
-        Its value, which gives its type.
+        Its value, which determines its type.
     descriptor
-        Its description, limits and rules; None if the node has not told them.
+        Its description, limits and constraints; None if the node has not provided them.
 
     Returns
     -------
     dict
-        The type as `kind`, the value as `text`, and what the descriptor says.
+        The type as `kind`, the value as `text`, and the contents of the descriptor.
 
     """
     told: dict[str, Any] = {'kind': type_name(value.type), 'text': value_text(value)}
@@ -71,21 +71,21 @@ def parameter_value(
     text: str, current: ParameterValue, descriptor: ParameterDescriptor
 ) -> ParameterValue:
     """
-    Parse a text that was typed as the new value of a parameter.
+    Parse the text that a user typed as the new value of a parameter.
 
     Parameters
     ----------
     text
-        What was typed; as YAML if the type of the parameter may change or is not set.
+        The typed text; parsed as YAML if the type of the parameter may change or is not set.
     current
-        The value that the parameter has, whose type the new one keeps otherwise.
+        The current value of the parameter, whose type is kept otherwise.
     descriptor
-        Its description, with limits and whether it is read-only.
+        Its descriptor, with limits and whether it is read-only.
 
     Raises
     ------
     ValueError
-        The parameter is read-only, or the text is no such value, or outside the limits.
+        The parameter is read-only, or the text is not a value of its type or within the limits.
 
     """
     if descriptor.read_only:

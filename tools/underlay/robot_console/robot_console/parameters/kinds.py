@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of parameters by name."""
+"""Names of the parameter types."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ ARRAY = ' array'
 
 def item_kind(kind: str) -> str:
     """
-    Get the type of the items of an array type.
+    Return the element type of an array type.
 
     Parameters
     ----------
     kind
-        The name of the type, such as `double array`.
+        The name of the type, for example `double array`.
 
     Returns
     -------
     str
-        Such as `double`; '' if it is no array.
+        For example `double`; '' if the type is not an array.
 
     """
     return kind.removesuffix(ARRAY) if kind.endswith(ARRAY) else ''

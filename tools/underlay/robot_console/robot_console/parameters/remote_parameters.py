@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of one node, through its services."""
+"""Access to the parameters of a node through its services."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from ros2param.api import LIST_SERVICE
 __all__ = ['LIST_SERVICE', 'RemoteParameters']
 
 Tell = Callable[[str], None]
-"""Takes '' when it is done, or a sentence about why it is not."""
+"""Called with '' on success, or with an error message."""
 
 
 class RemoteParameters:
     """
     A cache of the parameters of a node, loaded and changed through its parameter services.
 
-    All calls return at once; their outcome comes with `ServiceCalls.update`.
+    All calls return immediately; their results are delivered by `ServiceCalls.update`.
 
     Parameters
     ----------
     calls
-        What calls the services.
+        The pending service calls.
     node_name
         The fully qualified name of the node.
 
@@ -46,7 +46,7 @@ class RemoteParameters:
         Parameters
         ----------
         tell
-            Called with '' when they are known, otherwise with the reason why they are not.
+            Called with '' once they are loaded, otherwise with an error message.
 
         """
 
@@ -60,18 +60,18 @@ class RemoteParameters:
 
     def take(self, name: str, value: ParameterValue) -> None:
         """
-        Update a value that the node has announced.
+        Update a value that the node has published in a parameter event.
 
         Parameters
         ----------
         name, value
-            The parameter, and its new value.
+            The parameter and its new value.
 
         """
         self._values[name] = value
 
     def told(self) -> dict[str, dict[str, Any]]:
-        """Return all parameters as a page wants them."""
+        """Describe all parameters for the page."""
         return {name: self.told_of(name) for name in sorted(self._values)}
 
     def told_of(self, name: str) -> dict[str, Any]:
@@ -81,14 +81,14 @@ class RemoteParameters:
         Parameters
         ----------
         name
-            A parameter that is known.
+            A known parameter.
 
         """
         return described(self._values[name], self._descriptors.get(name))
 
     def knows(self, name: str) -> bool:
         """
-        Check whether the node is known to have a parameter.
+        Check whether the node has a parameter, according to the cache.
 
         Parameters
         ----------
@@ -100,21 +100,21 @@ class RemoteParameters:
 
     def change(self, name: str, text: str, tell: Tell) -> None:
         """
-        Request that the node sets a parameter.
+        Request a parameter change from the node.
 
         Parameters
         ----------
         name
-            A parameter that is known.
+            A known parameter.
         text
-            The new value, as it was typed.
+            The new value, as typed by the user.
         tell
-            Called with '' when the node has set it, otherwise with the reason why it has not.
+            Called with '' once the node has set it, otherwise with an error message.
 
         Raises
         ------
         ValueError
-            The parameter cannot have such a value; the node is not asked then.
+            The value is invalid for the parameter; the request is not sent.
 
         """
         descriptor = self._descriptors.get(name) or ParameterDescriptor()

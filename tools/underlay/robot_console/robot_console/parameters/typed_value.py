@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values of parameters from what somebody types."""
+"""Parsing of parameter values that users type."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SLACK = 1e-9
 
 
 class Limits(NamedTuple):
-    """The least and the greatest value of a number, and the step in between if there is one."""
+    """Range of a number: minimum, maximum, and step if there is one."""
 
     least: float
     most: float
@@ -39,21 +39,21 @@ def typed_value(kind: str, text: str, limits: Limits | None = None) -> Any:
     Parameters
     ----------
     kind
-        The name of the type, such as `double` or `string array`.
+        The name of the type, for example `double` or `string array`.
     text
-        What was typed; arrays as a YAML list.
+        The typed text; arrays as a YAML list.
     limits
-        Limits of numbers, each item of an array for itself; None for none.
+        Limits of numbers, also of each element of an array; None for no limits.
 
     Returns
     -------
     Any
-        A plain value, or a list of them; those of a byte array are `bytes` of length 1.
+        A plain value, or a list of values; those of a byte array are `bytes` of length 1.
 
     Raises
     ------
     ValueError
-        The text is no such value, or outside the limits; the text of the error is a sentence.
+        The text is not a valid value or not within the limits; the message is a full sentence.
 
     """
     item = item_kind(kind)
@@ -66,7 +66,7 @@ def typed_value(kind: str, text: str, limits: Limits | None = None) -> Any:
 
 
 def _items(text: str) -> list[Any]:
-    """Return the items of a list, as texts where they are not texts in quotes."""
+    """Parse the items of a YAML list as strings."""
     try:
         items = yaml.load(text, yaml.BaseLoader)  # noqa: S506 (the loader makes nothing but texts)
     except yaml.YAMLError:
@@ -117,7 +117,7 @@ READERS: Mapping[str, Callable[[str], Any]] = {
 
 
 def _checked(value: Any, limits: Limits | None) -> Any:
-    """Return a value if it is within the limits, or raise ValueError."""
+    """Return a value if it is within the limits, otherwise raise ValueError."""
     if limits is None or isinstance(value, (bool, str, bytes)):
         return value
     if not limits.least <= value <= limits.most:

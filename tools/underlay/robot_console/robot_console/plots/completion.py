@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The paths of all numbers of a type of messages, to choose from."""
+"""Completion of the paths of numeric fields of a message type."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ MAX_DEPTH = 8
 
 def completions(type_name: str, schema: Schema, sample: Any = None) -> list[str]:
     """
-    List the paths of all numbers in a message type, for a menu.
+    List the paths of all numeric fields of a message type, for a menu.
 
     Parameters
     ----------
     type_name
-        The message type, such as `sensor_msgs/msg/JointState`.
+        The message type, for example `sensor_msgs/msg/JointState`.
     schema
-        Returns the fields of a message type; what it raises is passed on.
+        Returns the fields of a message type; its exceptions are propagated.
     sample
-        A message that tells how long lists are and how their elements are named. Without one, each
-        list is represented by its element 0.
+        A message that provides the lengths of lists and the names of their elements. Without one,
+        each list is represented by its element 0.
 
     Returns
     -------
     list of str
-        What can come after `topic.`, such as `position[left_knee]`; at most 500 paths.
+        The parts that can follow `topic.`, such as `position[left_knee]`; at most 500 paths.
 
     """
     return list(islice(_of_message(type_name, schema, sample, '', (), 0), MAX_PATHS))
@@ -79,7 +79,7 @@ def _has_numbers(kind: str) -> bool:
 def _elements(
     kind: str, schema: Schema, value: Any, names: Sequence[str]
 ) -> Iterator[tuple[str, Any]]:
-    """Yield the elements of a list with what they are called."""
+    """Yield the elements of a list with their names or indices."""
     if value is None or len(value) == 0:
         if value is None:
             yield '0', None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a plot shows as a table for other programs."""
+"""Export of plotted values as CSV."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def csv_text(columns: Columns) -> str:
     Parameters
     ----------
     columns
-        Times (n,) in s and values (n,), by the name of the series.
+        Times (n,) in s and values (n,), by series name.
 
     Returns
     -------

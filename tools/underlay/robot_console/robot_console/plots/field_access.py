@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How values take the steps of a path."""
+"""Accessors for the steps of a field path."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ MAX_NAMED = 8
 
 @dataclass(frozen=True)
 class FieldAccess:
-    """Goes to a field."""
+    """Accessor for a field of a message."""
 
     name: str
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
         """
-        Get the field from a message.
+        Return the field of a message.
 
         Parameters
         ----------
@@ -38,13 +38,13 @@ class FieldAccess:
 
 @dataclass(frozen=True)
 class PlaceAccess:
-    """Finds an element by its place."""
+    """Accessor for a list element by index."""
 
     place: int
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
         """
-        Get the element at the index.
+        Return the element at the index.
 
         Parameters
         ----------
@@ -67,27 +67,27 @@ class PlaceAccess:
 
 @dataclass(frozen=True)
 class NameAccess:
-    """Finds an element by a name, which is in one of some lists of messages on the way."""
+    """Accessor for a list element by a name from a parallel list in an enclosing message."""
 
     key: str
     lists: tuple[tuple[int, str], ...]
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
         """
-        Get the element that a parallel list of names gives this name.
+        Return the element whose name is found in a parallel list of names.
 
         Parameters
         ----------
         value
             The list of elements.
         passed
-            The values on the way to the list, the whole message first; some of them have the
-            names.
+            The values along the path to the list, starting with the whole message; some of them
+            contain the names.
 
         Raises
         ------
         PathError
-            There is no such name, or the list has no element for it.
+            The name is unknown, or the list has no element for it.
 
         """
         known: list[str] = []
@@ -104,14 +104,14 @@ class NameAccess:
 
 @dataclass(frozen=True)
 class OwnNameAccess:
-    """Finds an element by the name that it has itself."""
+    """Accessor for a list element by its own name field."""
 
     key: str
     field: str
 
     def of(self, value: Any, passed: Sequence[Any]) -> Any:
         """
-        Get the element whose own name field has this name.
+        Return the element whose name field matches.
 
         Parameters
         ----------
@@ -133,7 +133,7 @@ class OwnNameAccess:
 
 
 Access = Union[FieldAccess, PlaceAccess, NameAccess, OwnNameAccess]
-"""`of` returns the value after a step; `passed` are the values on the way, the message first."""
+"""Accessors; `of` returns the value after a step, given the values along the path so far."""
 
 
 def _nothing_named(key: str, known: Sequence[str]) -> PathError:

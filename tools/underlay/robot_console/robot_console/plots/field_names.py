@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What elements of lists are called.
+Names of list elements in messages.
 
-Messages say it in two ways: with a list of names beside the others, as `name` of a JointState; or
-with a text in each element, as `child_frame_id` of transforms.
+Messages provide them in two ways: as a list of names parallel to the others, such as `name` of a
+JointState; or as a string field of each element, such as `child_frame_id` of transforms.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ NAME_FIELDS = ('name', 'child_frame_id', 'key', 'id', 'class_id')
 
 def names_fields(fields: Mapping[str, str]) -> list[str]:
     """
-    Find the fields of a message that list names for the elements of its other lists.
+    Find the fields of a message that contain names for the elements of its other lists.
 
     Parameters
     ----------
     fields
-        The types of the fields of the message, by name.
+        The field types of the message, by field name.
 
     Returns
     -------
     list of str
-        Lists of texts whose name ends with `name` or `names`, such as `name` of a JointState.
+        Lists of strings whose name ends with `name` or `names`, such as `name` of a JointState.
 
     """
     return [
@@ -41,17 +41,17 @@ def names_fields(fields: Mapping[str, str]) -> list[str]:
 
 def name_field(fields: Mapping[str, str]) -> str | None:
     """
-    Find the field of a message that identifies it among others in a list.
+    Find the field of a message that identifies it among the elements of a list.
 
     Parameters
     ----------
     fields
-        The types of the fields of the message, by name.
+        The field types of the message, by field name.
 
     Returns
     -------
     str or None
-        Such as `child_frame_id` of a transform; None if there is no such text.
+        For example `child_frame_id` of a transform; None if there is no such string field.
 
     """
     return next((name for name in NAME_FIELDS if is_text(fields.get(name, ''))), None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Paths of numbers in messages, such as `joint_states.position[left_knee]`."""
+"""Paths of numeric message fields, such as `joint_states.position[left_knee]`."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ WHOLE = re.compile(r'-?\d+')
 
 
 class PathError(ValueError):
-    """A path that leads to no number, with the reason."""
+    """Raised, with the reason, if a path does not lead to a number."""
 
 
 @dataclass(frozen=True)
 class Field:
-    """A step to a field of a message."""
+    """A path step to a field of a message."""
 
     name: str
 
     def __str__(self) -> str:
-        """Return the step as paths have it."""
+        """Return the step in path notation."""
         return f'.{self.name}'
 
 
 @dataclass(frozen=True)
 class Element:
-    """A step to an element of a list, by its place or by what it is about."""
+    """A path step to an element of a list, by index or name."""
 
     key: int | str
 
     def __str__(self) -> str:
-        """Return the step as paths have it."""
+        """Return the step in path notation."""
         return f'[{self.key}]'
 
 
@@ -46,13 +46,13 @@ Step = Union[Field, Element]
 
 @dataclass(frozen=True)
 class FieldPath:
-    """A topic, and the steps to a number in its messages."""
+    """A topic and the path steps to a number in its messages."""
 
     topic: str
     steps: tuple[Step, ...]
 
     def __str__(self) -> str:
-        """Return the path."""
+        """Return the path as text."""
         return self.topic + ''.join(map(str, self.steps))
 
 
@@ -63,7 +63,7 @@ def parse_path(text: str) -> FieldPath:
     Parameters
     ----------
     text
-        Such as `joint_states.position[left_knee]`; blanks around it do not matter.
+        For example `joint_states.position[left_knee]`; leading and trailing whitespace is ignored.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def _step(found: re.Match[str]) -> Step:
 
 
 def _why(rest: str) -> str:
-    """Explain what cannot be a step."""
+    """Explain a syntax error in a step."""
     if rest.startswith('['):
         return 'brackets hold a number or a name, and are closed.'
     if rest.startswith('/'):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the number of a path out of messages."""
+"""Reader of the number at a field path."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ __all__ = ['FieldReader']
 
 class FieldReader:
     """
-    Reads the number at a path out of messages of one type.
+    Reads the number at a path from messages of one type.
 
     Parameters
     ----------
     path
-        Where the number is.
+        The path of the number.
     type_name
-        The type of the messages, such as `sensor_msgs/msg/JointState`.
+        The message type, for example `sensor_msgs/msg/JointState`.
     schema
         Returns the fields of a message type.
 
     Raises
     ------
     PathError
-        The type has no number at that path.
+        The type has no numeric field at that path.
 
     """
 
@@ -49,7 +49,7 @@ class FieldReader:
 
     def read(self, message: Any) -> float:
         """
-        Read the number out of a message.
+        Read the number from a message.
 
         Parameters
         ----------
@@ -70,7 +70,7 @@ class FieldReader:
 
 
 class _Walk:
-    """Goes along a path through the types of messages."""
+    """Resolver of a path along the field types of messages."""
 
     def __init__(self, path: FieldPath, type_name: str, schema: Schema) -> None:
         self._path, self._schema = path, schema
@@ -79,7 +79,7 @@ class _Walk:
         self._at = path.topic
 
     def go(self, step: Step) -> Access:
-        """Take a step; return how values take it."""
+        """Advance by a step, and return its accessor."""
         access = self._enter(step) if isinstance(step, Field) else self._choose(step)
         self._kinds.append(self._kind)
         self._at += str(step)
@@ -126,7 +126,7 @@ class _Walk:
         return NameAccess(step.key, lists)
 
     def _names(self) -> tuple[tuple[int, str], ...]:
-        """Return the lists of names on the way, the closest first."""
+        """Return the lists of names along the path, the closest first."""
         return tuple(
             (depth, name)
             for depth, kind in reversed(list(enumerate(self._kinds)))

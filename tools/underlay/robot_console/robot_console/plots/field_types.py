@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the types of fields mean, as interfaces of ROS write them: `sequence<double>`."""
+"""Field types in the notation of ROS interfaces, such as `sequence<double>`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import re
 __all__ = ['Schema', 'element_type', 'is_message', 'is_number', 'is_text']
 
 Schema = Callable[[str], Mapping[str, str]]
-"""Returns the fields of a type of message with their types, in their order."""
+"""Returns the fields of a message type with their types, in order."""
 NUMBERS = (
     {'double', 'float', 'boolean', 'octet', 'char', 'long double'}
     | {f'int{bits}' for bits in (8, 16, 32, 64)}
@@ -20,17 +20,17 @@ LIST = re.compile(r'sequence<(?P<sequence>.+?)(?:, *\d+)?>|(?P<array>.+)\[\d*\]'
 
 def element_type(kind: str) -> str | None:
     """
-    Get the element type of an array or a sequence type.
+    Return the element type of an array or sequence type.
 
     Parameters
     ----------
     kind
-        The type of a field, such as `sequence<double>` or `double[9]`.
+        The type of a field, for example `sequence<double>` or `double[9]`.
 
     Returns
     -------
     str or None
-        Such as `double`; None if the type is neither.
+        For example `double`; None if the type is neither.
 
     """
     found = LIST.fullmatch(kind)
@@ -39,7 +39,7 @@ def element_type(kind: str) -> str | None:
 
 def is_number(kind: str) -> bool:
     """
-    Check whether a type is numeric; boolean and byte types count.
+    Check whether a type is numeric, including boolean and byte types.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def is_number(kind: str) -> bool:
 
 def is_text(kind: str) -> bool:
     """
-    Check whether a type is a string type, and no array of strings.
+    Check whether a type is a string type; arrays of strings are not.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The series of a plot."""
+"""The series of a plot with their values."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Columns = dict[str, tuple[Numbers, Numbers]]
 
 class PlotBoard:
     """
-    The series of a plot with their values, which go on while the view may be frozen.
+    The series of a plot with their values, which are still recorded while the view is frozen.
 
     Parameters
     ----------
     window_s
-        How much of the past is shown, in s. It may be changed; 120 s are kept anyway.
+        The length of the time window, in s. It may be changed; 120 s are kept in any case.
 
     """
 
@@ -40,22 +40,22 @@ class PlotBoard:
 
     @property
     def plotted(self) -> list[Plotted]:
-        """Return the series in their order."""
+        """Return the series in order."""
         return list(self._plotted.values())
 
     @property
     def topics(self) -> set[str]:
-        """Return the topics that the series are about."""
+        """Return the topics that the series use."""
         return {path.topic for each in self.plotted for path in each.series.paths}
 
     @property
     def is_resting(self) -> bool:
-        """Tell if what is seen rests."""
+        """Whether the view is frozen."""
         return self._rest is not None
 
     def add(self, text: str) -> None:
         """
-        Add a series that is given as a text.
+        Add a series given as text.
 
         Parameters
         ----------
@@ -65,14 +65,14 @@ class PlotBoard:
         Raises
         ------
         PathError
-            The text is no series, or there are 8 already.
+            The text is not a valid series, or there are 8 already.
 
         """
         self.put(parse_series(text))
 
     def put(self, series: Series) -> None:
         """
-        Add a series, unless it is there already.
+        Add a series unless it is already present.
 
         Parameters
         ----------
@@ -98,29 +98,29 @@ class PlotBoard:
 
     def remove(self, text: str) -> None:
         """
-        Remove a series with its values.
+        Remove a series and its values.
 
         Parameters
         ----------
         text
-            The series as it is written; an unknown one is ignored.
+            The text of the series; an unknown series is ignored.
 
         """
         self._plotted.pop(text, None)
 
     def replace(self, series: Iterable[Series]) -> None:
         """
-        Replace all series; those that are there already keep their values.
+        Replace all series; those already present keep their values.
 
         Parameters
         ----------
         series
-            The series, in their new order.
+            The series, in the new order.
 
         Raises
         ------
         PathError
-            There are more than 8; the first 8 stay.
+            There are more than 8 series; the first 8 are kept.
 
         """
         before, self._plotted = self._plotted, {}
@@ -135,7 +135,7 @@ class PlotBoard:
         Parameters
         ----------
         topic
-            The topic, as paths name it.
+            The topic, as named in paths.
         type_name
             Its message type.
         schema
@@ -148,35 +148,35 @@ class PlotBoard:
 
     def take(self, topic: str, message: Any, time_s: float) -> None:
         """
-        Add the values that a message has for the series.
+        Add the values of a message to the series.
 
         Parameters
         ----------
         topic
-            The topic, as paths name it.
+            The topic, as named in paths.
         message
             The message.
         time_s
-            When it came, of `time.time`.
+            The time of reception, from `time.time`.
 
         """
         for each in self.plotted:
             each.take(topic, message, time_s)
 
     def clear(self) -> None:
-        """Forget what has been; the series stay."""
+        """Clear all values; the series remain."""
         self._rest = None
         for each in self.plotted:
             each.trace.clear()
 
     def rest(self, now_s: float) -> None:
         """
-        Freeze the view at a time; values that come meanwhile are stored.
+        Freeze the view at a time; new values are still stored.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`.
+            The current time, from `time.time`.
 
         """
         kept = {
@@ -186,22 +186,22 @@ class PlotBoard:
         self._rest = now_s, kept
 
     def go_on(self) -> None:
-        """Have what is seen go on."""
+        """Unfreeze the view."""
         self._rest = None
 
     def drawn(self, now_s: float) -> list[Numbers]:
         """
-        Resample the series to the points that are drawn.
+        Resample the series to the drawn points.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`; the right end of the plot unless it is frozen.
+            The current time, from `time.time`; the right end of the plot unless it is frozen.
 
         Returns
         -------
         list of Numbers
-            The values of each series (800,), as `thinned` gives them.
+            The values of each series (800,), as returned by `thinned`.
 
         """
         at_s, columns = self._seen(now_s)
@@ -209,17 +209,17 @@ class PlotBoard:
 
     def columns(self, now_s: float) -> Columns:
         """
-        Get the values in the time window that is shown, for export.
+        Return the values in the displayed time window, for export.
 
         Parameters
         ----------
         now_s
-            The time of `time.time`; the end of the window unless the plot is frozen.
+            The current time, from `time.time`; the end of the window unless the plot is frozen.
 
         Returns
         -------
         dict
-            Times (n,) in s of `time.time` and values (n,), by the text of the series.
+            Times (n,) in s, from `time.time`, and values (n,), by the text of the series.
 
         """
         at_s, columns = self._seen(now_s)

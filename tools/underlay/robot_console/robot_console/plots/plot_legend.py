@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is written below a plot: the series with their colours, newest values and troubles."""
+"""Legend of a plot: the series with their colours, latest values and errors."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ EMPTY = (
 
 def legend_html(plotted: Iterable[Plotted]) -> str:
     """
-    Render the legend as HTML: colour, series, newest value and trouble of each.
+    Render the legend as HTML: colour, text, latest value and error of each series.
 
     Parameters
     ----------

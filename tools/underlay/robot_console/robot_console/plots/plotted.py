@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A series with the values that it has had."""
+"""A plotted series with its recent values."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ TOGETHER_S = 1.0
 
 class Plotted:
     """
-    A series with the values that it has had, and what prevents it from having some.
+    A series with its recent values, and the reason if new values are missing.
 
     Parameters
     ----------
     series
-        The series; the types of its topics become known with `find_type`.
+        The series; its message types are set later with `find_type`.
     keep_s
-        How long values are kept, in s.
+        The duration for which values are kept, in s.
 
     Attributes
     ----------
     trace
         The values with their times.
     trouble
-        A sentence on why there are no new values; '' if there are.
+        A message that explains why there are no new values; '' if there are.
 
     """
 
@@ -45,12 +45,12 @@ class Plotted:
 
     def find_type(self, topic: str, type_name: str, schema: Schema) -> None:
         """
-        Set the message type of a topic; if it lacks the plotted field, `trouble` says so.
+        Set the message type of a topic; if it lacks the plotted field, `trouble` reports that.
 
         Parameters
         ----------
         topic
-            The topic, as paths name it; one that the series does not use is ignored.
+            The topic, as named in paths; topics that the series does not use are ignored.
         type_name
             Its message type.
         schema
@@ -66,18 +66,18 @@ class Plotted:
 
     def take(self, topic: str, message: Any, time_s: float) -> None:
         """
-        Add the value that a message completes.
+        Add a value of the series if a message completes it.
 
-        The two numbers of a difference must have come less than 1 s apart.
+        The two numbers of a difference must be received less than 1 s apart.
 
         Parameters
         ----------
         topic
-            The topic, as paths name it; one that the series does not use is ignored.
+            The topic, as named in paths; topics that the series does not use are ignored.
         message
             The message.
         time_s
-            When it came, of `time.time`.
+            The time of reception, from `time.time`.
 
         """
         has_news = False
@@ -93,7 +93,7 @@ class Plotted:
             self._add(time_s)
 
     def _add(self, time_s: float) -> None:
-        """Add a value, if all that it is made of is known and belongs together."""
+        """Add a value if all of its operands are known and recent."""
         together = [
             each[1] for each in self._newest if each and abs(time_s - each[0]) < TOGETHER_S
         ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Series that are often wanted together."""
+"""Series that are often plotted together."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def tracking_error(
     commands_topic, states_topic
         The topics of commanded and of measured joint states.
     commanded, measured
-        Positions by joint, in rad or m; joints that are in one of them only are left out.
+        Positions by joint name, in rad or m; joints that are missing from either are ignored.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def effort(states_topic: str, efforts: Mapping[str, float]) -> list[str]:
     states_topic
         The topic of joint states.
     efforts
-        Efforts by joint, in N m or N.
+        Efforts by joint name, in N m or N.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def imu(topic: str) -> list[str]:
 
 
 def _largest(values: Mapping[str, float]) -> Sequence[str]:
-    """Return some names with the largest values of either sign, in the order of the mapping."""
+    """Return the names with the largest absolute values, in the order of the mapping."""
     finite = {name: abs(value) for name, value in values.items() if isfinite(value)}
     largest = set(sorted(finite, key=lambda name: finite[name], reverse=True)[:MOST])
     return [name for name in finite if name in largest]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is plotted: a number of messages, or the difference of two."""
+"""Plotted series: a numeric message field, or the difference of two."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ MINUS = ' - '
 
 @dataclass(frozen=True)
 class Series:
-    """A number of messages, or the first of two minus the second."""
+    """A numeric message field, or the first of two minus the second."""
 
     paths: tuple[FieldPath, ...]
 
     def __str__(self) -> str:
-        """Return the series as it is written."""
+        """Return the series as text."""
         return MINUS.join(map(str, self.paths))
 
     def value(self, newest: list[float]) -> float:
@@ -30,7 +30,7 @@ class Series:
         Parameters
         ----------
         newest
-            The newest number of each path, in their order.
+            The latest number of each path, in order.
 
         """
         return newest[0] if len(newest) == 1 else newest[0] - newest[1]
@@ -38,12 +38,12 @@ class Series:
 
 def parse_series(text: str) -> Series:
     """
-    Parse a series: a path, or the difference of two.
+    Parse a series: a path, or the difference of two paths.
 
     Parameters
     ----------
     text
-        Such as `PATH` or `PATH - PATH`, with a blank on each side of the minus.
+        `PATH` or `PATH - PATH`, with a space on each side of the minus.
 
     Raises
     ------
@@ -64,12 +64,12 @@ def parse_all(text: str) -> list[Series]:
     Parameters
     ----------
     text
-        Series with semicolons between them; may be empty.
+        Series separated by semicolons; may be empty.
 
     Raises
     ------
     PathError
-        A part is no series, or there are more than 8.
+        A part is not a valid series, or there are more than 8.
 
     """
     series = list(dict.fromkeys(parse_series(part) for part in text.split(';') if part.strip()))

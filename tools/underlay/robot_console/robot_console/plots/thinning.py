@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Thin out values until there are not more than a plot can show.
+Decimation of values to the resolution of a plot.
 
-The time is cut into slices; of each slice the lowest and the highest value stay, so that no peak
-gets lost. The slices are the same for all series of a plot, and begin at multiples of their
-length: else a curve that moves through them would tremble.
+Time is divided into slices, and the minimum and maximum of each slice are kept, so that no peak is
+lost. The slices are the same for all series of a plot and start at multiples of their length;
+otherwise, scrolling curves would jitter.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PAUSE_PERIODS = 4.0
 
 def slice_times(window_s: float) -> Numbers:
     """
-    Compute the times of the points that are drawn, two in each slice.
+    Compute the times of the drawn points, two per slice.
 
     Parameters
     ----------
@@ -44,15 +44,15 @@ def thinned(times: Numbers, values: Numbers, now_s: float, window_s: float) -> N
     """
     Resample a trace to the times of the slices, keeping the extremes of each slice.
 
-    A gap is where values were no numbers, and where none came for a second and much longer than
-    it usually takes. Between other values, the curve goes straight on.
+    The curve has a gap at non-finite values, and where no value was received for a second and for
+    much longer than the mean period. Other values are interpolated linearly.
 
     Parameters
     ----------
     times, values
         The trace (n,), its times ascending, in s.
     now_s
-        The time of the right end of the plot, of the same clock.
+        The time at the right end of the plot, of the same clock.
     window_s
         The length of the time window, in s.
 
@@ -78,14 +78,14 @@ def thinned(times: Numbers, values: Numbers, now_s: float, window_s: float) -> N
 
 
 def _longest_s(times: Numbers) -> float:
-    """Return how long it may take until the next value, without that being a gap."""
+    """Compute the longest interval between values that is not a gap."""
     if len(times) < 2:
         return PAUSE_S
     return max(PAUSE_S, PAUSE_PERIODS * float(times[-1] - times[0]) / (len(times) - 1))
 
 
 def _fill(drawn: Numbers, places: npt.NDArray[np.int64], values: Numbers) -> None:
-    """Set the lowest and the highest value of each slice that has some."""
+    """Set the minimum and maximum of each slice that contains values."""
     inside = (places >= 0) & (places < SLICES)
     places, values = places[inside], values[inside]
     if len(places) == 0:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The values that a number has had, with their times."""
+"""Buffer of time-stamped values."""
 
 from __future__ import annotations
 
@@ -11,21 +11,22 @@ __all__ = ['Numbers', 'Trace']
 Numbers = npt.NDArray[np.float64]
 FIRST_CAPACITY = 256
 MAX_CAPACITY = 1 << 17
-"""A minute and more of a topic that comes 1000 times a second."""
+"""Sufficient for more than a minute of a topic at 1000 Hz."""
 
 
 class Trace:
     """
-    The values of the last seconds, with their times; older ones are forgotten.
+    Buffer of the values of the last seconds with their times; older values are dropped.
 
-    Two arrays are filled from the left. When they are full, what is still wanted moves back to
-    their beginning, or into larger ones: so adding a value is quick, and no copy is needed to
-    look at them.
+    Two arrays are filled from the left. When they are full, the values that are still needed are
+    moved to the start, or to larger arrays. Therefore, appending is fast, and reading needs no
+    copy.
 
     Parameters
     ----------
     keep_s
-        For how long values are kept, in s; at high rates for less, but at least the last 65,536.
+        The duration for which values are kept, in s; shorter at high rates, but at least the last
+        65,536 values.
 
     """
 
@@ -42,8 +43,8 @@ class Trace:
         Parameters
         ----------
         time_s
-            Its time, in s. If it is before the last one, by less than `keep_s`, it gets the time
-            of that; a longer jump back in time clears the trace first.
+            Its time, in s. If it precedes the last one by less than `keep_s`, the last time is
+            used instead; a larger jump back in time clears the trace first.
         value
             The number, which may be NaN.
 
@@ -60,17 +61,17 @@ class Trace:
         self._end += 1
 
     def clear(self) -> None:
-        """Forget all values."""
+        """Clear all values."""
         self._end = 0
 
     @property
     def newest(self) -> float | None:
-        """Return the last value, if there is one."""
+        """Return the latest value, if there is one."""
         return float(self._values[self._end - 1]) if self._end else None
 
     def since(self, first_s: float) -> tuple[Numbers, Numbers]:
         """
-        Get the values from a time on, and the one before it.
+        Return the values from a time on, and the value before it.
 
         Parameters
         ----------

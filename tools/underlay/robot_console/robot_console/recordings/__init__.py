@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record, play and export: what the panel of recordings is made of."""
+"""Recording, playback and export for the recordings panel."""

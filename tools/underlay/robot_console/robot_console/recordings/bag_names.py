@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names of recordings, and which topics a recording of one robot has."""
+"""Names and topic filters of recordings."""
 
 from __future__ import annotations
 
@@ -22,14 +22,15 @@ def bag_folder(folder: str, name: str, now: datetime) -> str:
     folder
         The folder of all recordings.
     name
-        The name that a person gave it; if blank, it is made from the time.
+        The name given by the user; if blank, it is derived from the time.
     now
-        The time for such a name.
+        The time used for such a name.
 
     Raises
     ------
     ValueError
-        The name is no file name, or there is such a recording already; the text is a sentence.
+        The name is not a valid file name, or the recording already exists; the message is a full
+        sentence.
 
     """
     name = name.strip()
@@ -45,17 +46,17 @@ def bag_folder(folder: str, name: str, now: datetime) -> str:
 
 def regex_of_robot(namespace: str) -> str:
     """
-    Build the regular expression of the topics of one robot, and of those all robots share.
+    Build the regular expression for the topics of one robot and the topics shared by all robots.
 
     Parameters
     ----------
     namespace
-        The namespace of the robot without slashes at its ends.
+        The namespace of the robot, without leading and trailing slashes.
 
     Returns
     -------
     str
-        The expression; '' for no namespace, which stands for all topics.
+        The expression; '' for no namespace, which means all topics.
 
     """
     return f'^/({re.escape(namespace)}/.+|{SHARED})$' if namespace else ''
@@ -63,19 +64,19 @@ def regex_of_robot(namespace: str) -> str:
 
 def topics_in(text: str) -> list[str]:
     """
-    Split a text into the topics it lists, each once.
+    Split a text into the topics that it lists, without duplicates.
 
     Parameters
     ----------
     text
-        Names with blanks, line breaks or commas between them.
+        Names separated by spaces, line breaks or commas.
 
     """
     return list(dict.fromkeys(word for word in SEPARATOR.split(text) if word))
 
 
 def _free(path: str) -> str:
-    """Return a path at which there is nothing."""
+    """Return a path that does not exist yet."""
     number, free = 1, path
     while os.path.lexists(free):
         number += 1

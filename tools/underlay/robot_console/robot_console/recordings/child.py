@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A program that the console has started, and that ends with it."""
+"""Management of child processes of the console."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ class Child:
     """
     A child process that runs a program of `robot_console.recordings.programs`.
 
-    It hears commands, tells facts, and ends when its standard input is closed, which happens
-    whatever becomes of this process. It is started at once.
+    It receives commands, reports facts, and exits when its standard input is closed, which also
+    happens if the parent process dies. It is started immediately.
 
     Parameters
     ----------
     program
-        The name of the module of the program, such as `play`.
+        The module name of the program, for example `play`.
     arguments : Sequence[str]
         Its command line arguments.
 
     Attributes
     ----------
     facts
-        What the program has told last, by name; replaced as a whole by another thread.
+        The latest facts reported by the program, by name; replaced as a whole by another thread.
 
     """
 
@@ -54,7 +54,7 @@ class Child:
             text=True,
             errors='replace',
             cwd='/',
-            start_new_session=True,  # Ctrl-C is for the console, which then ends it in order
+            start_new_session=True,  # Ctrl-C is for the console, which then stops it in order
         )
         self._readers = [
             threading.Thread(target=work, daemon=True) for work in (self._hear, self._collect)
@@ -64,12 +64,12 @@ class Child:
 
     @property
     def pid(self) -> int:
-        """Return the number of the process."""
+        """Return the process ID."""
         return self._process.pid
 
     @property
     def is_running(self) -> bool:
-        """Tell if it runs; one that was asked to end and does not is killed."""
+        """Whether the process is running; kills it if it has exceeded the time to exit."""
         if self._process.poll() is not None:
             return False
         if time.monotonic() >= self._end_by_s:
@@ -78,12 +78,12 @@ class Child:
 
     @property
     def is_ending(self) -> bool:
-        """Tell if it was asked to end."""
+        """Whether the process was requested to exit."""
         return self._end_by_s < float('inf')
 
     @property
     def failure(self) -> str:
-        """Return what it said at its end if that was an early one, otherwise ''."""
+        """Return the error message if the process has failed, otherwise ''."""
         status = self._process.poll()
         if not status:
             return ''
@@ -93,17 +93,17 @@ class Child:
 
     @property
     def warnings(self) -> list[str]:
-        """Return what it warned of."""
+        """Return the warnings that the process has logged."""
         return [_without_head(line) for line in list(self._lines) if _level(line) == 'WARN']
 
     def say(self, **command: Any) -> None:
         """
-        Send a command to the program; nothing is sent once it was asked to end.
+        Send a command to the program; ignored once it was requested to exit.
 
         Parameters
         ----------
         **command
-            The members of the JSON object that is sent, such as `paused=True`.
+            The members of the JSON object to send, such as `paused=True`.
 
         """
         pipe = self._process.stdin
@@ -113,10 +113,10 @@ class Child:
             pipe.write(json.dumps(command) + '\n')
             pipe.flush()
         except OSError:
-            pass  # it has ended by itself, which its status tells
+            pass  # it has exited, which its status reports
 
     def end(self) -> None:
-        """Ask it to end; it finishes what it writes."""
+        """Request the process to exit; it finishes writing first."""
         if self.is_ending:
             return
         self._end_by_s = time.monotonic() + ENDING_S
@@ -124,10 +124,10 @@ class Child:
             try:
                 self._process.stdin.close()
             except OSError:
-                pass  # it has ended already, with something unread
+                pass  # it has already exited with unread input
 
     def close(self) -> None:
-        """End it, and wait until it has ended."""
+        """Stop the process, and wait until it has exited."""
         self.end()
         try:
             self._process.wait(max(0.0, self._end_by_s - time.monotonic()))
@@ -151,7 +151,7 @@ class Child:
 
 def last_sentence(lines: Iterable[str]) -> str:
     """
-    Extract the reason for a failure from the output of a program.
+    Extract the error message from the output of a program.
 
     Parameters
     ----------
@@ -161,8 +161,8 @@ def last_sentence(lines: Iterable[str]) -> str:
     Returns
     -------
     str
-        The last line that is neither blank nor a log of level INFO or DEBUG, without the prefix of
-        the log or the program; '' if there is none.
+        The last line that is neither blank nor a log line of level INFO or DEBUG, without the log
+        or program prefix; '' if there is none.
 
     """
     said = [line for line in lines if line.strip() and _level(line) not in ('INFO', 'DEBUG')]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which recorded topics would move a robot, or lie about a live one, if they were played."""
+"""Selection of recorded topics that would move a robot or conflict with a live one if played."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ COMMANDS = (
     'console_heartbeat goal_pose initialpose clicked_point joint_trajectory */joint_trajectory '
     'goal *_goal *_cmd stop_state'
 )
-"""Patterns of names, without the namespace, of topics that robots obey, or answer stops on."""
+"""Name patterns, without namespace, of topics that command robots or report their stop state."""
 
 
 def commands_among(topics: Iterable[str], patterns: str = COMMANDS) -> list[str]:
     """
-    Select the topics that a robot would obey if they were played.
+    Select the topics that would command a robot if they were played.
 
     Parameters
     ----------
     topics
         The names of recorded topics.
     patterns
-        Shell patterns with blanks between them. One of them must match the name, or what follows
-        one of its slashes, to its end.
+        Shell patterns separated by spaces. A topic is selected if a pattern matches its full name,
+        or the part after one of its slashes.
 
     """
     words = patterns.split()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a program hears from the console that started it, and tells it."""
+"""Communication of a child process with the console that started it."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ CUT: dict[str, Any] = {}
 
 class Lifeline:
     """
-    Commands from the standard input, one JSON object a line.
+    Receiver of commands from standard input, one JSON object per line.
 
-    It is cut when the console has closed it, or is gone. A program that does not end then within
-    a while, because something hangs, is ended. To be constructed in the main thread.
+    The lifeline is cut when the console closes the input or dies. If the program then does not
+    exit within 20 s, because it hangs, it is terminated. Construct it in the main thread.
 
     Parameters
     ----------
     on_cut
-        Called in another thread when the standard input is closed.
+        Called in another thread when standard input is closed.
 
     Attributes
     ----------
     is_cut
-        Whether it is closed.
+        Whether standard input is closed.
 
     """
 
@@ -49,13 +49,12 @@ class Lifeline:
 
     def commands(self, timeout_s: float = 0.0) -> list[dict[str, Any]]:
         """
-        Get the commands that have come.
+        Return the commands received so far.
 
         Parameters
         ----------
         timeout_s
-            For how long to wait for the first one, in s. The end of the input ends the wait as
-            well.
+            The time to wait for the first command, in s. The end of input also ends the wait.
 
         Returns
         -------
@@ -75,14 +74,14 @@ class Lifeline:
         for line in _lines():
             self._waiting.put(json.loads(line))
         self.is_cut = True
-        self._waiting.put(CUT)  # wakes who waits
+        self._waiting.put(CUT)  # wakes up a waiting reader
         self._on_cut()
         time.sleep(GRACE_S)
         os._exit(1)
 
 
 def _lines() -> Iterator[bytes]:
-    """Yield the lines of the standard input, with no lock that the end would wait for."""
+    """Yield the lines of standard input, without a lock that would delay the exit."""
     text = b''
     while part := os.read(sys.stdin.fileno(), CHUNK_BYTES):
         *lines, text = (text + part).split(b'\n')
@@ -90,24 +89,24 @@ def _lines() -> Iterator[bytes]:
 
 
 def _hear_signals() -> None:
-    """Let signals end this program, although who started it has blocked or ignored them."""
+    """Restore the handling of signals that the parent process may have blocked or ignored."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
 
 
 def interrupt_self() -> None:
-    """Do to this process what Ctrl-C does."""
+    """Send SIGINT to this process, like Ctrl-C."""
     os.kill(os.getpid(), signal.SIGINT)
 
 
 def tell(**facts: Any) -> None:
     """
-    Report facts to the console on the standard output; ignored if the console is gone.
+    Report facts to the console on standard output; ignored if the console is gone.
 
     Parameters
     ----------
     **facts
-        The members of a JSON object, which update `Child.facts`.
+        The members of a JSON object, which updates `Child.facts`.
 
     """
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages of the last seconds."""
+"""Ring buffer of the messages of the last seconds."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ros2bag.storage.metadata import Topic
 __all__ = ['Kept', 'MessageMemory', 'write_bag']
 
 OVERHEAD_BYTES = 300
-"""About what a message costs besides its data."""
+"""Estimated memory overhead per message."""
 
 
 class Kept(NamedTuple):
-    """What a recording of the last seconds is to have."""
+    """Snapshot of the buffered topics and messages."""
 
     topics: tuple[Topic, ...]
     messages: tuple[RecordedMessage, ...]
@@ -27,21 +27,21 @@ class Kept(NamedTuple):
 
 class MessageMemory:
     """
-    A ring buffer of the newest messages, with the methods of `BagWriter` that a recorder calls.
+    Ring buffer of the latest messages, with the methods of `BagWriter` that a recorder calls.
 
-    Latched messages that are forgotten still stand at the beginning of what is kept.
+    Latched messages that were dropped are still included at the start of a snapshot.
 
     Parameters
     ----------
     span_ns
-        For how long messages are kept, in ns.
+        The duration for which messages are kept, in ns.
     max_bytes
-        How much memory they may take, in bytes, with an estimate of the overhead.
+        The maximum memory, in bytes, including an estimate of the overhead.
 
     Attributes
     ----------
     size_bytes
-        How much they take.
+        The memory used, in bytes.
 
     """
 
@@ -53,21 +53,21 @@ class MessageMemory:
         self._latched = LatchedMessages()
         self.size_bytes = 0
         self.is_short = False
-        """Whether messages had to be forgotten early."""
+        """Whether messages had to be dropped early."""
 
     @property
     def message_count(self) -> int:
-        """Return how many messages are kept."""
+        """Return the number of buffered messages."""
         return len(self._messages)
 
     def age_ns(self, now_ns: int) -> int:
         """
-        Get the age of the oldest message.
+        Return the age of the oldest message.
 
         Parameters
         ----------
         now_ns
-            The time of `time.time_ns`.
+            The current time, from `time.time_ns`.
 
         Returns
         -------
@@ -79,24 +79,24 @@ class MessageMemory:
 
     def set_topic(self, topic: Topic) -> None:
         """
-        Add a topic, or update what its publishers offer.
+        Add a topic, or update the offered QoS of its publishers.
 
         Parameters
         ----------
         topic
-            The topic; to be set before its first message is written.
+            The topic; set before its first message is written.
 
         """
         self._topics[topic.name] = topic
 
     def write(self, message: RecordedMessage) -> None:
         """
-        Store a message; the oldest ones are dropped if there is no room.
+        Store a message; the oldest messages are dropped if the memory limit is exceeded.
 
         Parameters
         ----------
         message
-            A message of a topic that was set.
+            A message of a topic that was set before.
 
         """
         self._messages.append(message)
@@ -112,7 +112,7 @@ class MessageMemory:
         Parameters
         ----------
         now_ns
-            The time of `time.time_ns`.
+            The current time, from `time.time_ns`.
 
         """
         while self._messages and self._messages[0].log_ns < now_ns - self._span_ns:
@@ -126,12 +126,12 @@ class MessageMemory:
         Parameters
         ----------
         now_ns
-            The time of `time.time_ns`.
+            The current time, from `time.time_ns`.
 
         Returns
         -------
         Kept
-            The topics and messages; latched ones that were dropped come first, at the start time.
+            The topics and messages; dropped latched messages come first, with the start time.
 
         """
         self.forget_old(now_ns)
@@ -156,23 +156,23 @@ def write_bag(
     Parameters
     ----------
     kept
-        What is written.
+        The snapshot to write.
     folder
         The path of the recording, which must not exist.
     options
-        Compression and limits.
+        Compression and size limits.
     find_definition
         Returns the definition of a message type.
 
     Returns
     -------
     int
-        How many messages were written.
+        The number of messages written.
 
     Raises
     ------
     BagError
-        It cannot be written.
+        The recording cannot be written.
 
     """
     writer = BagWriter(folder, options, find_definition)

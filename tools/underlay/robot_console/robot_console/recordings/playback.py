@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Play a recording, with jumps in time."""
+"""Playback of a recording with seeking."""
 
 from __future__ import annotations
 
@@ -15,45 +15,45 @@ __all__ = ['Playback', 'Source']
 STEP_NS = 50_000_000
 SLICE_NS = 20_000_000
 LEAD_NS = 300_000_000
-"""So much before a moment is published at once after a jump, to show how things were then."""
+"""After a seek, messages from this interval before the target are published at once as context."""
 SILENCE_NS = 150_000_000
-"""After a jump back nothing is published for so long, until who listens has forgotten the rest."""
+"""Pause after a backward jump, during which subscribers clear their outdated state."""
 
 
 class Source(Protocol):
-    """A recording that is played."""
+    """A recording to play."""
 
     start_ns: int
     end_ns: int
 
     def messages(self, start_ns: int) -> Iterator[RecordedMessage]:
         """
-        Yield the messages that are played, by time.
+        Yield the messages to play, in order of time.
 
         Parameters
         ----------
         start_ns
-            The recorded time from which on, in ns; may be before the start of the recording.
+            The recorded start time, in ns; may precede the start of the recording.
 
         """
 
     def latched(self, start_ns: int, end_ns: int) -> Iterator[RecordedMessage]:
         """
-        Yield the latched messages of a time span.
+        Yield the latched messages in a time span.
 
         Parameters
         ----------
         start_ns, end_ns
-            Recorded times, in ns; the end is not included.
+            Recorded times, in ns; the end is exclusive.
 
         """
 
 
 class Playback:
     """
-    Publishes recorded messages when they are due, with jumps in time.
+    Publishes recorded messages when they are due, with support for seeking.
 
-    It starts at the beginning of the recording, after a short silence. Call `step` in a loop.
+    Playback begins at the start of the recording, after a short silence. Call `step` in a loop.
 
     Parameters
     ----------
@@ -62,16 +62,16 @@ class Playback:
     publish
         Publishes a message.
     now_ns
-        A steady clock, in ns.
+        A monotonic clock, in ns.
 
     Attributes
     ----------
     is_looping
-        Whether to start again at the end.
+        Whether to restart at the end.
     is_paused
-        Whether it stands still.
+        Whether playback is paused.
     is_ended
-        Whether the end has been reached.
+        Whether the end was reached.
 
     """
 
@@ -89,7 +89,7 @@ class Playback:
         self.is_paused = False
         self.is_ended = False
         self.jumps = 0
-        """How often recorded time has gone back; the start is the first time."""
+        """The number of backward jumps in recorded time; the start counts as the first."""
         self._silent_until_ns = 0
         self._target_ns = source.start_ns
         self._messages: Iterator[RecordedMessage] = iter(())
@@ -98,12 +98,12 @@ class Playback:
 
     @property
     def rate(self) -> float:
-        """Return how many recorded seconds pass in one."""
+        """Return the playback rate, in recorded seconds per second."""
         return self._pacing.rate
 
     @property
     def position_ns(self) -> int:
-        """Return the recorded moment that is shown."""
+        """Return the current recorded time."""
         start_ns, end_ns = self._source.start_ns, self._source.end_ns
         if self._next is None:
             return end_ns
@@ -111,13 +111,13 @@ class Playback:
         return max(start_ns, min(now_ns, max(self._next.log_ns, self._target_ns), end_ns))
 
     def pause(self) -> None:
-        """Stand still."""
+        """Pause playback."""
         if not self.is_paused:
             self.is_paused = True
             self._pacing.hold()
 
     def go_on(self) -> None:
-        """Go on, from the beginning if the end has been reached."""
+        """Resume playback, from the start if the end was reached."""
         self.is_paused = False
         if self.is_ended:
             self._jump_back(self._source.start_ns)
@@ -131,7 +131,7 @@ class Playback:
         Parameters
         ----------
         rate
-            Recorded seconds per second; above 0, may be infinite.
+            Recorded seconds per second; positive, may be infinite.
 
         """
         self._pacing.set_rate(rate)
@@ -140,8 +140,8 @@ class Playback:
         """
         Seek to a recorded time.
 
-        What was recorded in the 0.3 s before it is published at once, to show how things were
-        then, and on a jump ahead also the latched messages that are skipped.
+        Messages recorded in the 0.3 s before that time are published at once as context; on a
+        forward seek, skipped latched messages are published as well.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class Playback:
         self._open(recorded_ns, max(here_ns, recorded_ns - LEAD_NS))
 
     def step(self) -> int:
-        """Publish what is due, and return for how many nanoseconds nothing is to be done."""
+        """Publish due messages, and return the time until the next call, in ns."""
         now_ns = self._now_ns()
         if now_ns < self._silent_until_ns:
             return min(STEP_NS, self._silent_until_ns - now_ns)
@@ -171,7 +171,7 @@ class Playback:
         return self._publish_due(now_ns + SLICE_NS)
 
     def _publish_due(self, until_ns: int) -> int:
-        """Publish what is due, but not for long: commands are to be heard."""
+        """Publish due messages for a limited time, so that commands are still processed."""
         while self._next is not None:
             wait_ns = self._wait_ns(self._next)
             if wait_ns > 0:
@@ -202,7 +202,7 @@ class Playback:
         self._pacing.hold()
 
     def _open(self, recorded_ns: int, from_ns: int) -> None:
-        """Have what comes from a time on be next; what is before the moment is due at once."""
+        """Start to read at a time; messages before the target time are due at once."""
         self.is_ended = False
         self._target_ns = recorded_ns
         self._messages = self._source.messages(from_ns)

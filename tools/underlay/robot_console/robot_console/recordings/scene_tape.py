@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The last seconds of a scene, as one file that shows them anywhere."""
+"""Recording of the last seconds of the scene, exported as a standalone HTML file."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ __all__ = ['SceneTape', 'TooLarge']
 
 REEL_S = 5.0
 MESSAGE_BYTES = 1000
-"""About what a message costs besides its arrays."""
+"""Estimated memory overhead per message, without its arrays."""
 MIB = 1024 * 1024
 TITLE = '<title>Viser</title>'
 
 
 class TooLarge(ValueError):
-    """A scene that is too large for a file, with a sentence."""
+    """Raised, with a message for the user, if a scene is too large for a file."""
 
 
 class Reel:
     """
-    A snapshot of the scene, and what was sent of it since then.
+    A snapshot of the scene, and the scene messages sent since then.
 
     Parameters
     ----------
     start_s
-        The time of the snapshot, of `time.monotonic`.
+        The time of the snapshot, from `time.monotonic`.
     scene
-        The viser messages that make up the scene.
+        The viser messages that constitute the scene.
 
     Attributes
     ----------
     sent
-        The messages sent since then, each with its time of `time.monotonic`.
+        The messages sent since then, each with its time from `time.monotonic`.
     size_bytes
-        About how much memory these take.
+        The estimated memory used by these messages, in bytes.
 
     """
 
@@ -52,19 +52,19 @@ class Reel:
 
 class SceneTape:
     """
-    Keeps what is sent of a scene, in reels of some seconds; the oldest ones are thrown away.
+    Records the messages of a scene in segments of some seconds; the oldest ones are dropped.
 
-    That costs little, because nothing is encoded before it is asked for. The server calls
-    `_insert_message` for all that it sends, as it does with its own recordings.
+    The cost is low, because messages are only encoded on export. The server calls
+    `_insert_message` for every message that it sends, as for its own recordings.
 
     Parameters
     ----------
     server
         The server of the page.
     span_s
-        How much is kept at least if memory allows, in s.
+        The minimum duration to keep if memory allows, in s.
     max_bytes
-        About how much memory may be used, in bytes.
+        The approximate maximum memory, in bytes.
 
     """
 
@@ -79,16 +79,16 @@ class SceneTape:
 
     @property
     def size_bytes(self) -> int:
-        """Return about how much memory is used."""
+        """Return the estimated memory use, in bytes."""
         return sum(reel.size_bytes for reel in self._reels)
 
     @property
     def length_s(self) -> float:
-        """Return how many seconds are kept."""
+        """Return the recorded duration, in s."""
         return time.monotonic() - self._reels[0].start_s
 
     def look(self) -> None:
-        """Throw away what is too old or too much; to be called now and then."""
+        """Drop segments that are too old or exceed the memory limit; call periodically."""
         with self._web._record_lock:
             now_s = time.monotonic()
             if now_s - self._reels[-1].start_s >= REEL_S:
@@ -100,31 +100,31 @@ class SceneTape:
                 self._begin_reel()
 
     def close(self) -> None:
-        """Keep nothing any longer."""
+        """Stop recording."""
         with self._web._record_lock:
             if self in self._web._record_handles:
                 self._web._record_handles.remove(self)
 
     def page(self, title: str, max_bytes: int) -> bytes:
         """
-        Encode what is kept as an HTML page that plays it; takes seconds, so use another thread.
+        Encode the recording as an HTML page that plays it; takes seconds, so use another thread.
 
         Parameters
         ----------
         title
             The title of the page.
         max_bytes
-            How large it may be, in bytes.
+            The maximum size of the page, in bytes.
 
         Returns
         -------
         bytes
-            The page, in UTF-8.
+            The page, encoded in UTF-8.
 
         Raises
         ------
         TooLarge
-            The page is larger; the text is a sentence.
+            The page exceeds the maximum size; the message is a full sentence.
 
         """
         with self._web._record_lock:
@@ -144,7 +144,7 @@ class SceneTape:
     def _encoded(
         self, scene: list[Any], sent: list[tuple[float, Any]], start_s: float, end_s: float
     ) -> str:
-        """Have the server's own recorder encode our messages, and none of those that come now."""
+        """Encode our messages, without concurrent ones, with the serializer of the server."""
         ours = {id(message) for message in scene} | {id(message) for _, message in sent}
         recorder = self._web.get_message_serializer(lambda message: id(message) in ours)
         for message in scene:
@@ -157,7 +157,7 @@ class SceneTape:
         return page
 
     def _insert_message(self, message: Any) -> None:
-        """Take what the server sends."""
+        """Record a message that the server sends."""
         if message.include_in_scene_serialization:
             reel = self._reels[-1]
             reel.sent.append((time.monotonic(), message))
@@ -171,13 +171,13 @@ class SceneTape:
         self._reels.append(Reel(time.monotonic(), scene))
 
     def _is_spare(self, now_s: float) -> bool:
-        """Tell if the first reel is not needed, or there is no room for it."""
+        """Check whether the first segment is no longer needed, or exceeds the memory limit."""
         is_old = now_s - self._reels[1].start_s >= self._span_s
         return is_old or self.size_bytes > self._max_bytes
 
 
 def _array_bytes(values: dict[str, Any]) -> int:
-    """Return how large the arrays are among some values, and one level below."""
+    """Return the total size of arrays and bytes, including nested values."""
     size = 0
     for value in values.values():
         if isinstance(value, np.ndarray):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The recordings in a folder."""
+"""List of the recordings in a folder."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NS_PER_S = 1e9
 
 
 class BagTopic(NamedTuple):
-    """A recorded topic, and how many messages of it there are."""
+    """A recorded topic with its message count."""
 
     name: str
     type_name: str
@@ -28,7 +28,7 @@ class BagTopic(NamedTuple):
 
 @dataclass(frozen=True)
 class Bag:
-    """What there is to say about a recording; `problem` is why it cannot be played."""
+    """Metadata of a recording; `problem` explains why it cannot be played."""
 
     name: str
     path: str
@@ -42,7 +42,7 @@ class Bag:
 
 class Shelf:
     """
-    Lists the recordings in a folder; metadata that has not changed is read once.
+    Lists the recordings in a folder; unchanged metadata is read only once.
 
     Parameters
     ----------
@@ -55,10 +55,10 @@ class Shelf:
         self.folder = os.path.abspath(os.path.expanduser(folder))
         self._read: dict[str, tuple[int, Bag]] = {}
         self.left_out_count = 0
-        """How many more recordings there are, which are older."""
+        """The number of older recordings that are not listed."""
 
     def look(self) -> list[Bag]:
-        """Return the recordings, the newest first; a folder that is not there has none."""
+        """List the recordings, newest first; a missing folder has none."""
         found = sorted(self._changes(), reverse=True)
         self.left_out_count = max(0, len(found) - MOST)
         bags = {path: self._bag(path, changed_ns) for changed_ns, path in found[:MOST]}
@@ -66,7 +66,7 @@ class Shelf:
         return list(bags.values())
 
     def _changes(self) -> list[tuple[int, str]]:
-        """Return when each recording was changed, and its path."""
+        """Return the modification time and the path of each recording."""
         try:
             with os.scandir(self.folder) as entries:
                 paths = [each.path for each in entries if not each.name.startswith('.')]
@@ -82,7 +82,7 @@ class Shelf:
 
 
 def _changed_ns(path: str) -> int:
-    """Return when a recording was changed, 0 if this is none."""
+    """Return the modification time of a recording; 0 if the path is not a recording."""
     try:
         if not os.path.isdir(path):
             return os.stat(path).st_mtime_ns if path.endswith('.mcap') else 0

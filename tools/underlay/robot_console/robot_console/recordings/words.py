@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the panel of recordings says things."""
+"""Texts of the recordings panel."""
 
 from __future__ import annotations
 
@@ -45,14 +45,14 @@ def clock_text(seconds: float) -> str:
 
 def listed(names: Iterable[str], most: int = NAMED) -> str:
     """
-    Join names with commas, and count those that are too many.
+    Join names with commas, and replace surplus names by their count.
 
     Parameters
     ----------
     names
         The names.
     most
-        How many of them are written out.
+        The maximum number of names in the text.
 
     """
     names = list(names)
@@ -100,16 +100,16 @@ def topics_table(topics: Iterable[BagTopic]) -> str:
 
 def memory_text(facts: Mapping[str, object], wanted_s: float, max_mib: float) -> str:
     """
-    Describe what the memory of the last seconds holds.
+    Describe the contents of the message buffer.
 
     Parameters
     ----------
     facts
-        What the program `remember` has told; may be empty.
+        The facts reported by the program `remember`; may be empty.
     wanted_s
-        How much is to be kept, in s.
+        The duration to keep, in s.
     max_mib
-        How much memory that may take, in MiB.
+        The memory limit, in MiB.
 
     """
     if 'seconds' not in facts:
@@ -126,7 +126,7 @@ def memory_text(facts: Mapping[str, object], wanted_s: float, max_mib: float) ->
 
 def mixture_text(publishers: Mapping[str, Iterable[str]]) -> str:
     """
-    Warn that live nodes publish topics that are being played.
+    Warn that live nodes publish on topics that are being played.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def mixture_text(publishers: Mapping[str, Iterable[str]]) -> str:
     Returns
     -------
     str
-        The warning; '' if there are none.
+        The warning; '' if there are no such nodes.
 
     """
     if not publishers:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Services and their requests."""
+"""Editing of service requests."""

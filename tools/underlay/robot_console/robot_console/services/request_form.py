@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requests of services as texts that somebody fills."""
+"""Editing of service requests as YAML."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def service_class(type_name: str) -> Any:
     Parameters
     ----------
     type_name
-        Such as `std_srvs/srv/Trigger`.
+        For example `std_srvs/srv/Trigger`.
 
     Raises
     ------
     ValueError
-        The type is not installed, or no service.
+        The type is not installed or not a service type.
 
     """
     try:
@@ -40,12 +40,12 @@ def service_class(type_name: str) -> Any:
 
 def template(kind: Any) -> str:
     """
-    Format the default request of a service as YAML, for a person to edit.
+    Format the default request of a service as YAML, for a user to edit.
 
     Parameters
     ----------
     kind
-        The class of the service.
+        The class of the service type.
 
     Returns
     -------
@@ -59,12 +59,12 @@ def template(kind: Any) -> str:
 
 def fields_text(kind: Any, part: str = 'Request') -> str:
     """
-    List the fields of a request or response with their types, in one line.
+    List the fields of a request or response with their types, on one line.
 
     Parameters
     ----------
     kind
-        The class of the service.
+        The class of the service type.
     part
         `Request` or `Response`.
 
@@ -75,16 +75,16 @@ def fields_text(kind: Any, part: str = 'Request') -> str:
 
 def filled(kind: Any, text: str, now: Any) -> Any:
     """
-    Fill a service request from YAML.
+    Parse a service request from YAML.
 
     Parameters
     ----------
     kind
-        The class of the service.
+        The class of the service type.
     text
-        The YAML that a person has edited.
+        The YAML that the user has edited.
     now
-        The current time, as a `builtin_interfaces/msg/Time`, for stamps that ask for it.
+        The current time, as a `builtin_interfaces/msg/Time`, for fields with an automatic stamp.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def filled(kind: Any, text: str, now: Any) -> Any:
     Raises
     ------
     ValueError
-        The text does not fit the fields.
+        The text does not match the fields.
 
     """
     try:
@@ -105,12 +105,12 @@ def filled(kind: Any, text: str, now: Any) -> Any:
 
 def response_text(response: Any) -> str:
     """
-    Format a service response as YAML, shortened if it is long.
+    Format a service response as YAML, truncated if it is long.
 
     Parameters
     ----------
     response
-        The response; one without fields gives a sentence.
+        The response; without fields, a message is returned instead.
 
     """
     if not response.get_fields_and_field_types():

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of a robot: how often they come, and what they say."""
+"""Topics of a robot: rates, QoS compatibility and message contents."""

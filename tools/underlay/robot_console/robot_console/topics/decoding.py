@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The text of a message that has come as bytes."""
+"""Conversion of serialized messages to text."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ MOST_BYTES_NESTED = 300_000
 
 def decoded(raw: bytes, kind: Any) -> str:
     """
-    Decode a serialized message to text, shortened.
+    Decode a serialized message to text, truncated if it is long.
 
     Parameters
     ----------
     raw
         The serialized message.
     kind
-        Its class.
+        Its message class.
 
     Returns
     -------
     str
-        YAML; of a message that would take too long, a sentence that says so.
+        YAML; for a message that would take too long, an explanation instead.
 
     """
     from rclpy.serialization import deserialize_message
@@ -51,12 +51,12 @@ def decoded(raw: bytes, kind: Any) -> str:
 @cache
 def has_lists_of_messages(kind: Any) -> bool:
     """
-    Check whether messages of a class have lists of messages, at any depth: these decode slowly.
+    Check whether a message class contains lists of messages at any depth, which decode slowly.
 
     Parameters
     ----------
     kind
-        The class.
+        The message class.
 
     """
     for field_type in kind.get_fields_and_field_types().values():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Listen for a moment to topics whose rate is to be known."""
+"""Short subscriptions that measure the rates of topics."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class RateListener:
     node
         The node that subscribes.
     later
-        Runs a function soon, in the thread of the node.
+        Schedules a function in the thread of the node.
 
     Attributes
     ----------
     survey
-        Decides what to measure, and has the results.
+        Plans the measurements and stores the results.
 
     """
 
@@ -50,10 +50,10 @@ class RateListener:
         Parameters
         ----------
         types
-            The names of the types of all topics, by name; those of unknown or several types are
+            The type names of all topics, by topic name; topics of unknown or several types are
             skipped.
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         """
         kinds = {topic: _kind(names) for topic, names in types.items()}
@@ -65,7 +65,7 @@ class RateListener:
             self._listen(topic, readable[topic])
 
     def stop(self) -> None:
-        """Listen no longer."""
+        """Destroy all subscriptions."""
         self.survey.stop()
         for topic in list(self._subscriptions):
             self._drop(topic)
@@ -91,7 +91,7 @@ class RateListener:
 
 
 def _kind(type_names: list[str]) -> Any:
-    """Return the class of a topic's messages; None if there is none, or more than one."""
+    """Return the message class of a topic; None if it is unknown or ambiguous."""
     return _class_of(type_names[0]) if len(type_names) == 1 else None
 
 

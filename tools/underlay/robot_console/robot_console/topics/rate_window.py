@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How often messages come, and how large they are."""
+"""Rate and bandwidth of the messages of a topic."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ MOST = 500
 
 class RateWindow:
     """
-    The times and sizes of the newest messages of a topic, which give its rate.
+    Sliding window of the times and sizes of messages, to estimate their rate.
 
     Parameters
     ----------
     window_s
-        How far the rate looks back, in s.
+        The length of the window, in s.
     most
-        At how many messages it looks at most.
+        The maximum number of messages in the window.
 
     Attributes
     ----------
     count
-        How many messages have come in total.
+        The total number of messages received.
 
     """
 
@@ -36,12 +36,12 @@ class RateWindow:
 
     def add(self, time_s: float, size: int) -> None:
         """
-        Count a message; if time goes back, those before are forgotten.
+        Add a message; if time jumps back, earlier messages are dropped.
 
         Parameters
         ----------
         time_s
-            When it came, in s.
+            The time of reception, in s.
         size
             Its size, in bytes.
 
@@ -53,17 +53,17 @@ class RateWindow:
 
     def age_s(self, now_s: float) -> float | None:
         """
-        Get the age of the newest message.
+        Return the age of the latest message.
 
         Parameters
         ----------
         now_s
-            The time of the same clock.
+            The current time, of the same clock.
 
         Returns
         -------
         float or None
-            In s; None if no message has come.
+            In s; None if no message was received.
 
         """
         return max(now_s - self._messages[-1][0], 0.0) if self._messages else None
@@ -75,12 +75,13 @@ class RateWindow:
         Parameters
         ----------
         now_s
-            The time of the same clock.
+            The current time, of the same clock.
 
         Returns
         -------
         float or None
-            In Hz; None after fewer than two messages, or a silence that is long for this topic.
+            In Hz; None with fewer than two messages, or after a silence that is long for this
+            topic.
 
         """
         span = self._span(now_s)
@@ -93,7 +94,7 @@ class RateWindow:
         Parameters
         ----------
         now_s
-            The time of the same clock.
+            The current time, of the same clock.
 
         Returns
         -------
@@ -107,7 +108,7 @@ class RateWindow:
         return sum(size for _, size in list(self._messages)[1:]) / span
 
     def _span(self, now_s: float) -> float | None:
-        """Return over how many seconds the messages came; an odd silence counts."""
+        """Compute the duration covered by the messages, extended by an unusual silence."""
         while len(self._messages) > 2 and now_s - self._messages[0][0] > self._window_s:
             self._messages.popleft()
         if len(self._messages) < 2:

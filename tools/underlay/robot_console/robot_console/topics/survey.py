@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measure how often all topics come, a few at a time."""
+"""Scheduler that measures the rates of all topics, a few at a time."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ ENOUGH_BYTES = 8_000_000
 
 
 class Measured(NamedTuple):
-    """How often a topic came when it was measured: None if it was quiet, or came only once."""
+    """Measured rate of a topic; None without messages, or with only one."""
 
     rate_hz: float | None
     came: bool
 
 
 class _Probe:
-    """A measurement that goes on."""
+    """A measurement in progress."""
 
     def __init__(self, now_s: float) -> None:
         self.end_s = now_s + DURATION_S
@@ -43,10 +43,10 @@ class _Probe:
 
 class Survey:
     """
-    Says which topics to listen to for a moment, to learn how often each comes.
+    Selects the topics to subscribe to for a short time, to measure their rates.
 
-    A few are measured at a time, for 2.5 s or until thirty messages or 8 MB have come, so that
-    hundreds of topics cost little, and those that are fast or large least.
+    A few are measured at a time, for 2.5 s or until 30 messages or 8 MB have arrived, so that
+    hundreds of topics cost little, and fast or large ones the least.
 
     """
 
@@ -64,14 +64,14 @@ class Survey:
         topic
             The name of the topic.
         time_s
-            When the message came, in s.
+            The time of reception, in s.
         size
             Its size, in bytes.
 
         Returns
         -------
         bool
-            True if the topic need not be heard any longer.
+            True if the measurement of the topic is finished.
 
         """
         probe = self._probes.get(topic)
@@ -84,19 +84,19 @@ class Survey:
 
     def plan(self, topics: Collection[str], now_s: float) -> set[str]:
         """
-        Finish measurements that are over, and start the next ones.
+        Finish completed measurements, and start the next ones.
 
         Parameters
         ----------
         topics
             All topics that could be measured.
         now_s
-            The time of `time.monotonic`.
+            The current time, from `time.monotonic`.
 
         Returns
         -------
         set of str
-            The topics to listen to now, at most four.
+            The topics to subscribe to now, at most four.
 
         """
         for topic in [each for each in self._probes if each not in topics]:
@@ -111,11 +111,11 @@ class Survey:
         return set(self._probes)
 
     def stop(self) -> None:
-        """Measure no longer; what is known stays."""
+        """Cancel all measurements; the results remain."""
         self._probes.clear()
 
     def _next(self, topics: Iterable[str], now_s: float) -> list[str]:
-        """Return those whose turn it is, the longest not measured first."""
+        """Return the topics to measure next, the least recently measured first."""
         due = [
             topic
             for topic in topics

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who publishes and subscribes what."""
+"""Publishers and subscribers of topics, and their QoS compatibility."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def types_of(node: Node) -> dict[str, list[str]]:
     Parameters
     ----------
     node
-        The node that is asked for the graph.
+        The node that is queried for the graph.
 
     """
     return {
@@ -47,14 +47,14 @@ def rows_of(node: Node, types: dict[str, list[str]]) -> list[Row]:
     Parameters
     ----------
     node
-        The node that is asked for the graph.
+        The node that is queried for the graph.
     types
         The types of the topics, by name.
 
     Returns
     -------
     list of Row
-        Name, types, number of publishers and number of subscribers of each.
+        Name, types, number of publishers and number of subscribers of each topic.
 
     """
     return [
@@ -70,14 +70,14 @@ def ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
     Parameters
     ----------
     node
-        The node that is asked for the graph.
+        The node that is queried for the graph.
     topic
         The fully qualified name of the topic.
 
     Returns
     -------
     dict
-        `publishers` and `subscribers`, each as pairs of node name and quality of service.
+        `publishers` and `subscribers`, each as pairs of node name and QoS.
 
     """
     return {
@@ -88,21 +88,21 @@ def ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
 
 def mismatches(node: Node, topic: str) -> list[str]:
     """
-    Find pairs of nodes with incompatible quality of service, between which nothing passes.
+    Find pairs of nodes with incompatible QoS, between which no messages are exchanged.
 
-    A node may have several ends, of which one that fits is enough.
+    A node may have several endpoints, of which one compatible endpoint suffices.
 
     Parameters
     ----------
     node
-        The node that is asked for the graph.
+        The node that is queried for the graph.
     topic
         The fully qualified name of the topic.
 
     Returns
     -------
     list of str
-        At most 5 sentences; none if there are more than 1000 pairs of ends.
+        At most 5 messages; none if there are more than 1000 pairs of endpoints.
 
     """
     publishers = node.get_publishers_info_by_topic(topic)
@@ -136,7 +136,7 @@ def _quality(profile: Any) -> str:
 
 
 def _reason(publisher: Any, subscriber: Any) -> str:
-    """Return why nothing passes, or ''."""
+    """Format the reason for incompatible QoS profiles; '' if they are compatible."""
     status, reason = qos_check_compatible(publisher.qos_profile, subscriber.qos_profile)
     if status != QoSCompatibility.ERROR:
         return ''

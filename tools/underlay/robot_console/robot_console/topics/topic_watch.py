@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look closely at one topic."""
+"""Detailed monitoring of one topic."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ __all__ = ['TopicWatch', 'received_s']
 
 DEPTH = 100
 SHARE = 0.03
-"""The share of time that may be spent with making texts of messages."""
+"""The maximum fraction of time spent on decoding messages to text."""
 
 
 class TopicWatch:
     """
-    Subscribes to one topic: its rate, and now and then the newest message as text.
+    Subscribes to one topic: its rate, and periodically the latest message as text.
 
-    Call `update` periodically; it subscribes with a quality of service that fits the publishers.
+    Call `update` periodically; it subscribes with a QoS profile that matches the publishers.
 
     Parameters
     ----------
@@ -39,13 +39,13 @@ class TopicWatch:
     Attributes
     ----------
     window
-        The times and sizes of the newest messages.
+        The times and sizes of the latest messages.
     reason
-        A sentence on why the topic cannot be watched; '' if it can.
+        A message that explains why the topic cannot be monitored; '' if it can.
     text
-        The newest message that was decoded.
+        The latest decoded message.
     size
-        The size of the newest message, in bytes.
+        The size of the latest message, in bytes.
 
     """
 
@@ -63,7 +63,7 @@ class TopicWatch:
         self._kind = self._found_kind()
 
     def update(self) -> None:
-        """Subscribe anew if others publish, and make a text of the newest message."""
+        """Resubscribe if the QoS of the publishers has changed, and decode the latest message."""
         if self._kind is None:
             return
         publishers = self._node.get_publishers_info_by_topic(self._topic)
@@ -78,7 +78,7 @@ class TopicWatch:
             self._raw = None
 
     def close(self) -> None:
-        """Subscribe no longer."""
+        """Destroy the subscription."""
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
@@ -111,13 +111,13 @@ class TopicWatch:
     def _decode(self, raw: bytes) -> None:
         try:
             self.text = decoded(raw, self._kind)
-        except Exception as error:  # whatever is wrong with the bytes of others
+        except Exception as error:  # any error in the received bytes
             self.text = f'The newest message cannot be read: {error}'
 
 
 def received_s(info: Any) -> float:
     """
-    Get the time at which a message reached this machine.
+    Return the time at which a message was received on this machine.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def received_s(info: Any) -> float:
     Returns
     -------
     float
-        In s of `time.time`; the current time if the middleware does not tell.
+        In s, from `time.time`; the current time if the middleware does not provide it.
 
     """
     return float(info['received_timestamp'] / 1e9 or time.time())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions of the graph."""
+"""Actions in the graph."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Send a goal and follow it to its end."""
+"""Send a goal and wait for its result."""
 
 from __future__ import annotations
 
@@ -46,15 +46,14 @@ LAST_WORDS_S = 5.0
 
 class GoalSender:
     """
-    An action client that sends a goal and follows it to its end.
+    Action client that sends a goal and waits for its result.
 
     Call `wait_for_server`, then `send`.
 
     Parameters
     ----------
     node
-        The node, inside its `with` statement, that the client belongs to and that is spun
-        meanwhile.
+        The node of the client, inside its `with` statement; it is spun while waiting.
     action_type
         The class of the action.
     name
@@ -73,29 +72,29 @@ class GoalSender:
         self._check_signals: Callable[[], None] = lambda: None
 
     def wait_for_server(self) -> None:
-        """Wait as long as it takes."""
+        """Wait for the action server without a timeout."""
         print('Waiting for an action server to become available...')
         patience = Patience(f"a server of the action '{self._name}'", self._hint)
         wait_until(self._node, self._client.server_is_ready, patience)
 
     def send(self, message: OutgoingMessage) -> None:
         """
-        Send a goal, and print its result when it has ended.
+        Send a goal, and print its result.
 
-        SIGINT and SIGTERM cancel the goal before they end the command; each answer to that is
+        SIGINT and SIGTERM cancel the goal before they end the command; each response to that is
         waited for at most 5 s.
 
         Parameters
         ----------
         message
-            The goal; its time stamps that are given as `now` or `auto` are set to the node's time.
+            The goal; time stamps given as `now` or `auto` are set to the node's time.
 
         Raises
         ------
         RuntimeError
-            The server goes away before the goal has ended.
+            The server disappears before the goal has reached a terminal state.
         KeyboardInterrupt, ExternalShutdownException
-            SIGINT or SIGTERM came.
+            SIGINT or SIGTERM was received.
 
         """
         goal = message.stamped(self._node.get_clock().now().to_msg())
@@ -125,7 +124,7 @@ class GoalSender:
         print(f'Goal finished with status: {STATUS_NAMES[response.status]}')
 
     def _cancel(self, sending: Any) -> None:
-        """Cancel the goal if it is active; a server that does not answer is not waited for."""
+        """Cancel the goal if it is active; an unresponsive server is not waited for."""
         try:
             handle = self._wait(sending, 'the acceptance of the goal', LAST_WORDS_S)
             if handle.accepted and handle.status not in ENDS:
@@ -139,7 +138,7 @@ class GoalSender:
     def _wait(
         self, future: Any, what: str, timeout_s: float = float('inf'), *, tells: bool = True
     ) -> Any:
-        """Return the result of a future; RuntimeError if the server does not give it."""
+        """Wait for the result of a future; raise RuntimeError if the server does not respond."""
 
         def is_over() -> bool:
             self._check_signals()
@@ -153,7 +152,7 @@ class GoalSender:
         return future.result()
 
     def _hint(self) -> str:
-        """Return the action of another type or name that may be meant, or ''."""
+        """Return a hint to an action of another type or name that may be meant, or ''."""
         graph = self._node.graph
         servers = get_action_servers(graph, self._name)
         types = [each for server in servers for each in server.types if each != self._type_name]
@@ -164,26 +163,26 @@ class GoalSender:
 
 
 class FeedbackPrinter:
-    """Prints feedback, but none before the acceptance of the goal that it belongs to."""
+    """Feedback printer that holds feedback back until its goal is accepted."""
 
     def __init__(self) -> None:
-        """Keep what comes first."""
+        """Start by buffering feedback."""
         self._early: list[Any] | None = []
 
     def __call__(self, message: Any) -> None:
-        """Print a piece of feedback, or keep it."""
+        """Print a feedback message, or buffer it until `begin`."""
         if self._early is None:
             print(f'Feedback:\n{_indented(message.feedback, 4)}')
         else:
             self._early.append(message)
 
     def begin(self) -> None:
-        """Print what came too early, and from now on all at once."""
+        """Print the buffered feedback, and from now on all feedback immediately."""
         early, self._early = self._early or [], None
         for message in early:
             self(message)
 
 
 def _indented(message: Any, width: int) -> str:
-    """Return a message as YAML, moved to the right."""
+    """Format a message as indented YAML."""
     return indent(to_yaml(message), ' ' * width)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""SIGINT and SIGTERM as requests, so that there is time for some last words."""
+"""Handling of SIGINT and SIGTERM as requests, to allow a clean shutdown."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ EXCEPTIONS = {signal.SIGINT: KeyboardInterrupt, signal.SIGTERM: ExternalShutdown
 @contextmanager
 def signals_as_requests() -> Iterator[Callable[[], None]]:
     """
-    Take SIGINT and SIGTERM over, and yield a function that raises for the oldest not yet raised.
+    Handle SIGINT and SIGTERM, and yield a function that raises for the oldest pending one.
 
-    rclpy would cut off all communication at SIGTERM; and an exception in the middle of its work
-    loses the message that it has just taken. So one asks, between two pieces of work.
+    rclpy would shut all communication down at SIGTERM, and an exception inside of a callback or a
+    wait loses the message just taken. So callers poll for signals between two steps of work.
     """
     received: list[int] = []
 

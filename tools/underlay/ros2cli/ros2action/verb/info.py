@@ -44,7 +44,7 @@ class InfoVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         from ros2action.api import get_action_clients, get_action_servers

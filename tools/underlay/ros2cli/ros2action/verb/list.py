@@ -34,7 +34,7 @@ class ListVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         from ros2action.api import get_action_names_and_types

@@ -42,12 +42,12 @@ class SendGoalVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Raises
         ------
         RuntimeError
-            The type, the name or the values are wrong, or the server goes away.
+            The type, the name or the values are wrong, or the server disappears.
 
         """
         from ros2action.api.sending import GoalSender

@@ -35,12 +35,12 @@ class TypeVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Returns
         -------
         int or str or None
-            0, or 1 if nobody has the action.
+            0, or 1 if the action does not exist.
 
         """
         from ros2action.api import get_action_names_and_types

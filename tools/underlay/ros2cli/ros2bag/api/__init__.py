@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recording and playing, which need ROS, and what the verbs print."""
+"""Recording and playback, which need ROS, and the output of the verbs."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers on the command line that may be zero, and options that are refused with a reason."""
+"""Argument types for numbers that may be zero, and options that are rejected with a reason."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ __all__ = ['Refused', 'count', 'not_negative']
 
 def count(text: str) -> int:
     """
-    Parse a non-negative integer of the command line.
+    Parse a non-negative integer argument.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Returns
     -------
@@ -27,7 +27,7 @@ def count(text: str) -> int:
     Raises
     ------
     argparse.ArgumentTypeError
-        The text is no such number.
+        The text is not such a number.
 
     """
     try:
@@ -41,12 +41,12 @@ def count(text: str) -> int:
 
 def not_negative(text: str) -> float:
     """
-    Parse a finite non-negative number of the command line.
+    Parse a finite non-negative number argument.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def not_negative(text: str) -> float:
     Raises
     ------
     argparse.ArgumentTypeError
-        The text is no such number.
+        The text is not such a number.
 
     """
     try:
@@ -70,16 +70,16 @@ def not_negative(text: str) -> float:
 
 class Refused(argparse.Action):
     """
-    The argparse action of a rosbag2 option that is not supported here.
+    Argparse action of a rosbag2 option that is not supported here.
 
-    Whoever uses the option gets a usage error with the reason; the help does not list it.
+    Using the option is a usage error with the reason; the help does not list it.
 
     Parameters
     ----------
     option_strings, dest
-        As argparse passes them; the values that follow the option do not matter.
+        As argparse passes them; values that follow the option are ignored.
     reason
-        What the usage error says after "is not possible here:".
+        The text of the usage error after "is not possible here:".
 
     """
 
@@ -94,5 +94,5 @@ class Refused(argparse.Action):
         values: Any,
         option_string: str | None = None,
     ) -> None:
-        """End with a usage error."""
+        """Exit with a usage error."""
         parser.error(f'{option_string} is not possible here: {self._reason}')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish the recorded time, on /clock unless that is renamed."""
+"""Publisher of the recorded time, on /clock unless it is remapped."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ class ClockOutlet:
 
     def tick(self, pacing: Pacing) -> int:
         """
-        Publish the recorded time if that is due.
+        Publish the recorded time if it is due.
 
         Parameters
         ----------
         pacing
-            What maps wall time to recorded time.
+            The mapping of wall time to recorded time.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `ros2 bag info` prints."""
+"""Output of `ros2 bag info`."""
 
 from __future__ import annotations
 
@@ -118,13 +118,13 @@ def _qos(qos: OfferedQos) -> str:
 
 
 def _seconds(duration_ns: int) -> str:
-    """Return a duration in seconds to the nanosecond, without zeros at the end."""
+    """Format a duration in seconds to the nanosecond, without trailing zeros."""
     seconds, rest = divmod(duration_ns, NS_PER_S)
     return f'{seconds}.{rest:09d}'.rstrip('0').rstrip('.')
 
 
 def _moment(span: MessageSpan, time_ns: int) -> str:
-    """Return a time as people read it and as ROS has it."""
+    """Format a time as local date and time, and as a ROS time stamp."""
     if not span.message_count:
         return 'none'
     seconds, rest = divmod(time_ns, NS_PER_S)

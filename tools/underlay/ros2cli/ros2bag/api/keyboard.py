@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Single keys from the terminal, without waiting for them."""
+"""Non-blocking keyboard input from the terminal."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ MAX_BYTES = 64
 
 class Keyboard:
     """
-    The keys pressed while in a `with` statement, read without blocking.
+    Non-blocking reader of pressed keys; use it in a `with` statement.
 
-    There are none if stdin is not a terminal, or if the command runs in the background.
+    It reports none if stdin is not a terminal, or if the command runs in the background.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class Keyboard:
         self._before: list[Any] | None = None
 
     def __enter__(self) -> Keyboard:
-        """Let the terminal hand over each key at once; Ctrl-C stays a signal."""
+        """Disable the line buffering and echo of the terminal; Ctrl-C still sends SIGINT."""
         if self._is_wanted and _is_in_foreground():
             self._before = termios.tcgetattr(sys.stdin)
             raw = termios.tcgetattr(sys.stdin)
@@ -43,7 +43,7 @@ class Keyboard:
         return self
 
     def pressed(self) -> str:
-        """Return what was pressed since the last call; '' is nothing."""
+        """Return the keys pressed since the last call; '' for none."""
         if self._before is None or not select.select([sys.stdin], [], [], 0)[0]:
             return ''
         return os.read(sys.stdin.fileno(), MAX_BYTES).decode(errors='ignore')
@@ -54,13 +54,13 @@ class Keyboard:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Leave the terminal as it was."""
+        """Restore the terminal settings."""
         if self._before is not None:
             termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._before)
 
 
 def _is_in_foreground() -> bool:
-    """Tell if stdin is a terminal that is not somebody else's at the moment."""
+    """Whether stdin is a terminal and this process is in its foreground process group."""
     if sys.stdin is None or not sys.stdin.isatty():
         return False
     try:

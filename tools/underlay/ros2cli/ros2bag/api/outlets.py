@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The publishers of a recording that is played."""
+"""Publishers for playback of a bag."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ HASH_START = 'RIHS01_'
 
 class Outlets:
     """
-    The publishers of a bag that is played, one per topic.
+    Publishers for playback of a bag, one per topic.
 
-    A topic whose type is not installed, or has changed since, is not played, which is a warning.
+    A topic whose type is not installed, or has changed since, is skipped with a warning.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Outlets:
         Parameters
         ----------
         limit_ms
-            How long to wait at most for all topics together, in ms; zero is without limit.
+            The timeout for all topics together, in ms; zero means no timeout.
 
         """
         end = time.monotonic() + (limit_ms / 1e3 or float('inf'))
@@ -112,7 +112,7 @@ class Outlets:
     def _create(
         self, topic: Topic, names: Mapping[str, str], overrides: Mapping[str, Any]
     ) -> tuple[Any, str]:
-        """Return the publisher, or why there can be none."""
+        """Create a publisher; return it, or None with the reason."""
         try:
             message_type = get_message(topic.type_name)
         except UnknownType as error:
@@ -126,7 +126,7 @@ class Outlets:
         return publisher, ''
 
     def _hashes(self, name: str) -> set[str]:
-        """Return the hashes of the types of our own publishers of a topic."""
+        """Return the type hashes of our own publishers of a topic."""
         return {
             str(info.topic_type_hash)
             for info in self._node.get_publishers_info_by_topic(name)

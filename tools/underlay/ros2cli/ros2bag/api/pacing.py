@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When each recorded moment is due."""
+"""Pacing of playback: mapping of recorded time to wall time."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ __all__ = ['Pacing']
 
 class Pacing:
     """
-    Maps wall time to recorded time, from now on, at a playback rate.
+    Mapping of wall time to recorded time, from now on, at a playback rate.
 
     Parameters
     ----------
     recorded_ns
-        The recorded time that is now, in ns since the epoch.
+        The recorded time that corresponds to now, in ns since the epoch.
     rate
-        How many recorded seconds pass in one second; may be infinite.
+        Recorded seconds per second; may be infinite.
     now_ns
-        The clock, in ns; a monotonic one.
+        A monotonic clock, in ns.
 
     """
 
@@ -35,12 +35,12 @@ class Pacing:
 
     @property
     def rate(self) -> float:
-        """Return how many recorded seconds pass in one."""
+        """Return the playback rate, in recorded seconds per second."""
         return self._rate
 
     @property
     def recorded_now_ns(self) -> int:
-        """Return the recorded moment that is now."""
+        """Return the recorded time that corresponds to now."""
         if self._is_held or self._rate == float('inf'):
             return self._anchor_recorded_ns
         elapsed_ns = self._now_ns() - self._anchor_ns
@@ -48,7 +48,7 @@ class Pacing:
 
     def wait_ns(self, recorded_ns: int) -> int:
         """
-        Compute how long it takes until a recorded time is due; not meant for while time is held.
+        Compute the wall time until a recorded time is due; invalid while time is held.
 
         Parameters
         ----------
@@ -65,13 +65,13 @@ class Pacing:
         return due_ns - self._now_ns()
 
     def hold(self) -> None:
-        """Let recorded time stand still."""
+        """Pause the recorded time."""
         if not self._is_held:
             self._anchor_recorded_ns = self.recorded_now_ns
             self._is_held = True
 
     def release(self) -> None:
-        """Let recorded time go on."""
+        """Resume the recorded time."""
         if self._is_held:
             self._is_held = False
             self._anchor_ns = self._now_ns()
@@ -83,7 +83,7 @@ class Pacing:
         Parameters
         ----------
         recorded_ns
-            The recorded time that is now, in ns since the epoch.
+            The recorded time that corresponds to now, in ns since the epoch.
 
         """
         self._anchor_recorded_ns = recorded_ns
@@ -96,7 +96,7 @@ class Pacing:
         Parameters
         ----------
         rate
-            How many recorded seconds pass in one second; may be infinite.
+            Recorded seconds per second; may be infinite.
 
         """
         self.jump_to(self.recorded_now_ns)

@@ -16,9 +16,9 @@ class PauseSwitch:
     Parameters
     ----------
     is_paused
-        Whether it starts paused; also an attribute, with the present state.
+        Whether it starts paused; also an attribute with the current state.
     say
-        Called with a text at each change.
+        Called with a message at each change.
 
     """
 
@@ -28,7 +28,7 @@ class PauseSwitch:
 
     def change_to(self, is_paused: bool) -> None:
         """
-        Pause or resume; without a change nothing is said.
+        Pause or resume; nothing is reported without a change.
 
         Parameters
         ----------
@@ -41,7 +41,7 @@ class PauseSwitch:
             self._say('Paused.' if is_paused else 'Resumed.')
 
     def toggle(self) -> None:
-        """Change to the other."""
+        """Toggle the paused state."""
         self.change_to(not self.is_paused)
 
 
@@ -54,7 +54,7 @@ def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
     node
         The node that offers them.
     switch
-        What they change.
+        The paused state that they change.
 
     """
     from std_srvs.srv import Trigger

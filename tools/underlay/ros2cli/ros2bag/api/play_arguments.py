@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options of `ros2 bag play` and `burst`; importing this does not import rclpy."""
+"""Options of `ros2 bag play` and `burst`; importing this does not import rclpy."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ def add_span_arguments(parser: argparse.ArgumentParser) -> None:
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:
     """
-    Build the topic filter for playback; without a choice it passes all topics.
+    Build the topic filter for playback; by default it passes all topics.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
     Raises
     ------
     RuntimeError
-        What stands for a topic is not a valid name.
+        A given topic name is not valid.
 
     """
     return TopicFilter(

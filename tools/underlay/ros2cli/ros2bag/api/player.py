@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish recorded messages when they are due."""
+"""Playback of recorded messages at their due times."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ros2bag.storage.latched import RecordedMessage
 __all__ = ['Player']
 
 STEP_NS = 50_000_000
-# The executor is given no time shortly before a message is due: a plain sleep ends in time.
+# The executor is not spun shortly before a message is due: a plain sleep ends on time.
 EXACT_NS = 3_000_000
 FASTER = 1.1
 
 
 class Player:
     """
-    Publishes recorded messages when they are due, serving the keyboard and services meanwhile.
+    Publisher of recorded messages at their due times; serves keyboard and services meanwhile.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class Player:
     outlets
         The publishers.
     clock
-        What publishes the recorded time, or None.
+        The publisher of the recorded time, or None.
     switch
         The paused state, which SPACE toggles.
     keyboard
@@ -64,14 +64,14 @@ class Player:
         Parameters
         ----------
         messages
-            In the order in which they are to be published, all of topics of the outlets.
+            In publication order; all of their topics must be among the outlets.
         pacing
-            When a recorded time is due; pausing and keys change it.
+            The due times of recorded messages; pausing and keys change them.
 
         Returns
         -------
         int
-            How many messages were published.
+            The number of published messages.
 
         """
         count = 0
@@ -90,7 +90,7 @@ class Player:
         recorded_ns
             In ns since the epoch.
         pacing
-            When it is due, as for `play`.
+            The due times, as for `play`.
 
         """
         self._wait_until(recorded_ns, pacing)
@@ -114,7 +114,7 @@ class Player:
             self._idle(left_ns, pacing)
 
     def _idle(self, left_ns: int, pacing: Pacing) -> None:
-        """Let time pass, at most until the clock is to be published."""
+        """Spin or sleep for the remaining time, at most until the clock is due."""
         if self._clock is not None:
             left_ns = min(left_ns, self._clock.tick(pacing))
         if left_ns > EXACT_NS:
@@ -123,7 +123,7 @@ class Player:
             time.sleep(left_ns / 1e9)
 
     def _is_service_due(self) -> bool:
-        """Tell if the keyboard has not been listened to for long, because messages are dense."""
+        """Whether the keyboard and services are overdue because messages are dense."""
         return time.monotonic_ns() - self._served_ns > STEP_NS
 
     def _serve_others(self, pacing: Pacing) -> None:

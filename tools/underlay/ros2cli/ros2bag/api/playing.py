@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `ros2 bag play` does from beginning to end."""
+"""Complete run of `ros2 bag play` and `burst`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FOR_EVER_NS = 2**63 - 1
 
 def play(args: argparse.Namespace) -> None:
     """
-    Play a bag as the command line of `ros2 bag play` or `burst` says.
+    Play a bag with the options of `ros2 bag play` or `burst`.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def play(args: argparse.Namespace) -> None:
     Raises
     ------
     BagError
-        The bag cannot be read, has nothing of what is chosen, or the QoS overrides are malformed.
+        The bag cannot be read, has no selected messages, or the QoS overrides are malformed.
     RuntimeError
         The name of a topic in the options is not valid.
 
@@ -70,7 +70,7 @@ def play(args: argparse.Namespace) -> None:
 
 
 def _chosen_topics(reader: BagReader, args: argparse.Namespace) -> list[Topic]:
-    """Return the topics that are played; RuntimeError names one that was not recorded."""
+    """Return the topics to play; raise RuntimeError for one that was not recorded."""
     known = [each.topic for each in reader.metadata.topics]
     chosen = filter_of(args)
     names = [topic.name for topic in known]
@@ -87,7 +87,7 @@ def _chosen_topics(reader: BagReader, args: argparse.Namespace) -> list[Topic]:
 
 
 def _warn_of_unknown_topics(reader: BagReader, args: argparse.Namespace, logger: Any) -> None:
-    """Warn of topics that are to be renamed or left out, but are not there."""
+    """Warn of topics to remap or exclude that are not in the bag."""
     recorded = [each.topic.name for each in reader.metadata.topics]
     there = [*recorded, CLOCK_TOPIC] if args.clock else recorded
     for name in sorted({*remaps(args), *filter_of(args).excluded_topics}.difference(there)):

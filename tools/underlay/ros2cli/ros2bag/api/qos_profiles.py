@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Quality of service: from publishers to the recording and back."""
+"""Conversion of QoS profiles from publishers to the recording and back."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LATCHED_DEPTH = 10
 
 def offered_by(publishers: Iterable[Any]) -> tuple[OfferedQos, ...]:
     """
-    Convert the discovered QoS of publishers to what a bag stores.
+    Convert the discovered QoS of publishers to the form that a bag stores.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def offered_by(publishers: Iterable[Any]) -> tuple[OfferedQos, ...]:
 
 def playback_profile(topic: Topic) -> QoSProfile:
     """
-    Choose a QoS profile that connects to whoever could subscribe to the recorded publishers.
+    Choose a QoS profile compatible with every subscription that the recorded publishers match.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def read_overrides(path: str | None) -> dict[str, QoSProfile]:
 
 
 def _latched_depth(offered: Iterable[OfferedQos]) -> int:
-    """Return how many messages are kept for late subscribers; the DDS often hides the depth."""
+    """Return the total depth of latched publishers; discovery often does not transmit it."""
     return sum(qos.depth or LATCHED_DEPTH for qos in offered if qos.is_latched)
 
 

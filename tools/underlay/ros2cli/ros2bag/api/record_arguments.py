@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options of `ros2 bag record`; importing this does not import rclpy."""
+"""Options of `ros2 bag record`; importing this does not import rclpy."""
 
 from __future__ import annotations
 
@@ -188,7 +188,7 @@ def _add_behaviour(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_refused(parser: argparse.ArgumentParser) -> None:
-    """Say of what rosbag2 can do and this cannot that it is so."""
+    """Add the unsupported rosbag2 options, which are rejected with a reason."""
     for name in ('--all-services', '--services', '--exclude-services', '--all-actions'):
         parser.add_argument(name, action=Refused, reason=SERVICES)
     parser.add_argument('--snapshot-mode', action=Refused, reason=SNAPSHOT)
@@ -206,7 +206,7 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
     Raises
     ------
     RuntimeError
-        What stands for a topic is not a valid name.
+        A given topic name is not valid.
 
     """
     return TopicFilter(
@@ -255,7 +255,7 @@ def compression_of(args: argparse.Namespace) -> str:
     Parameters
     ----------
     args : argparse.Namespace
-        The options of `add_record_arguments`; an explicit format counts before the preset.
+        The options of `add_record_arguments`; an explicit format takes precedence over the preset.
 
     """
     if args.compression_format and args.compression_mode != 'none':
@@ -265,7 +265,7 @@ def compression_of(args: argparse.Namespace) -> str:
 
 def output_folder(args: argparse.Namespace) -> str:
     """
-    Return the folder to record to; by default its name has the local date and time.
+    Return the output folder; its default name contains the local date and time.
 
     Parameters
     ----------

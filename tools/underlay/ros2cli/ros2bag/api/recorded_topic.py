@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The subscription to one topic that is recorded."""
+"""Subscription to one recorded topic."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['RecordedTopic']
 
 class RecordedTopic:
     """
-    A subscription to the serialized messages of a topic that adapts to its publishers.
+    Serialized subscription to a topic that adapts its QoS to the publishers.
 
     When a publisher appears that offers less than the others, the subscription is replaced so that
     it receives from all of them. `update` creates it.
@@ -30,7 +30,7 @@ class RecordedTopic:
     receive
         Called with each serialized message and the message info of rclpy.
     override
-        The QoS profile to subscribe with, whatever publishers offer; None adapts to them.
+        The QoS profile to subscribe with regardless of the publishers; None adapts to them.
 
     """
 
@@ -70,7 +70,7 @@ class RecordedTopic:
         return Topic(self.name, self.type_name, next(hashes, ''), offered_by(publishers))
 
     def _is_weaker(self, profile: Any) -> bool:
-        """Tell if a publisher now offers less than what the subscription asks for."""
+        """Whether a publisher now offers a weaker QoS than the subscription requests."""
         return bool(
             profile.reliability > self._profile.reliability
             or profile.durability > self._profile.durability
@@ -79,13 +79,13 @@ class RecordedTopic:
     def _subscribe(self, profile: Any) -> None:
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
-        # Without an override nothing stays incompatible: see `update`.
+        # Without an override no incompatibility persists: see `update`.
         events = SubscriptionEventCallbacks(use_default_callbacks=self._override is not None)
         self._profile = profile
         self._subscription = self._node.create_subscription(
             self._message_type,
             self.name,
-            # rclpy looks at how many arguments a callback has.
+            # rclpy inspects the number of arguments of a callback.
             lambda data, info: self._receive(data, info),
             profile,
             event_callbacks=events,

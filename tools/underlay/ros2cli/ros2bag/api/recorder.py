@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record topics: find them, subscribe, and hand their messages to the writer."""
+"""Record topics: discover them, subscribe, and pass their messages to the writer."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ REST_S = 5.0
 
 class Recorder:
     """
-    Discovers topics, subscribes to them, and hands their messages to a bag writer.
+    Recorder that discovers topics, subscribes to them, and passes their messages to a bag writer.
 
-    Call `discover` from time to time while the node is spun, and `take_rest` at the end.
+    Call `discover` periodically while the node is spun, and `take_rest` at the end.
 
     Parameters
     ----------
@@ -38,18 +38,18 @@ class Recorder:
     topic_filter
         Which topics to record.
     switch
-        The paused state: while paused only latched messages are kept, for `release_held`.
+        The paused state: while paused, only latched messages are kept, for `release_held`.
     use_sim_time
-        Whether messages get the time of `/clock` instead of the time when they were received.
+        Whether messages are stamped with the time of `/clock` instead of their reception time.
     include_unpublished
-        Whether topics without a publisher are put in the list of topics, too.
+        Whether topics without a publisher are added to the list of topics, too.
     overrides
         QoS profiles to subscribe with, by topic name.
 
     Attributes
     ----------
     received_count
-        How many messages have been received, paused or not.
+        The number of received messages, paused or not.
 
     """
 
@@ -80,33 +80,33 @@ class Recorder:
 
     @property
     def topic_count(self) -> int:
-        """Return how many topics are subscribed to."""
+        """Return the number of subscribed topics."""
         return sum(topic is not None for topic in self._topics.values())
 
     @property
     def missing(self) -> list[str]:
-        """Return the topics that were asked for by name and have not appeared."""
+        """Return the topics that were requested by name and have not appeared."""
         return sorted(self._filter.topics.difference(self._topics))
 
     def discover(self) -> None:
-        """Subscribe to topics that have appeared, and follow their publishers."""
+        """Subscribe to new topics, and adapt to changes of their publishers."""
         graph = self._node.watch.updated()
         for name, types in get_topic_names_and_types(node=graph, include_hidden_topics=True):
             if self._filter.wants(name, types[0]) and self._has_changed(graph, name):
                 self._follow(graph, name, types)
 
     def release_held(self) -> None:
-        """Record the latched messages that came during a pause, which is over."""
+        """Record the latched messages that arrived during the pause that has ended."""
         held, self._held = self._held, []
         for message in held:
             self._writer.write(message._replace(log_ns=self._now_ns()))
 
     def take_rest(self) -> None:
         """
-        Record what had arrived before now, however long a busy machine takes, and nothing later.
+        Record all messages that arrived before now, even on a busy machine, and no later ones.
 
-        It is over when nothing happens any more, or when each topic has had its turn and only
-        messages that are too late came; after 5 s at the latest.
+        It ends when no messages are left, or when each topic has been served and only later
+        messages arrive; after 5 s at the latest.
         """
         self._end_ns = time.time_ns()
         end_s = time.monotonic() + REST_S
@@ -122,7 +122,7 @@ class Recorder:
                 turns += 1
 
     def _has_changed(self, graph: Graph, name: str) -> bool:
-        """Tell if a topic has other publishers than at the last look."""
+        """Whether the publishers of a topic have changed since the last discovery."""
         count = graph.count_publishers(name)
         if count == self._publisher_counts.get(name, 0) and not (
             self._include_unpublished and name not in self._topics
@@ -141,7 +141,7 @@ class Recorder:
             self._note(topic.update(publishers))
 
     def _warn_of_types(self, topic: RecordedTopic, types: list[str]) -> None:
-        """Say that what others now publish with another type is left out."""
+        """Warn that messages of other types on the topic are not recorded."""
         others = [each for each in types if each != topic.type_name]
         if others:
             self._node.get_logger().warning(
@@ -155,7 +155,7 @@ class Recorder:
             self._latched.add(topic.name)
 
     def _create(self, name: str, types: list[str]) -> RecordedTopic | None:
-        """Return the subscription, or say why this topic cannot be recorded."""
+        """Create the subscription, or log why this topic cannot be recorded."""
         logger = self._node.get_logger()
         if len(types) > 1:
             logger.warning(

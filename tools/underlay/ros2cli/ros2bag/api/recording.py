@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `ros2 bag record` does from beginning to end."""
+"""Complete run of `ros2 bag record`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NS_PER_S = 1_000_000_000
 
 def record(args: argparse.Namespace) -> None:
     """
-    Record topics until a signal comes, and complete the bag.
+    Record topics until a signal arrives, and complete the bag.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def record(args: argparse.Namespace) -> None:
     RuntimeError
         The name of a topic in the options is not valid.
     KeyboardInterrupt, ExternalShutdownException
-        A signal came before the recording had begun.
+        A signal arrived before the recording started.
 
     """
     topic_filter = filter_of(args)
@@ -66,7 +66,7 @@ def _record(
     args: argparse.Namespace,
     stop: StopSignals,
 ) -> None:
-    """Make the bag, record until a signal comes, and finish the bag whatever happens."""
+    """Create the bag, record until a signal arrives, and finish the bag in any case."""
     folder = output_folder(args)
     writer = BagWriter(folder, _options(args), find_definition)
     switch = PauseSwitch(args.start_paused, node.get_logger().info)
@@ -91,7 +91,7 @@ def _record(
 
 def find_definition(type_name: str) -> Definition:
     """
-    Return the definition of a message type that is installed.
+    Return the definition of an installed message type.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def _options(args: argparse.Namespace) -> WriterOptions:
 
 
 def _wait_for_clock(node: Any, use_sim_time: bool, stop: StopSignals) -> None:
-    """Wait for the simulated time; what came before it could not be given a time."""
+    """Wait for simulated time; earlier messages could not be stamped."""
     patience = Patience('the time on /clock')
     while use_sim_time and not stop and not node.get_clock().now().nanoseconds:
         node.spin_once(PERIOD_S)
@@ -138,7 +138,7 @@ def _run(
         'Paused: SPACE or the service ~/resume starts.' if args.start_paused else 'Recording...'
     )
     patience = Patience('a topic that is to be recorded', lambda: _missing_text(node, recorder))
-    # Without discovery there is one look, when the graph is known.
+    # Without discovery the topics are read once, when the graph is complete.
     period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
     node.watch.settled()
     next_look_s = 0.0
@@ -159,7 +159,7 @@ def _run(
 
 
 def _missing_text(node: Any, recorder: Recorder) -> str:
-    """Return which topics that were named are not there yet, and what may be meant."""
+    """Format the missing requested topics, with suggestions for misspelt names."""
     known = [name for name, _ in node.get_topic_names_and_types()]
     missing = (f'{name}. {did_you_mean(name, known)}'.rstrip() for name in recorder.missing)
     return ' '.join(f'Not there yet: {text}' for text in missing)

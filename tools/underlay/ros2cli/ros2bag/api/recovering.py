@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `ros2 bag recover` prints while it works."""
+"""Output of `ros2 bag recover`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PERIOD_S = 2.0
 
 def recover_and_report(folder: str) -> None:
     """
-    Recover a bag, and print progress and what became of each file.
+    Recover a bag, and print progress and the outcome of each file.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def _outcome_text(outcome: RecoveredFile) -> str:
 
 
 class _Progress:
-    """Says from time to time how far the work is."""
+    """Periodic progress report."""
 
     def __init__(self) -> None:
         self._next_s = time.monotonic() + PERIOD_S

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End the work between two messages when a signal comes, never in the middle of one."""
+"""Deferred stop signals: work ends between two messages, never in the middle of one."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class StopSignals:
-    """Takes note of SIGINT, SIGTERM and SIGHUP while in a `with` statement."""
+    """Recorder of SIGINT, SIGTERM and SIGHUP; use it in a `with` statement."""
 
     def __init__(self) -> None:
-        """Do nothing before the `with`."""
+        """Initialize without installing handlers."""
         self._first: int | None = None
         self._before: dict[signal.Signals, Any] = {}
 
     def __enter__(self) -> StopSignals:
-        """Take the signals over from rclpy."""
+        """Replace the signal handlers of rclpy."""
         uninstall_signal_handlers()
         for number in SIGNALS:
             self._before[number] = signal.signal(number, self._note)
         return self
 
     def __bool__(self) -> bool:
-        """Tell if a signal has come."""
+        """Whether a signal has been received."""
         return self._first is not None
 
     def raise_if_any(self) -> None:
-        """Raise what the first signal would have raised, for the exit status."""
+        """Raise the exception of the first signal, for the exit status."""
         if self._first == signal.SIGINT:
             raise KeyboardInterrupt
         if self._first is not None:
@@ -47,7 +47,7 @@ class StopSignals:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Give the signals back."""
+        """Restore the previous signal handlers."""
         for number, handler in self._before.items():
             signal.signal(number, handler)
 

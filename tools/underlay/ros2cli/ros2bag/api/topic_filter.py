@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Choose the topics that are recorded or played."""
+"""Selection of the topics to record or play."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ['TopicFilter', 'regular_expression']
 
 @dataclass(frozen=True)
 class TopicFilter:
-    """What is asked for, less what is excluded."""
+    """Topic filter: the requested topics minus the excluded ones."""
 
     everything: bool = False
     topics: frozenset[str] = frozenset()
@@ -27,7 +27,7 @@ class TopicFilter:
 
     def wants(self, name: str, type_name: str) -> bool:
         """
-        Whether a topic is chosen; one that is named is chosen even if it is hidden.
+        Whether a topic is selected; one given by name is selected even if it is hidden.
 
         Parameters
         ----------
@@ -53,12 +53,12 @@ class TopicFilter:
 
 def regular_expression(text: str) -> re.Pattern[str]:
     """
-    Compile a regular expression of the command line.
+    Compile a regular expression argument.
 
     Parameters
     ----------
     text
-        The word that the user has written.
+        The argument text.
 
     Raises
     ------

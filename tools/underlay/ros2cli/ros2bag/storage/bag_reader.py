@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a recording: its metadata and its messages in the order of their times."""
+"""Read a recording: its metadata, and its messages in the order of log time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ['BagReader']
 
 class BagReader:
     """
-    Reads a bag: its folder, or a single MCAP file.
+    Reader of a bag: its folder, or a single MCAP file.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class BagReader:
     Attributes
     ----------
     metadata
-        What `metadata.yaml`, or the index of the file, says.
+        The metadata from `metadata.yaml`, or from the index of the file.
 
     Raises
     ------
@@ -52,7 +52,7 @@ class BagReader:
 
     @property
     def size_bytes(self) -> int:
-        """Return how large the files are that exist."""
+        """Return the total size of the existing files."""
         return sum(os.path.getsize(path) for path in self._paths() if os.path.exists(path))
 
     @property
@@ -61,7 +61,7 @@ class BagReader:
         return [path for path in self._paths() if not os.path.exists(path)]
 
     def check(self) -> None:
-        """Raise BagError if the messages cannot be read from all files."""
+        """Raise BagError unless messages can be read from all files."""
         metadata = self.metadata
         if metadata.storage_identifier != 'mcap' or metadata.compression_mode not in ('', 'none'):
             raise BagError(_foreign_text(self.path, metadata))
@@ -79,7 +79,7 @@ class BagReader:
         Parameters
         ----------
         topics
-            The names of the topics to read; all if None.
+            The names of the topics to read; None for all.
         start_ns
             The earliest log time, in ns since the epoch.
 
@@ -91,7 +91,7 @@ class BagReader:
         Raises
         ------
         BagError
-            A file is missing or unreadable; BrokenFile if it is cut off or damaged.
+            A file is missing or unreadable; BrokenFile if it is truncated or damaged.
 
         """
         from mcap.reader import SeekingReader
@@ -127,7 +127,7 @@ def read_metadata(folder: str) -> BagMetadata:
     Raises
     ------
     BagError
-        It is not there, cannot be read, or is malformed.
+        It does not exist, cannot be read, or is malformed.
 
     """
     path = os.path.join(folder, FILE_NAME)

@@ -25,7 +25,7 @@ DEFAULT_DISTRO = 'jazzy'
 
 @dataclass(frozen=True)
 class WriterOptions:
-    """How a recording is written; zero means no limit."""
+    """Options for writing a recording; zero means no limit."""
 
     compression: str = 'none'
     max_bytes: int = 0
@@ -36,16 +36,16 @@ class WriterOptions:
 
 class BagWriter:
     """
-    Writes a bag: a folder of MCAP files, split by size or time, and `metadata.yaml`.
+    Writer of a bag: a folder of MCAP files, split by size or time, and `metadata.yaml`.
 
-    When the disk is full the bag is completed with room that was reserved, and BagError is raised.
+    When the disk is full, the bag is completed in reserved space, and BagError is raised.
 
     Parameters
     ----------
     folder
         The folder to create.
     options
-        Compression, limits and what else is stored.
+        Compression, limits and custom data.
     find_definition
         Returns the definition of a message type such as `std_msgs/msg/String`.
 
@@ -75,15 +75,15 @@ class BagWriter:
 
     @property
     def message_count(self) -> int:
-        """Return how many messages have been written to all files."""
+        """Return the number of messages written to all files."""
         return self.metadata().span.message_count
 
     def set_topic(self, topic: Topic) -> None:
         """
-        Register a topic, or update what its publishers offer now.
+        Register a topic, or update the QoS that its publishers offer now.
 
-        What is recorded of a topic is what was known first: readers want it to be the same in all
-        files and in `metadata.yaml`. Later publishers decide which messages are latched.
+        The first description of a topic is recorded: readers expect it to be the same in all
+        files and in `metadata.yaml`. Later publishers only affect which messages are latched.
 
         Parameters
         ----------
@@ -98,7 +98,7 @@ class BagWriter:
 
     def write(self, message: RecordedMessage) -> None:
         """
-        Write a message, after starting the next file if this one is full.
+        Write a message; start the next file first if this one is full.
 
         Parameters
         ----------
@@ -122,7 +122,7 @@ class BagWriter:
             self._latched.add(message, topic)
 
     def flush_if_due(self) -> None:
-        """Write what has waited for long enough."""
+        """Write the current chunk if it is old enough."""
         try:
             self._file.flush_if_due()
         except OSError as error:
@@ -138,14 +138,14 @@ class BagWriter:
                 self._stop(error)
 
     def metadata(self) -> BagMetadata:
-        """Return what there is to say about all files."""
+        """Return the metadata of all files."""
         return replace(
             merged([*self._finished, self._file.metadata()]),
             custom_data=self._options.custom_data,
         )
 
     def _start(self, folder: str) -> Reserve:
-        """Create the folder and reserve some room in it."""
+        """Create the folder and reserve disk space in it."""
         try:
             os.makedirs(self._folder)
         except FileExistsError as error:
@@ -179,7 +179,7 @@ class BagWriter:
         return bool(too_large or too_long)
 
     def _split(self, now_ns: int) -> None:
-        """Start the next file with the topics and what late subscribers would get."""
+        """Start the next file with the topics and the latched messages."""
         self._file.finish()
         following = self._create_file(len(self._finished) + 1)
         self._file.close()
@@ -203,7 +203,7 @@ class BagWriter:
         self._is_open = False
 
     def _stop(self, error: OSError) -> NoReturn:
-        """Finish the recording with the room that was kept for that."""
+        """Finish the recording in the reserved disk space."""
         self._reserve.release()
         try:
             self._finish()

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Unpack chunks of MCAP files without being made to fill the memory.
+Decompression of MCAP chunks within a memory limit.
 
-A few kilobytes of a compressed chunk can stand for gigabytes. What a chunk says of its own size
-is limited, absolutely and against what it takes in the file, and the decompressor gets room for
-no more than that. The `mcap` library trusts the chunk; `limit_chunks` replaces its function.
+A few kilobytes of a compressed chunk can expand to gigabytes. The declared size of a chunk is
+limited, absolutely and relative to its size in the file, and the decompressor may output no
+more than that. The `mcap` library trusts the chunk; `limit_chunks` replaces its function.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ __all__ = ['ChunkTooLarge', 'chunk_stream', 'limit_chunks', 'size_objection']
 
 MIB = 1024 * 1024
 HARMLESS_BYTES = 64 * MIB
-"""What a chunk may have however well it is compressed: a blank image is next to nothing."""
+"""Size allowed for any compression ratio: a blank image compresses to almost nothing."""
 LARGEST_BYTES = 1024 * MIB
 LARGEST_RATIO = 100
 
 
 class ChunkTooLarge(ValueError):
-    """A chunk that would take more memory than any recording needs."""
+    """The chunk would need more memory than any recording does."""
 
 
 def chunk_stream(chunk: Chunk, validate_crc: bool = False) -> tuple[ReadDataStream, int]:
@@ -51,11 +51,11 @@ def chunk_stream(chunk: Chunk, validate_crc: bool = False) -> tuple[ReadDataStre
     Raises
     ------
     ChunkTooLarge
-        The chunk says that it needs too much memory.
+        The declared size of the chunk is too large.
     ValueError
-        The chunk has another size than it says.
+        The size of the chunk differs from the declared one.
     CRCValidationError
-        The checksum is wrong.
+        The checksum does not match.
 
     """
     data = _unpacked(chunk)
@@ -68,7 +68,7 @@ def chunk_stream(chunk: Chunk, validate_crc: bool = False) -> tuple[ReadDataStre
 
 def size_objection(chunk: Chunk) -> str:
     """
-    Check the memory that a chunk says it needs against the limits.
+    Check the declared size of a chunk against the limits.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def size_objection(chunk: Chunk) -> str:
 
 
 def limit_chunks() -> None:
-    """Make all readers of the `mcap` library unpack chunks in this way."""
+    """Make all readers of the `mcap` library decompress chunks within the limits."""
     stream_reader.get_chunk_data_stream = chunk_stream
 
 
@@ -110,7 +110,7 @@ def _unpacked(chunk: Chunk) -> bytes:
 
 
 def _unpack_zstd(packed: bytes, size: int) -> bytes:
-    """Return at most so many bytes; a frame that says of itself that it has more is refused."""
+    """Decompress at most the given size; reject a frame that declares more."""
     said = zstandard.frame_content_size(packed)
     if said > size:
         raise ValueError(f'a frame of {said} bytes in a chunk of {size}')
@@ -118,7 +118,7 @@ def _unpack_zstd(packed: bytes, size: int) -> bytes:
 
 
 def _unpack_lz4(packed: bytes, size: int) -> bytes:
-    """Return at most one byte more than so many."""
+    """Decompress at most one byte more than the given size."""
     with lz4.frame.LZ4FrameDecompressor() as decompressor:
         unpacked: bytes = decompressor.decompress(packed, max_length=size + 1)
     return unpacked

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the chunks of an MCAP file of which the records before are damaged."""
+"""Search for intact chunks of an MCAP file after damaged records."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ros2bag.storage.mcap_record import read_record
 
 __all__ = ['next_chunk', 'unpacked']
 
-# Kind; length below 2**40; first and last time, size, check sum; name of the compression.
+# Opcode; length below 2**40; first and last time, size, checksum; name of the compression.
 CHUNK_START = re.compile(
     rb'\x06(?=.{5}\x00{3}.{28}(?:\x00{4}|\x03\x00{3}lz4|\x04\x00{3}zstd))', re.DOTALL
 )
@@ -53,7 +53,7 @@ def unpacked(chunk: Chunk) -> bytes | None:
     Returns
     -------
     bytes or None
-        The records of the chunk; None if it is damaged or takes too much memory.
+        The records of the chunk; None if it is damaged or needs too much memory.
 
     """
     try:
@@ -64,7 +64,7 @@ def unpacked(chunk: Chunk) -> bytes | None:
 
 
 def _candidates(stream: BoundedFile, position: int) -> Iterator[int]:
-    """Yield where something begins that looks like a chunk."""
+    """Yield the offsets of possible chunks."""
     while position < stream.size:
         stream.seek(position)
         block = stream.read(BLOCK_BYTES + START_BYTES)

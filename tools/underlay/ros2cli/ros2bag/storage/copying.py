@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write the messages of a broken file to a new one."""
+"""Copy the messages of a broken file to a new one."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ def copy_messages(
     """
     Copy the messages of a broken MCAP file to a new, complete one.
 
-    Messages whose schema or channel is lost are lost, too.
+    Messages whose schema or channel is lost cannot be copied.
 
     Parameters
     ----------
     path
         The broken file.
     survey
-        The schemas, channels and compression that were found in it.
+        The schemas, channels and compression found in it.
     new_path
         The file to create.
     progress
-        Called with the share (0 to 1) of the broken file that has been read.
+        Called with the fraction (0 to 1) of the broken file that has been read.
 
     Returns
     -------
     int
-        How many messages were copied.
+        The number of copied messages.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def copy_messages(
 
 
 class _Copier:
-    """Writes channels and messages of one file to another."""
+    """Copier of channels and messages from one file to another."""
 
     def __init__(self, file: McapFile, survey: Survey) -> None:
         self._file = file
@@ -70,7 +70,7 @@ class _Copier:
         self._names: dict[int, str] = {}
 
     def add(self, record: Channel | Message) -> None:
-        """Write a record; what belongs to a lost schema or channel is lost too."""
+        """Write a record; skip it if its schema or channel is lost."""
         number = record.id if isinstance(record, Channel) else record.channel_id
         if number not in self._names:
             self._names[number] = self._add_topic(number)
@@ -84,7 +84,7 @@ class _Copier:
             )
 
     def _add_topic(self, number: int) -> str:
-        """Make the topic of a channel known, and return its name, or '' if it is lost."""
+        """Register the topic of a channel, and return its name, or '' if it is lost."""
         channel = self._survey.channels.get(number)
         schema = self._survey.schemas.get(channel.schema_id) if channel else None
         if channel is None or schema is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that are cut off or damaged: what the libraries raise for them, as a sentence."""
+"""Truncated or damaged files: translation of library exceptions to error messages."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from zstandard import ZstdError
 
 __all__ = ['DAMAGE', 'BoundedFile', 'BrokenFile', 'damage_told']
 
-# A flipped byte may become a length, a number of a channel, a text or a compression.
+# A flipped byte may affect a length, a channel ID, a string or a compression name.
 DAMAGE = (
     ArithmeticError,
     AttributeError,
@@ -38,12 +38,12 @@ LARGE_BYTES = 1024 * 1024
 
 
 class BrokenFile(BagError):
-    """A file has no index at its end, because its recorder was killed, or it is damaged."""
+    """A file is damaged, or has no index at its end because its recorder was killed."""
 
 
 class BoundedFile(io.BufferedReader):
     """
-    A binary file that never reads more than is left, whatever a damaged length says.
+    Binary file that never reads past its end, even for a damaged length.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class BoundedFile(io.BufferedReader):
     Attributes
     ----------
     size
-        Of the file when it was opened, in bytes.
+        The size of the file when it was opened, in bytes.
 
     """
 
@@ -68,7 +68,7 @@ class BoundedFile(io.BufferedReader):
         Parameters
         ----------
         size
-            How many; all that are left if it is None or negative.
+            The number of bytes; all that are left if it is None or negative.
 
         """
         if size is not None and size > LARGE_BYTES:
@@ -91,7 +91,7 @@ def damage_told(path: str) -> Iterator[None]:
     BagError
         The file is missing, unreadable or not MCAP.
     BrokenFile
-        The file is cut off or damaged.
+        The file is truncated or damaged.
 
     """
     try:

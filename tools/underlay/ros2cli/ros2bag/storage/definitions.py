@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The definition of a message with all that it consists of, from the installed files."""
+"""Message definitions with all nested types, from the installed files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FIELD_TYPE = re.compile(r'\s*([A-Za-z][A-Za-z0-9_/]*)')
 
 
 class Definition(NamedTuple):
-    """The text of a definition and how it is written; both empty if it is unknown."""
+    """The text and the encoding of a definition; both empty if it is unknown."""
 
     encoding: str = ''
     text: str = ''
@@ -66,7 +66,7 @@ def _read(share: str, name: str) -> str:
 
 
 def _dependencies(text: str, package: str) -> Iterator[tuple[str, str]]:
-    """Yield the types of the fields that are messages themselves."""
+    """Yield the nested message types of the fields."""
     for line in text.splitlines():
         match = FIELD_TYPE.match(line)
         if match and match[1] not in PRIMITIVES:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base of what can go wrong with a recording."""
+"""Base class of recording errors."""
 
 
 class BagError(RuntimeError):
-    """A recording cannot be read or written; the text is a sentence for the user."""
+    """A recording cannot be read or written; the text is a message for the user."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages that a late subscriber would still get, for the head of a new file."""
+"""Latched messages, which a late subscriber would still get, for the start of a new file."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ros2bag.storage.metadata import Topic
 
 __all__ = ['LatchedMessages', 'RecordedMessage']
 
-# Of small messages more are kept than there are publishers, for example of /tf_static, where
-# nobody knows which message replaces which.
+# More small messages are kept than there are publishers, for example of /tf_static, where it
+# is unknown which message replaces which.
 KEPT_BYTES = 256 * 1024
 KEPT_COUNT = 100
 
 
 class RecordedMessage(NamedTuple):
-    """A serialized message, when it arrived and when it was published."""
+    """A serialized message with its reception and publication times."""
 
     topic: str
     data: bytes
@@ -31,13 +31,13 @@ class LatchedMessages:
     """The last messages of each latched topic."""
 
     def __init__(self) -> None:
-        """Start without any."""
+        """Start without messages."""
         self._kept: dict[str, deque[RecordedMessage]] = {}
         self._lifespans_ns: dict[str, int] = {}
 
     def add(self, message: RecordedMessage, topic: Topic) -> None:
         """
-        Keep a message for late subscribers of its topic.
+        Store a message for late subscribers of its topic.
 
         Beyond 100 messages or 256 KiB the oldest ones of the topic are dropped, but as many as
         there are latched publishers stay.
@@ -64,7 +64,7 @@ class LatchedMessages:
         Parameters
         ----------
         now_ns
-            The present time, in ns since the epoch.
+            The current time, in ns since the epoch.
 
         Yields
         ------

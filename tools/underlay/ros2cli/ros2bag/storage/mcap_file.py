@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write one MCAP file as rosbag2 does, in chunks that are soon on the disk."""
+"""Write one MCAP file in the layout of rosbag2, in chunks that reach the disk soon."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ COMPRESSIONS = {
     'lz4': CompressionType.LZ4,
     'zstd': CompressionType.ZSTD,
 }
-# A killed process loses what is in the chunk that it collects: at most this long or so much.
+# A killed process loses its current chunk: at most this duration or size.
 CHUNK_TIME_S = 0.1
 CHUNK_BYTES = 256 * 1024
 RECORD_BYTES = 31
@@ -38,10 +38,10 @@ SEQUENCES = 2**32
 
 class McapFile:
     """
-    Writes one MCAP file of a bag.
+    Writer of one MCAP file of a bag.
 
     After an OSError everything is kept in memory: `retry` and `finish` can be called when there is
-    room again.
+    free space again.
 
     Parameters
     ----------
@@ -50,11 +50,11 @@ class McapFile:
     name
         The file name for the metadata, if the file will be renamed afterwards.
     compression
-        Of the chunks: `none`, `lz4` or `zstd`.
+        The compression of the chunks: `none`, `lz4` or `zstd`.
     ros_distro
         The name of the ROS distribution, for the metadata.
     chunk_bytes
-        How much a chunk collects before it is written; `flush_if_due` writes it after 0.1 s.
+        The chunk size at which it is written; `flush_if_due` writes it after 0.1 s.
 
     Raises
     ------
@@ -95,12 +95,12 @@ class McapFile:
 
     @property
     def size_bytes(self) -> int:
-        """Return how large the file is, with what still waits to be written."""
+        """Return the size of the file, including pending data."""
         return self._stream.tell() + self._waiting_bytes
 
     @property
     def message_count(self) -> int:
-        """Return how many messages there are."""
+        """Return the number of messages."""
         return self._message_count
 
     @property
@@ -148,8 +148,7 @@ class McapFile:
         data
             The serialized message.
         log_ns, publish_ns
-            When it was received, in the time of the recorder, and published, in ns since the
-            epoch.
+            The reception time of the recorder and the publication time, in ns since the epoch.
         sequence
             The publisher's sequence number, of which the lower 32 bits are stored.
 
@@ -173,16 +172,16 @@ class McapFile:
             self._flush()
 
     def flush_if_due(self) -> None:
-        """Write what has waited for long enough."""
+        """Write the current chunk if it is old enough."""
         if time.monotonic() - self._waiting_since_s >= CHUNK_TIME_S:
             self._flush()
 
     def retry(self) -> None:
-        """Write what could not be written before."""
+        """Write the data that could not be written before."""
         self._stream.retry()
 
     def finish(self) -> None:
-        """Write what is left, the index and the metadata; a second call only waits for room."""
+        """Write pending data, the index and the metadata; a second call only checks for errors."""
         if not self._is_finished:
             self._is_finished = True
             self._write_end()
@@ -193,7 +192,7 @@ class McapFile:
         self._stream.close()
 
     def metadata(self) -> BagMetadata:
-        """Return what there is to say about a recording of just this file."""
+        """Return the metadata of a recording that consists of this file."""
         span = MessageSpan(self.message_count, self._start_ns, self._end_ns)
         topics = tuple(
             TopicInformation(topic, self._counts[name]) for name, topic in self._topics.items()
@@ -201,7 +200,7 @@ class McapFile:
         return BagMetadata((FileInformation(self._name, span),), topics, self._ros_distro)
 
     def _write_end(self) -> None:
-        # The check sum of the data is to have the last chunk as well.
+        # The checksum of the data must include the last chunk.
         self._writer.flush()
         self._writer.add_metadata(
             'rosbag2', {'serialized_metadata': metadata_to_text(self.metadata())}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One record of an MCAP file, which may be cut off or damaged."""
+"""One record of an MCAP file, which may be truncated or damaged."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros2bag.storage.damage import DAMAGE
 __all__ = ['RECORD_HEADER', 'McapRecord', 'read_record']
 
 RECORD_HEADER = struct.Struct('<BQ')
-# From here on kinds belong to programs; those between are not given to anything yet.
+# Opcodes from here on are private to programs; those in between are reserved.
 PRIVATE_OPCODE = 0x80
 PARSERS: dict[int, Callable[[ReadDataStream], Any]] = {
     Opcode.HEADER: Header.read,
@@ -30,7 +30,7 @@ PARSERS: dict[int, Callable[[ReadDataStream], Any]] = {
 
 
 class McapRecord(NamedTuple):
-    """Kind, the length that it should have, and the content as far as it is there."""
+    """A record: its opcode, its declared length, and its possibly truncated content."""
 
     opcode: int
     length: int
@@ -38,25 +38,26 @@ class McapRecord(NamedTuple):
 
     @property
     def size(self) -> int:
-        """Return how many bytes there are with the header."""
+        """Return the available size with the header, in bytes."""
         return RECORD_HEADER.size + len(self.content)
 
     @property
     def is_whole(self) -> bool:
-        """Tell if nothing is missing at the end."""
+        """Whether the content is complete."""
         return len(self.content) == self.length
 
     @property
     def is_plausible(self) -> bool:
-        """Tell if it is whole and of a kind that exists."""
+        """Whether the content is complete and the opcode is known."""
         is_known = 0 < self.opcode <= max(Opcode) or self.opcode >= PRIVATE_OPCODE
         return is_known and self.is_whole
 
     def parsed(self) -> tuple[Any, int]:
         """
-        Return what it stands for and how many bytes of the content that is.
+        Parse the content; return the object and the number of bytes that it takes.
 
-        Of kinds that are not needed and of damaged ones it is None, as long as they are.
+        The object is None for a damaged record, with 0 bytes, and for kinds that are not needed,
+        with all bytes.
         """
         stream = ReadDataStream(BytesIO(self.content))
         try:
@@ -81,7 +82,7 @@ def read_record(stream: IO[bytes]) -> McapRecord | None:
     Returns
     -------
     McapRecord or None
-        The record, whose content may be cut off; None if not even its header is left.
+        The record, whose content may be truncated; None if not even its header is left.
 
     """
     header = stream.read(RECORD_HEADER.size)

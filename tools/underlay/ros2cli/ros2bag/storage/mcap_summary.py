@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the index at the end of an MCAP file says about it."""
+"""Metadata from the index at the end of an MCAP file."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def describe_file(path: str) -> BagMetadata:
     Returns
     -------
     BagMetadata
-        As of a bag that consists of this file.
+        The metadata of a bag that consists of this file.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def describe_file(path: str) -> BagMetadata:
 
 
 def _check_sum(stream: BoundedFile) -> None:
-    """Raise ValueError if the index is not what was written; zero is no check sum."""
+    """Raise ValueError if the checksum of the index does not match; zero means no checksum."""
     stream.seek(-FOOTER.size - MAGIC_BYTES, os.SEEK_END)
     footer = stream.read(FOOTER.size)
     _, _, start, _, expected = FOOTER.unpack(footer)

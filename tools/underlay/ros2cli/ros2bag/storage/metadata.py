@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `metadata.yaml` says about a recording."""
+"""Metadata of a recording, as in `metadata.yaml`."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Topic:
 
     @property
     def is_latched(self) -> bool:
-        """Tell if one of its publishers latches."""
+        """Whether one of its publishers is latched (transient local)."""
         return any(qos.is_latched for qos in self.offered_qos)
 
 
 @dataclass(frozen=True)
 class TopicInformation:
-    """A topic and how many messages of it there are."""
+    """A topic and its number of messages."""
 
     topic: Topic
     message_count: int
@@ -47,7 +47,7 @@ class TopicInformation:
 
 @dataclass(frozen=True)
 class MessageSpan:
-    """How many messages there are and from when to when."""
+    """The number of messages, and their time span."""
 
     message_count: int = 0
     start_ns: int = NO_TIME_NS
@@ -85,7 +85,7 @@ class FileInformation:
 
 @dataclass(frozen=True)
 class BagMetadata:
-    """A whole recording."""
+    """Metadata of a whole recording."""
 
     files: tuple[FileInformation, ...]
     topics: tuple[TopicInformation, ...]

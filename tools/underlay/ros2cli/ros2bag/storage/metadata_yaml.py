@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`metadata.yaml`, version 9."""
+"""Reading and writing of `metadata.yaml`, version 9."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def metadata_from_text(text: str, where: str) -> BagMetadata:
 
 
 class _NoAliases(yaml.SafeDumper):
-    """Writes what is shared as often as it is used; other readers know no aliases."""
+    """YAML dumper that repeats shared values, because other readers do not support aliases."""
 
     def ignore_aliases(self, data: Any) -> bool:
         return True
@@ -159,14 +159,14 @@ def _topic(content: dict[str, Any]) -> TopicInformation:
 
 
 def _text(value: Any) -> str:
-    """Return a text, or raise TypeError."""
+    """Return a string, or raise TypeError."""
     if not isinstance(value, str):
         raise TypeError(f'{value!r} is no text')
     return value
 
 
 def _whole(value: Any) -> int:
-    """Return a whole number, or raise TypeError."""
+    """Return an integer, or raise TypeError."""
     if not isinstance(value, int):
         raise TypeError(f'{value!r} is no whole number')
     return value

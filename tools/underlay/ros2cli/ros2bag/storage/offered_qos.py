@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The quality of service that a publisher offered, as a recording keeps it."""
+"""The offered QoS of a publisher, as stored in a recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ['INFINITE_NS', 'OfferedQos', 'qos_from_text', 'qos_to_text']
 
 INFINITE_NS = 2**63 - 1
 NS_PER_S = 10**9
-# What rosbag2 wrote as numbers before version 9.
+# rosbag2 wrote these policies as numbers before version 9.
 HISTORIES = ('system_default', 'keep_last', 'keep_all', 'unknown')
 RELIABILITIES = ('system_default', 'reliable', 'best_effort', 'unknown', 'best_available')
 DURABILITIES = ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available')
@@ -43,11 +43,11 @@ class OfferedQos:
 
     @property
     def is_latched(self) -> bool:
-        """Tell if late subscribers get the last messages."""
+        """Whether late subscribers get the last messages (transient local)."""
         return self.durability == 'transient_local'
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the mapping that stands in `metadata.yaml`."""
+        """Return the mapping for `metadata.yaml`."""
         return {
             'history': self.history,
             'depth': self.depth,
@@ -63,7 +63,7 @@ class OfferedQos:
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> OfferedQos:
         """
-        Build a QoS from a mapping in the layout of rosbag2; what is left out has the default.
+        Build a QoS from a mapping in the layout of rosbag2; missing policies have the defaults.
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ def qos_from_text(text: str | list[Any]) -> tuple[OfferedQos, ...]:
     Parameters
     ----------
     text
-        YAML, or the list that it stands for, as in `metadata.yaml` since version 9.
+        YAML, or the parsed list, as in `metadata.yaml` since version 9.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def _duration_to_dict(duration_ns: int) -> dict[str, int]:
 
 
 def _duration_from(value: Mapping[str, int] | None) -> int:
-    """Return nanoseconds; zero stood for infinity in older recordings."""
+    """Return nanoseconds; zero meant infinity in older recordings."""
     if not value:
         return INFINITE_NS
     return min(value['sec'] * NS_PER_S + value['nsec'], INFINITE_NS) or INFINITE_NS

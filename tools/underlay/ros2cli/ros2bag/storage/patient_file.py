@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A file that keeps in memory what a full disk does not take, so that nothing is half written."""
+"""File that buffers data while the disk is full, so that no write is partial."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ __all__ = ['PatientFile', 'is_being_written']
 
 class PatientFile:
     """
-    A new file without a buffer: what was written is there, whatever becomes of the process.
+    New unbuffered file: written data persist, even if the process is killed.
 
-    A write never fails and is never partial. What could not be written is kept, `check` tells why,
-    and `retry` writes it when there is room again. The file is locked as long as it is open.
+    A write never fails and is never partial. Data that cannot be written are kept, `check` raises
+    the reason, and `retry` writes them when there is space again. The file is locked while open.
 
     Parameters
     ----------
@@ -31,14 +31,14 @@ class PatientFile:
     def __init__(self, path: str) -> None:
         self._file = open(path, 'xb', buffering=0)  # noqa: SIM115
         with suppress(OSError):
-            # Some network file systems have no locks.
+            # Some network file systems do not support locks.
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         self._rest = b''
         self._error: OSError | None = None
 
     def write(self, data: bytes) -> int:
         """
-        Write all of the data, now or when there is room again.
+        Write all of the data, now or when there is space again.
 
         Parameters
         ----------
@@ -57,19 +57,19 @@ class PatientFile:
         return len(data)
 
     def tell(self) -> int:
-        """Return how many bytes the file has, when everything is written."""
+        """Return the file position, including pending data."""
         return self._file.tell() + len(self._rest)
 
     def flush(self) -> None:
-        """Do nothing: there is no buffer."""
+        """Flush nothing, since the file is unbuffered."""
 
     def check(self) -> None:
-        """Raise the error because of which something is not written yet, if there is one."""
+        """Raise the error of a failed write that is still pending, if there is one."""
         if self._error is not None:
             raise self._error
 
     def retry(self) -> None:
-        """Write what was kept; the error is raised if that fails again."""
+        """Write the pending data; raise the error if that fails again."""
         self._error = None
         self._write_rest()
         self.check()
@@ -79,7 +79,7 @@ class PatientFile:
         self._file.close()
 
     def _write_rest(self) -> None:
-        """Write until nothing is left: a disk that becomes full may take a part first."""
+        """Write until nothing is left: a disk that becomes full may accept a part first."""
         try:
             while self._rest:
                 count = self._file.write(self._rest)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a recording readable again whose recorder was killed, or which is damaged."""
+"""Recovery of recordings that are damaged or whose recorder was killed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ NUMBER = re.compile(r'(\d+)')
 
 
 class RecoveredFile(NamedTuple):
-    """What was done with a file of the recording."""
+    """The outcome of the recovery of a file."""
 
     path: str
     message_count: int
@@ -39,7 +39,7 @@ class RecoveredFile(NamedTuple):
 
     @property
     def was_broken(self) -> bool:
-        """Tell if the file was written anew; what it was is at `kept_path`."""
+        """Whether the file was rewritten; the original is at `kept_path`."""
         return bool(self.kept_path)
 
 
@@ -56,17 +56,17 @@ def recover(
     folder
         The folder of the bag.
     progress
-        Called with the path of a file and the share (0 to 1) of it that has been read.
+        Called with the path of a file and the fraction (0 to 1) of it that has been read.
 
     Returns
     -------
     list of RecoveredFile
-        What was done with each file, in the order of their numbers.
+        The outcome of each file, in the order of their numbers.
 
     Raises
     ------
     BagError
-        The folder has no MCAP file or a foreign one, is being recorded to, or cannot be written.
+        The folder has no MCAP file or an invalid one, is being recorded to, or cannot be written.
 
     """
     outcomes = [_recover_file(path, progress) for path in _paths(folder)]
@@ -106,7 +106,7 @@ def write_metadata(folder: str) -> int:
 
 
 def _custom_data(folder: str) -> Mapping[str, str]:
-    """Return what only `metadata.yaml` knows, if it can be read."""
+    """Return the custom data of `metadata.yaml`, if it can be read."""
     try:
         return read_metadata(folder).custom_data
     except BagError:
@@ -114,7 +114,7 @@ def _custom_data(folder: str) -> Mapping[str, str]:
 
 
 def _paths(folder: str) -> list[str]:
-    """Return the files in the order of their numbers; BagError if there is nothing to do."""
+    """Return the files in the order of their numbers; raise BagError if there is nothing to do."""
     if not os.path.isdir(folder):
         raise BagError(f"'{folder}' is not a folder: name the folder of a recording")
     paths = glob.glob(os.path.join(glob.escape(folder), '*.mcap'))
@@ -127,7 +127,7 @@ def _paths(folder: str) -> list[str]:
 
 
 def _numbers_in(path: str) -> list[tuple[int, str]]:
-    """Return a key that sorts 2 before 10."""
+    """Return a natural sort key, which sorts 2 before 10."""
     parts = NUMBER.split(os.path.basename(path))
     return [(int(part), '') if part.isdigit() else (0, part) for part in parts]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Room on the disk that is kept free for the end of a recording."""
+"""Disk space that is reserved for the end of a recording."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RESERVED_BYTES = 4 * 1024 * 1024
 
 class Reserve:
     """
-    Reserved disk space, which is released when the disk is full or the work done.
+    Reserved disk space, to be released when the disk is full or the recording ends.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class Reserve:
     Raises
     ------
     OSError
-        The disk has not as much space left.
+        The disk does not have enough space left.
 
     """
 
@@ -35,11 +35,11 @@ class Reserve:
                 os.posix_fallocate(stream.fileno(), 0, RESERVED_BYTES)
         except OSError as error:
             self.release()
-            # Other errors are limits on the size of a file, or file systems that cannot do it.
+            # Other errors are file size limits, or file systems without support for preallocation.
             if error.errno == errno.ENOSPC:
                 raise
 
     def release(self) -> None:
-        """Give the room back; more than once does no harm."""
+        """Release the disk space; may be called more than once."""
         if os.path.exists(self._path):
             os.unlink(self._path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read what can be read of an MCAP file that is cut off or damaged."""
+"""Salvage the readable records of a truncated or damaged MCAP file."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Content = Schema | Channel | Message
 
 class Salvage:
     """
-    Reads the schemas, channels and messages of a broken MCAP file, in the order of the file.
+    Reader of the schemas, channels and messages of a broken MCAP file, in file order.
 
     Parameters
     ----------
@@ -35,20 +35,20 @@ class Salvage:
     Attributes
     ----------
     compression
-        Of the first whole chunk; '' if it has none.
+        The compression of the first whole chunk; '' if it has none.
     damaged_parts
-        How many parts were left out.
+        The number of skipped parts.
     is_sound
-        Whether the data are those that were written, as far as there are checksums.
+        Whether the data are intact, as far as there are checksums.
     objection
-        Why a part was left out that would have filled the memory, or ''.
+        Why a part was skipped that would have needed too much memory, or ''.
 
     """
 
     def __init__(self, path: str) -> None:
         self._path = path
         self._sum = 0
-        # A message between chunks is something else whose kind was damaged.
+        # A message between chunks is another record with a damaged opcode.
         self._has_chunks = False
         self.compression = ''
         self.damaged_parts = 0
@@ -57,12 +57,12 @@ class Salvage:
 
     def records(self, progress: Callable[[float], None] = lambda share: None) -> Iterator[Content]:
         """
-        Read all records that are intact; afterwards the attributes tell how it went.
+        Read all intact records; afterwards the attributes describe the outcome.
 
         Parameters
         ----------
         progress
-            Called with the share (0 to 1) of the file that has been read.
+            Called with the fraction (0 to 1) of the file that has been read.
 
         Yields
         ------
@@ -84,7 +84,7 @@ class Salvage:
                 progress(stream.tell() / stream.size)
 
     def _is_begun(self, stream: BoundedFile) -> bool:
-        """Tell if there is something; BagError if it is something else than a recording."""
+        """Whether the file has content; raise BagError if it is not a recording."""
         start = stream.read(len(MAGIC))
         self._sum = zlib.crc32(start)
         self.is_sound = start == MAGIC
@@ -99,7 +99,7 @@ class Salvage:
         return True
 
     def _contents(self, record: McapRecord, stream: BoundedFile) -> Iterator[Content]:
-        """Yield what a record is or has, and go on behind damage at the next whole chunk."""
+        """Yield the content of a record; after damage, continue at the next whole chunk."""
         if record.opcode == Opcode.DATA_END:
             self._compare_sums(record.content)
         self._sum = zlib.crc32(RECORD_HEADER.pack(*record[:2]), self._sum)
@@ -115,7 +115,7 @@ class Salvage:
             yield value
 
     def _chunk(self, record: McapRecord, stream: BoundedFile) -> Iterator[Content]:
-        """Yield what a chunk has; of one at the end that is cut off, the start."""
+        """Yield the content of a chunk, even of a truncated, uncompressed one at the end."""
         start = stream.tell() - record.size
         chunk, used = record.parsed()
         data = chunk and unpacked(chunk)
@@ -133,20 +133,20 @@ class Salvage:
             yield from _contents_of(chunk.data)
 
     def _go_on_behind(self, stream: BoundedFile, position: int) -> bool:
-        """Move on to the next chunk that is whole, or to the end; tell if there is one."""
+        """Seek to the next whole chunk, or to the end; return whether there is one."""
         self.is_sound = False
         following = next_chunk(stream, position)
         stream.seek(stream.size if following is None else following)
         return following is not None
 
     def _compare_sums(self, content: bytes) -> None:
-        """Compare the data with their check sum; zero is none."""
+        """Verify the checksum of the data; zero means no checksum."""
         expected = CRC.unpack(content)[0] if len(content) == CRC.size else 0
         self.is_sound = self.is_sound and expected in (0, self._sum)
 
 
 def _contents_of(data: bytes) -> Iterator[Content]:
-    """Yield the records of a chunk, up to one that is cut off."""
+    """Yield the records of a chunk, up to a truncated one."""
     stream = BytesIO(data)
     while (record := read_record(stream)) is not None and record.is_whole:
         value = record.parsed()[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One account of several files."""
+"""Merged metadata of several files."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ __all__ = ['merged']
 
 def merged(parts: Iterable[BagMetadata]) -> BagMetadata:
     """
-    Merge the metadata of files to those of the bag that consists of them.
+    Merge the metadata of files into those of their bag.
 
     Parameters
     ----------
     parts
-        One per file, in their order; of a topic in several of them the last description counts.
+        One per file, in their order; the last description of a topic counts.
 
     """
     parts = list(parts)

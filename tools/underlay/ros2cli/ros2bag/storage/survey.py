@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look through a file of a recording before anything is done with it."""
+"""Survey of a file of a recording before it is recovered."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ __all__ = ['Survey']
 
 class Survey:
     """
-    The content of an MCAP file, read once from beginning to end, and whether the file is intact.
+    Content summary of an MCAP file, read once from start to end, and whether it is intact.
 
     Parameters
     ----------
     path
         The file.
     progress
-        Called with the share (0 to 1) of the file that has been read.
+        Called with the fraction (0 to 1) of the file that has been read.
 
     Attributes
     ----------
     schemas, channels
-        By their numbers; of a number that is used twice the first meaning counts.
+        By their IDs; the first record with an ID counts.
     message_count
-        How many messages could be read.
+        The number of readable messages.
     compression
-        Of the chunks: `none`, `lz4` or `zstd`.
+        The compression of the chunks: `none`, `lz4` or `zstd`.
     damaged_parts, objection
         As in `Salvage`.
     is_whole
@@ -68,7 +68,7 @@ class Survey:
 
 
 def _counted(path: str) -> int:
-    """Return how many messages the index counts; -1 without an index."""
+    """Return the message count of the index; -1 without an index."""
     try:
         return describe_file(path).span.message_count
     except BagError:

@@ -19,7 +19,7 @@ class ConvertVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
-        Accept the options that users of rosbag2 write.
+        Add the options of rosbag2, so that they are accepted.
 
         Parameters
         ----------
@@ -32,12 +32,12 @@ class ConvertVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Name the program that converts bags.
+        Suggest the program that converts bags.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Returns
         -------

@@ -41,7 +41,7 @@ class InfoVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         from ros2bag.api.info import info_text, topic_names_text

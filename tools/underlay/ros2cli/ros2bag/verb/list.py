@@ -40,7 +40,7 @@ class ListVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         for name, purpose in KNOWN[args.plugin_type].items():

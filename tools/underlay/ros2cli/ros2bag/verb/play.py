@@ -39,7 +39,7 @@ class PlayVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         from ros2bag.api.playing import play

@@ -26,12 +26,12 @@ class RecordVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Record topics until a signal comes.
+        Record topics until a signal arrives.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Returns
         -------

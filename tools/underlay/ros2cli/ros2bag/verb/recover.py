@@ -32,7 +32,7 @@ class RecoverVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         from ros2bag.api.recovering import recover_and_report

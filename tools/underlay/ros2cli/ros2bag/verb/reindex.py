@@ -31,7 +31,7 @@ class ReindexVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Raises
         ------

@@ -31,12 +31,12 @@ class CommandExtension:
         cli_name
             The command line up to the command, such as `ros2 bag`.
         argv
-            The words after the name of the command; None if they are not known.
+            The arguments after the name of the command; None if they are unknown.
 
         """
 
     def extension_points(self) -> Mapping[str, Mapping[str, Entry]]:
-        """Return the groups of entry points that extend this command, with what they have."""
+        """Return the groups of entry points that extend this command, with their own entries."""
         return {}
 
     def main(
@@ -45,14 +45,14 @@ class CommandExtension:
         """
         Execute the command.
 
-        A RuntimeError is printed on stderr, like a str that is returned, and gives status 1.
+        A RuntimeError, like a returned str, is printed on stderr and results in status 1.
 
         Parameters
         ----------
         parser
             The root parser.
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------
@@ -98,7 +98,7 @@ class VerbCommand(CommandExtension):
         )
 
     def extension_points(self) -> Mapping[str, Mapping[str, Entry]]:
-        """Return the group of the verbs."""
+        """Return the group of entry points for verbs, with this command's verbs."""
         return {self.VERB_GROUP: self.VERBS}
 
     def main(

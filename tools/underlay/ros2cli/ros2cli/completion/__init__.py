@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The completion of command lines in bash and zsh; imported only when a shell asks for it."""
+"""Command line completion for bash and zsh; imported only when a shell requests it."""
 
 from ros2cli.completion.answering import answer
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Answer a shell which asks how a command line may go on.
+Answer completion requests from the shell.
 
-argcomplete does the reading and the quoting. The parser is the lazy one of the command line, so
-that only the verb that is being completed is imported.
+argcomplete parses the request and quotes the answer. The parser is the lazy one of the command
+line, so that only the verb that is being completed is imported.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) ->
     Parameters
     ----------
     create_parser
-        Returns the root parser for the words after `ros2` that are complete.
+        Returns the root parser for the complete words after `ros2`.
 
     """
     _end_before_it_annoys()
@@ -49,10 +49,10 @@ def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) ->
 
 def _end_before_it_annoys() -> None:
     """
-    End this process after some seconds whatever it does, even inside a library.
+    Set a hard deadline of some seconds for this process, even inside a library.
 
-    The shell waits until all who could answer have ended, so what a launch file starts must not
-    be among them.
+    The shell waits until every process that holds the answer descriptor has exited, so processes
+    started by a launch file must not inherit it.
     """
     with suppress(OSError):
         os.set_inheritable(ANSWER_DESCRIPTOR, False)
@@ -63,6 +63,6 @@ def _end_before_it_annoys() -> None:
 def _complete(
     *, prefix: str, action: Any, parser: argparse.ArgumentParser, parsed_args: argparse.Namespace
 ) -> Iterable[str]:
-    """Return the words for one argument; those of the table, or none."""
+    """Return the completions of an argument from the table, or none."""
     completer = find_completer(parser.prog, action.dest)
     return () if completer is None else completer(prefix, parsed_args)

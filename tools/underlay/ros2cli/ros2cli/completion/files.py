@@ -17,9 +17,9 @@ def files(prefix: str, args: argparse.Namespace | None = None) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far.
+        The word to complete.
     args : argparse.Namespace | None
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _paths(prefix, bool)
@@ -32,9 +32,9 @@ def folders(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far.
+        The word to complete.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _paths(prefix, lambda name: False)
@@ -47,9 +47,9 @@ def bags(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far.
+        The word to complete.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return files_of_kind(prefix, ('.mcap', '.db3'))
@@ -62,14 +62,14 @@ def files_of_kind(prefix: str, suffixes: tuple[str, ...]) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far.
+        The word to complete.
     suffixes
-        The ends of file names, each with its dot.
+        The file name suffixes, each with its dot.
 
     Returns
     -------
     list of str
-        Paths that begin as the word does, folders with a slash at the end.
+        Paths that start with the word; folders have a trailing slash.
 
     """
     return _paths(prefix, lambda name: name.endswith(suffixes))
@@ -89,14 +89,14 @@ def as_path(word: str) -> str:
 
 
 def _paths(prefix: str, is_wanted: Choice) -> list[str]:
-    """Return what a path may go on to; its beginning stays as it was written."""
+    """Return the completions of a path; keep its leading part as typed."""
     head, slash, tail = prefix.rpartition(os.sep)
     found = sorted(_names(as_path(head + slash) or os.curdir, tail, is_wanted))
     return [f'{head}{slash}{name}' for name in found]
 
 
 def _names(folder: str, beginning: str, is_wanted: Choice) -> Iterator[str]:
-    """Yield what lies in a folder; names that begin with a dot only if the word does."""
+    """Yield the entries of a folder; dotfiles only if the word starts with a dot."""
     try:
         entries = list(os.scandir(folder))
     except OSError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The quoting of words where a shell does it otherwise than argcomplete expects."""
+"""Quoting of completions where a shell differs from what argcomplete expects."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from argcomplete import CompletionFinder
 
 
 class Finder(CompletionFinder):
-    """Finds the words that fit, and writes each as the shell wants to have it."""
+    """Completion finder that quotes the words as the shell expects."""
 
     def quote_completions(
         self, completions: list[str], cword_prequote: str, last_wordbreak_pos: int | None
     ) -> list[str]:
         """
-        Quote words for bash; zsh quotes them itself, in the manner of the line.
+        Quote words for bash; zsh does its own quoting in the style of the line.
 
         Parameters
         ----------
         completions
             The words that complete the line.
         cword_prequote
-            The quote with which the word begins on the line, or ''.
+            The opening quote of the word on the line, or ''.
         last_wordbreak_pos
             Where the shell breaks the word, as argcomplete passes it.
 
@@ -44,18 +44,18 @@ class Finder(CompletionFinder):
         return [_with_variable(word) for word in found]
 
     def _for_zsh(self, word: str) -> str:
-        """Tell a colon of the word from the one before the description."""
+        """Escape colons in a word, because zsh puts one before the description."""
         escaped = word.replace('\\', '\\\\').replace(':', '\\:')
         self._display_completions[escaped] = self._display_completions.get(word, '')
         return escaped
 
 
 def _between_quotes(word: str) -> str:
-    """Return a whole message as a word that is easy to edit."""
+    """Quote a whole message as a word that is easy to edit."""
     escaped = re.sub(r'([\\"$`])', r'\\\1', word)
     return f'"{escaped}"'
 
 
 def _with_variable(word: str) -> str:
-    """Return a word that begins with a variable, as `$HOME/bags` does, so that it remains one."""
+    """Unescape the leading `$` of a word such as `$HOME/bags`, so that the shell expands it."""
     return word[1:] if word.startswith('\\$') else word

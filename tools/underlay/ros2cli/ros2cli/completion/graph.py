@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Complete what is in the graph; hidden names are offered if the word asks for them."""
+"""Complete names from the graph; hidden names are offered if the word has a hidden part."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def topics(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; hidden names are listed only if it has a hidden part.
+        The word to complete; hidden names are listed only if it has a hidden part.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _visible(prefix, graph_names().topics)
@@ -36,9 +36,9 @@ def nodes(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; hidden names are listed only if it has a hidden part.
+        The word to complete; hidden names are listed only if it has a hidden part.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _visible(prefix, graph_names().nodes)
@@ -51,9 +51,9 @@ def lifecycle_nodes(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; hidden names are listed only if it has a hidden part.
+        The word to complete; hidden names are listed only if it has a hidden part.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _visible(prefix, _owners(*STATE_SERVICE))
@@ -66,9 +66,9 @@ def containers(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; hidden names are listed only if it has a hidden part.
+        The word to complete; hidden names are listed only if it has a hidden part.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _visible(prefix, _owners(*LOAD_SERVICE))
@@ -81,9 +81,9 @@ def services(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; hidden names are listed only if it has a hidden part.
+        The word to complete; hidden names are listed only if it has a hidden part.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _visible(prefix, graph_names().services)
@@ -96,7 +96,7 @@ def actions(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix, args
-        The word so far and the parsed line, neither of which matters.
+        The word to complete and the parsed arguments (both unused).
 
     """
     names = graph_names().services
@@ -105,12 +105,12 @@ def actions(prefix: str, args: argparse.Namespace) -> list[str]:
 
 def types_of_topic(name: str) -> list[str]:
     """
-    Return the types of a topic; none if nobody uses it.
+    Return the types of a topic; none if it has no publishers or subscriptions.
 
     Parameters
     ----------
     name
-        The name of the topic, with or without the slash before it.
+        The name of the topic, with or without the leading slash.
 
     """
     return graph_names().topics.get(_full(name), [])
@@ -118,19 +118,19 @@ def types_of_topic(name: str) -> list[str]:
 
 def types_of_service(name: str) -> list[str]:
     """
-    Return the types of a service; none if nobody uses it.
+    Return the types of a service; none if it has no servers or clients.
 
     Parameters
     ----------
     name
-        The name of the service, with or without the slash before it.
+        The name of the service, with or without the leading slash.
 
     """
     return graph_names().services.get(_full(name), [])
 
 
 def _full(name: str) -> str:
-    """Return a name as the graph has it."""
+    """Return a name with its leading slash."""
     return name if name.startswith('/') else f'/{name}'
 
 

@@ -16,7 +16,7 @@ def packages(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix, args
-        The word so far and the parsed line, neither of which matters.
+        The word to complete and the parsed arguments (both unused).
 
     """
     return get_interface_packages()
@@ -29,9 +29,9 @@ def interfaces(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; while several packages fit, only their names are listed.
+        The word to complete; while several packages fit, only their names are listed.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     return _packages_first(prefix, ('msg', 'srv', 'action'))
@@ -65,14 +65,14 @@ def actions(prefix: str, args: argparse.Namespace) -> list[str]:
 
 def messages_of_topic(prefix: str, args: argparse.Namespace) -> list[str]:
     """
-    List the types of a topic, or those of all messages if nobody uses it yet.
+    List the types of a topic, or all message types if it does not exist yet.
 
     Parameters
     ----------
     prefix
-        The word so far, as for `interfaces`.
+        The word to complete, as for `interfaces`.
     args : argparse.Namespace
-        The parsed line, with the `topic_name`.
+        The parsed arguments, with the `topic_name`.
 
     """
     return types_of_topic(args.topic_name) or messages(prefix, args)
@@ -80,14 +80,14 @@ def messages_of_topic(prefix: str, args: argparse.Namespace) -> list[str]:
 
 def services_of_name(prefix: str, args: argparse.Namespace) -> list[str]:
     """
-    List the types of a service, or those of all services if none is named or nobody uses it.
+    List the types of a service, or all service types if none is named or it does not exist.
 
     Parameters
     ----------
     prefix
-        The word so far, as for `interfaces`.
+        The word to complete, as for `interfaces`.
     args : argparse.Namespace
-        The parsed line, with the `service_name` if the verb has one.
+        The parsed arguments, with the `service_name` if the verb has one.
 
     """
     name = getattr(args, 'service_name', None)

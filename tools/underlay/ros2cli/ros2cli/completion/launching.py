@@ -26,9 +26,9 @@ def packages_or_files(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far.
+        The word to complete.
     args : argparse.Namespace
-        The parsed line, which does not matter.
+        The parsed arguments (unused).
 
     """
     if os.sep in prefix or prefix.startswith(('.', '~')):
@@ -46,9 +46,9 @@ def launch_files_of_package(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far, which does not matter.
+        The word to complete (unused).
     args : argparse.Namespace
-        The parsed line, with the `package_name`.
+        The parsed arguments, with the `package_name`.
 
     """
     folder = get_packages_with_prefixes().get(args.package_name)
@@ -62,9 +62,9 @@ def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far; with `:=` in it the values are listed.
+        The word to complete; with `:=` in it the values are listed.
     args : argparse.Namespace
-        The parsed line, with `package_name`, `launch_file_name` and `launch_arguments`.
+        The parsed arguments, with `package_name`, `launch_file_name` and `launch_arguments`.
 
     """
     target = as_path(args.package_name)
@@ -74,7 +74,7 @@ def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
     declared = _declared(target, args.launch_file_name)
     if separator:
         known = [text for each in declared if each.name == name for text in _values(each)]
-        # Some choices are names, or paths of one's own.
+        # Some arguments accept custom paths besides the known choices.
         values = [text for text in known if text.startswith(value)]
         return [f'{name}{separator}{text}' for text in values or files(value)]
     given = {text.partition(SEPARATOR)[0] for text in _given(args)}
@@ -83,7 +83,7 @@ def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
 
 
 def _has_launch_files(prefix: str, package: str) -> bool:
-    """Look where launch files usually are, which is quick for a hundred packages."""
+    """Whether a package has launch files in the usual folders; fast enough for 100 packages."""
     share = os.path.join(prefix, 'share', package)
     return any(
         name.endswith(LAUNCH_SUFFIXES)
@@ -98,7 +98,7 @@ def _names_in(folder: str) -> list[str]:
 
 @lru_cache(maxsize=1)
 def _declared(package_or_path: str, file_name: str | None) -> list[Any]:
-    """Load a launch file, once even if asked twice, and return the arguments it declares."""
+    """Load a launch file and return its declared arguments; cached for repeated calls."""
     from ros2launch.api.showing import load_launch_file
     from ros2launch.command.target import find_target
 
@@ -112,7 +112,7 @@ def _given(args: argparse.Namespace) -> Iterator[str]:
 
 
 def _values(argument: Any) -> list[str]:
-    """Return the values that an argument can have, if they are known."""
+    """Return the valid values of an argument, if they are known."""
     if argument.choices:
         return list(argument.choices)
     default = argument.default_value or ()

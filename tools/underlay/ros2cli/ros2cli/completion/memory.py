@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What a node has answered is remembered for some seconds.
+Short-lived cache for the answers of nodes.
 
-Who presses TAB often presses it again, to see the choices or after one more letter.
+Users who press TAB often press it again, to see the choices or after one more letter.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def recall(subject: str) -> Any:
     Returns
     -------
     Any
-        The data; None without any, after 8 s, or when participants on this machine have come or
-        gone.
+        The data; None if there are none, after 8 s, or when participants on this machine have
+        joined or left.
 
     """
     path = _path(subject)
@@ -51,14 +51,14 @@ def remember(subject: str, data: Any) -> None:
     """
     Cache data in the file system; a failure to do so is ignored.
 
-    The file is replaced in one step, so that a second shell never reads half of it.
+    The file is replaced atomically, so that another shell never reads a partial one.
 
     Parameters
     ----------
     subject
         The key, such as the name of the service that was called.
     data
-        What JSON can store, except None.
+        Any JSON-serializable data except None.
 
     """
     path = _path(subject)
@@ -75,7 +75,7 @@ def remember(subject: str, data: Any) -> None:
 
 
 def _path(subject: str) -> Path:
-    """Return the file for a subject, as seen from this shell."""
+    """Return the cache file for a subject, by domain and discovery range of this shell."""
     folder = Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser()
     reach = read_reach()
     name = quote(f'{reach.domain_id}_{reach.extent}_{subject}', safe='')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The names in the graph, found in a short and bounded time."""
+"""Names in the graph, discovered in a short and bounded time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SPIN_TIME_S = 0.1
 
 
 class Names(NamedTuple):
-    """What the graph has: topics and services with their types, and the full names of nodes."""
+    """The names in the graph: topics and services with their types, and full node names."""
 
     topics: dict[str, list[str]]
     services: dict[str, list[str]]
@@ -19,7 +19,7 @@ class Names(NamedTuple):
 
 
 def graph_names() -> Names:
-    """Look at the graph."""
+    """Read the names in the graph during a short discovery."""
     from ros2node.api import get_node_names
 
     with GraphWatch(SPIN_TIME_S) as watch:

@@ -16,7 +16,7 @@ def packages(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix, args
-        The word so far and the parsed line, neither of which matters.
+        The word to complete and the parsed arguments (both unused).
 
     """
     return sorted(get_packages_with_prefixes())
@@ -29,7 +29,7 @@ def packages_with_executables(prefix: str, args: argparse.Namespace) -> list[str
     Parameters
     ----------
     prefix, args
-        The word so far and the parsed line, neither of which matters.
+        The word to complete and the parsed arguments (both unused).
 
     """
     return sorted(
@@ -46,9 +46,9 @@ def executables(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far, which does not matter.
+        The word to complete (unused).
     args : argparse.Namespace
-        The parsed line, with the `package_name`.
+        The parsed arguments, with the `package_name`.
 
     """
     from ros2pkg.api import get_executable_paths
@@ -62,12 +62,12 @@ def executables(prefix: str, args: argparse.Namespace) -> list[str]:
 
 def licenses(prefix: str, args: argparse.Namespace) -> list[str]:
     """
-    List the licences whose text a new package can have.
+    List the licences whose text is available for a new package.
 
     Parameters
     ----------
     prefix, args
-        The word so far and the parsed line, neither of which matters.
+        The word to complete and the parsed arguments (both unused).
 
     """
     from ros2pkg.create.licenses import known_licenses

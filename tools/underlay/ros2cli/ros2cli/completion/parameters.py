@@ -17,9 +17,9 @@ def parameters(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far, which does not matter.
+        The word to complete (unused).
     args : argparse.Namespace
-        The parsed line, with the `node_name`.
+        The parsed arguments, with the `node_name`.
 
     """
     service = f'/{args.node_name.lstrip("/")}/list_parameters'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Complete the values of a message, which are to be edited then."""
+"""Complete the values of a message with defaults for the user to edit."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ def values(prefix: str, args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     prefix
-        The word so far, which does not matter.
+        The word to complete (unused).
     args : argparse.Namespace
-        The parsed line, with the `message_type`, `service_type` or `action_type`.
+        The parsed arguments, with the `message_type`, `service_type` or `action_type`.
 
     Returns
     -------

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What completes which argument, by its name in the parser (`dest`).
+Table of completers by the name of the argument in the parser (`dest`).
 
-A verb gets its completion from the names of its arguments, so it need not know of completion at
-all. An argument that is not here can have an attribute `completer`, as argcomplete defines it.
+The completers of a verb follow from the names of its arguments, so that verbs need no completion
+code. An argument that is not listed can have a `completer` attribute, as in argcomplete.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ OF_ARGUMENT = {
     'type': 'interfaces:interfaces',
     'values': 'prototypes:values',
 }
-NEVER = {  # what is named there is new
+NEVER = {  # these arguments name new objects
     ('ros2 bag record', 'node_name'),
     ('ros2 component load', 'node_name'),
     ('ros2 component standalone', 'container_node_name'),
@@ -71,7 +71,7 @@ NEVER = {  # what is named there is new
 
 def find_completer(command: str, argument: str) -> Completer | None:
     """
-    Look up what completes an argument.
+    Find the completer of an argument.
 
     Parameters
     ----------
@@ -83,7 +83,8 @@ def find_completer(command: str, argument: str) -> Completer | None:
     Returns
     -------
     Completer or None
-        Called with the word so far and the parsed line; argcomplete drops words that do not fit.
+        Called with the word to complete and the parsed arguments; argcomplete drops words that do
+        not match.
 
     """
     if (command, argument) in NEVER:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Complete words that are always the same."""
+"""Complete words from fixed lists."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ TRANSITIONS = ('activate', 'cleanup', 'configure', 'deactivate', 'shutdown')
 
 def transitions(prefix: str, args: argparse.Namespace) -> tuple[str, ...]:
     """
-    List the transitions of a lifecycle node that users request.
+    List the lifecycle transitions that users can request.
 
     Parameters
     ----------
     prefix, args
-        The word so far and the parsed line, neither of which matters.
+        The word to complete and the parsed arguments (both unused).
 
     """
     return TRANSITIONS

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Count who must answer on this machine, and look closer at those who do not."""
+"""Count the DDS participants on this machine, and inspect those that do not answer."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ros2cli.graph.holders import find_holders, Holder
 from ros2cli.graph.participants import participant_sockets
 from ros2cli.rtps.parameters import Address, THIS_HOST
 
-SILENCE_S = 0.4  # after which it costs less to look at all processes than to wait on
+SILENCE_S = 0.4  # after which inspecting all processes costs less than waiting longer
 AGAIN_S = 2.0
 
 
 class Census:
     """
-    Counts the DDS participants of a domain on this machine, as the kernel shows them.
+    Counts the DDS participants of a domain on this machine from the kernel's socket table.
 
     Parameters
     ----------
@@ -35,21 +35,20 @@ class Census:
         """
         Count the participants of other processes on this machine.
 
-        Of those that stay silent for 0.4 s, the sockets of processes that will never answer are
-        left out.
+        Participants that do not answer for 0.4 s are left out if their process will never answer.
 
         Parameters
         ----------
         now_s
-            The present time of a monotonic clock, in s.
+            The current time of a monotonic clock, in s.
         silent
             The addresses of the last count that have not answered yet.
 
         Returns
         -------
         dict of Address to str, or None
-            The inode of the socket at each address, which tells a participant from a later one
-            there; None if they cannot be counted.
+            The inode of the socket at each address, which distinguishes a participant from a
+            later one at the same address; None if they cannot be counted.
 
         """
         sockets = participant_sockets(self._domain_id)
@@ -66,19 +65,19 @@ class Census:
 
     def are_stopped(self, silent: Collection[Address]) -> bool:
         """
-        Whether those who do not answer are all stopped processes, so that waiting is no use.
+        Whether all unresponsive participants are stopped processes, so that waiting is futile.
 
         Parameters
         ----------
         silent
-            Their addresses; without any the answer is no.
+            The addresses of the participants; False if there are none.
 
         """
         holders = [self._holders.get(self._sockets.get(port, '')) for _, port in silent]
         return bool(holders) and all(holder and holder.is_stopped for holder in holders)
 
     def _examine(self, now_s: float, silent: Collection[Address]) -> None:
-        """Look at who is silent for long; of strangers, look from time to time what became."""
+        """Find the processes of silent participants; recheck excluded ones periodically."""
         inodes = {self._sockets.get(port, '') for _, port in silent} & self._since_s.keys()
         doubtful = {inode for inode in inodes if now_s - self._since_s[inode] >= SILENCE_S}
         if doubtful - self._holders.keys() or now_s >= self._again_s:
@@ -88,6 +87,6 @@ class Census:
             self._again_s = now_s + AGAIN_S
 
     def _may_answer(self, inode: str) -> bool:
-        """Tell if a pair of ports may be that of a participant that others can discover."""
+        """Whether a socket may belong to a discoverable participant."""
         holder = self._holders.get(inode)
         return holder is None or holder.may_answer

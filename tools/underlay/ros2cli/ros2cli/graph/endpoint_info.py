@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publishers and subscriptions in the class of rclpy; only this needs rclpy."""
+"""Conversion of endpoints to the TopicEndpointInfo of rclpy; only this module needs rclpy."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def endpoint_info(endpoint: dds.Endpoint, node: NodeEntities | None) -> TopicEnd
 
 
 def _profile(qos: dds.Qos) -> QoSProfile:
-    """Return a profile; discovery does not tell the history."""
+    """Build a QoSProfile; discovery does not transmit the history policy."""
     return QoSProfile(
         history=HistoryPolicy.UNKNOWN,
         depth=0,

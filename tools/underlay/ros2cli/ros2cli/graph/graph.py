@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The graph at one moment, with the methods by which an rclpy node tells about it."""
+"""Snapshot of the graph, with the introspection methods of an rclpy node."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 class Graph:
     """
-    The graph at one moment, without the command that asks; its methods are those of an rclpy node.
+    Snapshot of the graph without this command, with the introspection methods of an rclpy node.
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ class Graph:
         return [(node.name, node.namespace) for node in self._nodes]
 
     def get_topic_names_and_types(self) -> NamesAndTypes:
-        """Return the topics that somebody publishes or subscribes to."""
+        """Return the topics with publishers or subscriptions, and their types."""
         return _topics(self._endpoints)
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """Return the services that somebody offers or calls."""
+        """Return the services with servers or clients, and their types."""
         return _services(self._endpoints, (REQUEST, RESPONSE))
 
     def get_publisher_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which processes hold the sockets of those who do not answer."""
+"""Find the processes that hold the sockets of unresponsive participants."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Holder(NamedTuple):
     """
     A process that holds a socket.
 
-    :param may_answer: whether it has threads of Fast DDS, or they could not be seen, and its
+    :param may_answer: whether it has Fast DDS threads, or its threads are not visible, and its
         discovery is not turned off
-    :param is_stopped: whether it cannot answer before somebody lets it go on
+    :param is_stopped: whether it cannot answer until it is continued
     """
 
     pid: int
@@ -33,14 +33,14 @@ def find_holders(inodes: Collection[str], proc: str = '/proc') -> dict[str, Hold
     """
     Find the processes that hold sockets; those of other users cannot be found.
 
-    A child that has inherited a socket of a participant counts only if nobody else has it.
+    A child that has inherited a participant's socket counts only if no other process holds it.
 
     Parameters
     ----------
     inodes
         The inodes of the sockets, in decimal.
     proc
-        Where procfs is mounted.
+        The mount point of procfs.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def find_holders(inodes: Collection[str], proc: str = '/proc') -> dict[str, Hold
 
 
 def _descriptors(folder: str) -> Iterator[str]:
-    """Yield what the descriptors of a process are; nothing of one that is not ours or has gone."""
+    """Yield the targets of a process's descriptors; none if it is inaccessible or has exited."""
     with suppress(OSError):
         for descriptor in os.listdir(folder):
             with suppress(OSError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The network interfaces, as the kernel of Linux lists them."""
+"""The network interfaces, as the Linux kernel lists them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Interface:
     A network interface.
 
     :param address: its IPv4 address, or ''
-    :param has_multicast: whether the kernel says so; the loopback works without it
+    :param has_multicast: whether the kernel reports multicast; the loopback works without it
     """
 
     name: str
@@ -36,7 +36,7 @@ class Interface:
 
 
 def read_interfaces() -> Iterator[Interface]:
-    """Yield all interfaces of this machine; one that goes at this moment is none."""
+    """Yield all interfaces of this machine; those that disappear meanwhile are skipped."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
         for _, name in socket.if_nameindex():
             with suppress(OSError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The socket through which the graph is read."""
+"""UDP transport of the discovery observer."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ from ros2cli.rtps.observer import Observer
 from ros2cli.rtps.parameters import Address, THIS_HOST
 
 COUNT_PERIOD_S = 0.1
-GREETINGS_S = (0.0, 0.1, 0.25)  # of whom cannot be counted, since a greeting may be lost
+GREETINGS_S = (0.0, 0.1, 0.25)  # of uncounted participants, since a greeting may be lost
 PEERS_PER_HOST = 32
 MAX_DATAGRAM_BYTES = 65536
 RECEIVE_BUFFER_BYTES = 1 << 20
 HANDLED_AT_ONCE = 1000
-READ_AT_ONCE = 64  # between two that are handled, so that a flood does not hold us up
+READ_AT_ONCE = 64  # between two that are handled, so that a flood does not block us
 MAX_WAITING = 4096
 
 
 class Link:
     """
-    The UDP socket of an observer, which carries its datagrams; nobody is asked before `exchange`.
+    UDP socket that carries the datagrams of an observer; nothing is sent before `exchange`.
 
     Parameters
     ----------
     reach
-        The domain, and how far discovery goes.
+        The domain and the discovery range.
 
     Attributes
     ----------
     observer
-        Collects what is received.
+        The observer that collects the received descriptions.
     can_count
         Whether it is known how many participants this machine has.
 
@@ -68,23 +68,23 @@ class Link:
 
     @property
     def is_hopeless(self) -> bool:
-        """Tell if only stopped processes have not answered, and all others have."""
+        """Whether stopped processes are the only participants that have not answered."""
         silent = self.observer.silent
         return len(silent) == self.observer.missing and self._census.are_stopped(silent)
 
     def close(self) -> None:
-        """Take leave."""
+        """Send farewells to the participants and close the socket."""
         self.observer.leave()
         self._socket.close()
 
     def exchange(self, *, waits: bool) -> None:
         """
-        Send the requests that are due, and handle the datagrams that have come.
+        Send the requests that are due, and handle the received datagrams.
 
         Parameters
         ----------
         waits
-            Whether to wait, for a datagram or until the next request is due, if none has come.
+            Whether to block until a datagram arrives or the next request is due.
 
         """
         if self._reach.extent == OFF:
@@ -116,14 +116,14 @@ class Link:
                 self.observer.greet((peer, port))
 
     def _greet_through(self, host: str) -> None:
-        """Greet all whom an interface reaches, which may have gone in the meantime."""
+        """Greet all participants by multicast on an interface, which may have disappeared."""
         with suppress(OSError):
             interface = socket.inet_aton(host)
             self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
             self.observer.greet((MULTICAST_ADDRESS, multicast_port(self._reach.domain_id)))
 
     def _receive(self) -> None:
-        """Handle what has come; the socket, which holds little, is emptied again and again."""
+        """Handle received datagrams, and drain the small socket buffer in between."""
         self._waiting.extend(self._received())
         for _ in range(HANDLED_AT_ONCE):
             if not self._waiting:
@@ -139,7 +139,7 @@ class Link:
                 yield datagram, host
 
     def _send(self, datagram: bytes, address: Address) -> None:
-        """Send; what cannot be sent now is asked again, and unreachable hosts do not answer."""
+        """Send a datagram; ignore errors, since requests are repeated."""
         with suppress(OSError):
             self._socket.sendto(datagram, address)
 
@@ -155,7 +155,7 @@ def _address(peer: str) -> str:
 
 
 def _own_hosts(reach: Reach) -> list[str]:
-    """Return the addresses of this machine, as those see them whom we ask."""
+    """Return the addresses of this machine at which other participants reach it."""
     if reach.is_local:
         return [THIS_HOST]
     found = [each.address for each in read_interfaces() if each.is_up and not each.is_loopback]

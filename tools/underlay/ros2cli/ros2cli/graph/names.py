@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The names that ROS gives to topics, services and types in DDS, and back.
+Translate the DDS names of topics, services and types to ROS.
 
 After the design article "Topic and Service name mapping to DDS" (design.ros2.org).
 """
@@ -18,10 +18,10 @@ PART_OF_SERVICE = re.compile(r'_(Request|Response)$')
 
 class RosName(NamedTuple):
     """
-    What a topic of DDS is to ROS.
+    The ROS name and kind of a DDS topic.
 
     :param kind: TOPIC, REQUEST or RESPONSE
-    :param name: of the topic or the service
+    :param name: name of the topic or service
     """
 
     kind: str

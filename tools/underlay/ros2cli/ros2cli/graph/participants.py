@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The DDS participants on this machine, so that it is known who must answer.
+Find the DDS participants on this machine, whose answers can be expected.
 
 RTPS gives each participant of a domain two UDP ports of its own. The kernel lists the open ports,
 which is exact and takes no time, unlike waiting for answers.
@@ -29,7 +29,7 @@ def participant_ports(domain_id: int) -> list[int] | None:
     Returns
     -------
     list of int or None
-        UDP ports, ascending; None if the kernel does not tell.
+        UDP ports, ascending; None if the kernel does not provide them.
 
     """
     sockets = participant_sockets(domain_id)
@@ -48,7 +48,7 @@ def participant_sockets(domain_id: int) -> dict[int, str] | None:
     Returns
     -------
     dict of int to str, or None
-        The inodes of the sockets by UDP port; None if the kernel does not tell.
+        The inodes of the sockets by UDP port; None if the kernel does not provide them.
 
     """
     try:

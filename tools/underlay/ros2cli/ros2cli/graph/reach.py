@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which nodes a process of this shell reaches: its domain, and how far discovery goes."""
+"""The domain and the discovery range of the processes of this shell."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_DOMAIN_ID = 232
 
 class Reach(NamedTuple):
     """
-    The domain, how far discovery goes, and hosts that it asks besides.
+    The domain, the discovery range and the static peers.
 
     With LOCALHOST no socket is open to other machines (see the profile of ros_environment), so
     that other hosts are not asked, either.
@@ -27,12 +27,12 @@ class Reach(NamedTuple):
 
     @property
     def is_local(self) -> bool:
-        """Tell if no other machine is reached, so that all participants can be counted."""
+        """Whether no other machine is reached, so that all participants can be counted."""
         return self.extent in (OFF, LOCALHOST)
 
     @property
     def is_wide(self) -> bool:
-        """Tell if everybody in the network is asked, and not only who is named."""
+        """Whether participants are discovered by multicast, and not only at static peers."""
         return self.extent in (SUBNET, SYSTEM_DEFAULT)
 
 
@@ -71,7 +71,7 @@ def _domain_id(environment: Mapping[str, str]) -> int:
 
 
 def _extent(environment: Mapping[str, str]) -> str:
-    """Return how far discovery goes, by the rules of rcl: what it does not know is LOCALHOST."""
+    """Return the discovery range by the rules of rcl; unknown values mean LOCALHOST."""
     if _is_localhost_only(environment):
         return LOCALHOST
     extent = environment.get('ROS_AUTOMATIC_DISCOVERY_RANGE') or SUBNET

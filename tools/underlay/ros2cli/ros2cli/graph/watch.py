@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the graph, and see it change."""
+"""Read the graph and watch it change."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from ros2cli.rtps.greeting import LEASE_S
 
 T = TypeVar('T')
 
-# How many times as long as the spin time processes are waited for that are there, but do not
-# answer: since there were the fewest of them, and in all.
+# How many spin times to wait for processes that exist but do not answer: since their number
+# last decreased, and in total.
 PATIENCE = 8
 MAX_PATIENCE = 40
 INCOMPLETE = (
@@ -30,14 +30,14 @@ INCOMPLETE = (
 
 class GraphWatch:
     """
-    Reads the graph and sees it change, without rclpy; use it in a `with` statement, or close it.
+    Watcher of the graph without rclpy; use it in a `with` statement, or close it.
 
     Parameters
     ----------
     spin_time_s
-        How long to wait for those who cannot be counted, that is, nodes on other machines, in s.
+        How long to wait for participants that cannot be counted, that is, on other machines, in s.
     check
-        Called again and again during each wait; what it raises ends the wait.
+        Called repeatedly during each wait; an exception from it ends the wait.
 
     Raises
     ------
@@ -60,7 +60,7 @@ class GraphWatch:
         self._has_told = False
 
     def __enter__(self) -> GraphWatch:
-        """Nobody is asked yet."""
+        """Return the watch; nothing is sent yet."""
         return self
 
     def __exit__(
@@ -69,18 +69,18 @@ class GraphWatch:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Close it."""
+        """Close the watch."""
         self.close()
 
     def close(self) -> None:
-        """Take leave of those who were asked."""
+        """Send farewells to the participants and close the socket."""
         if self._link:
             self._link.close()
         self._link = None
 
     @property
     def graph(self) -> Graph:
-        """Return what is known now, complete or not."""
+        """Return the graph as known now, complete or not."""
         neighbours = self._link.observer.neighbours if self._link else []
         return Graph(
             (node for each in neighbours for node in each.nodes),
@@ -90,19 +90,19 @@ class GraphWatch:
 
     @property
     def domain_id(self) -> int:
-        """Return the domain that is looked at."""
+        """Return the ROS domain ID."""
         return self._reach.domain_id
 
     def settled(self, is_done: Callable[[Graph], object] = lambda _: False) -> Graph:
         """
-        Wait until the graph is complete, or has what is looked for.
+        Wait until the graph is complete, or a condition is met.
 
         A participant that does not answer in time is not waited for again, and there is a warning.
 
         Parameters
         ----------
         is_done
-            Whether a graph that may be incomplete has what is looked for.
+            Whether a possibly incomplete graph meets the condition.
 
         Returns
         -------
@@ -124,24 +124,24 @@ class GraphWatch:
         """
         Wait for something within the spin time, then until the graph is complete.
 
-        So a command finds a node that has been started just before it.
+        This way a command finds a node that was started just before it.
 
         Parameters
         ----------
         find
-            What is looked for in a graph; what is false is not found.
+            Searches a graph; a falsy result means not found.
 
         Returns
         -------
         Graph
-            The complete graph, with or without what is looked for.
+            The complete graph, whether or not the search succeeded.
 
         """
         self.wait_for(find, None, 0.0)
         return self.settled()
 
     def updated(self) -> Graph:
-        """Return what is known at this moment, without waiting for anybody."""
+        """Return the current graph without waiting."""
         self._exchange(waits=False)
         return self.graph
 
@@ -152,21 +152,21 @@ class GraphWatch:
         timeout_s: float = float('inf'),
     ) -> T:
         """
-        Wait until something is found in the graph.
+        Wait until a search of the graph succeeds.
 
         Parameters
         ----------
         find
-            What is looked for in a graph; what is false is not found.
+            Searches a graph; a falsy result means not found.
         patience
-            What tells the user about the wait; None says nothing.
+            Reports the wait to the user; None for no report.
         timeout_s
             How long to wait in s, but at least the spin time.
 
         Returns
         -------
         T
-            What `find` has returned last, which is false if the time is over.
+            The last result of `find`, which is falsy after a timeout.
 
         """
         end_s = time.monotonic() + timeout_s
@@ -185,7 +185,7 @@ class GraphWatch:
             print(INCOMPLETE, file=sys.stderr)
 
     def _exchange(self, *, waits: bool) -> None:
-        """Hear what is new; after a pause, in which others have given us up, ask all anew."""
+        """Exchange datagrams; restart discovery if our lease may have expired in a pause."""
         self._check()
         now_s = time.monotonic()
         if self._link and now_s - self._latest_s > LEASE_S / 2:
@@ -198,14 +198,14 @@ class GraphWatch:
         self._link.exchange(waits=waits)
 
     def _is_settled(self) -> bool:
-        """Tell if all is known of those who can be counted, and others have had their time."""
+        """Whether all counted participants are known, and the time for the others has passed."""
         if self._link is None or not self._link.observer.is_complete:
             return False
         is_over = self._latest_s >= self._start_s + self._spin_time_s
         return is_over or (self._reach.is_local and self._link.can_count)
 
     def _is_in_vain(self) -> bool:
-        """Tell if who has not answered yet will hardly do so: for a while, nobody has."""
+        """Whether further answers are unlikely, because none has arrived for a while."""
         if self._link is None:
             return True
         missing = self._link.observer.missing

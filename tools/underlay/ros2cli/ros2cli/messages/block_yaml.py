@@ -2,8 +2,8 @@
 """
 Write plain values as block YAML, as PyYAML does but several times as fast.
 
-It is meant for streams of messages: mappings, lists, numbers and texts of one line. For all
-else, that is, texts of several lines and other types, it says that PyYAML is needed.
+It is meant for streams of messages: mappings, lists, numbers and single-line strings. Everything
+else, that is, multi-line strings and other types, raises NeedsPyYaml.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ UNLIMITED_WIDTH = 2**31 - 1
 
 
 class NeedsPyYaml(Exception):
-    """A value is of a kind that only PyYAML writes."""
+    """A value is of a kind that only PyYAML can serialize."""
 
 
 def to_block_yaml(plain: Any) -> str:
@@ -32,7 +32,7 @@ def to_block_yaml(plain: Any) -> str:
     Parameters
     ----------
     plain
-        Mappings, lists, numbers and texts.
+        Mappings, lists, numbers and strings.
 
     Returns
     -------
@@ -42,7 +42,7 @@ def to_block_yaml(plain: Any) -> str:
     Raises
     ------
     NeedsPyYaml
-        It is neither, is empty, or has a value that only PyYAML writes.
+        It is neither, is empty, or has a value that only PyYAML can serialize.
 
     """
     if isinstance(plain, (dict, list)) and plain:
@@ -101,7 +101,7 @@ def _float(value: float) -> str:
 
 @lru_cache(maxsize=1000)
 def _text(text: str) -> str:
-    """Return a text with the quotes that YAML needs; PyYAML knows about each that is odd."""
+    """Quote a string as YAML requires; PyYAML decides about unusual ones."""
     if PLAIN_TEXT.fullmatch(text):
         return text
     first, *rest = dump(text, flow_style=False).splitlines()
@@ -117,7 +117,7 @@ def dump(plain: Any, *, flow_style: bool) -> str:
     Parameters
     ----------
     plain
-        Mappings, lists, numbers and texts.
+        Mappings, lists, numbers and strings.
     flow_style
         Whether to write it on one line, with braces and brackets.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which field of a message may be meant."""
+"""Suggestions for misspelt fields of a message."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ros2cli.suggest import did_you_mean
 
 def field_hint(error: Exception) -> str:
     """
-    Return a question that names the field which is probably meant, or ''.
+    Return a question that suggests the field probably meant, or ''.
 
     Parameters
     ----------

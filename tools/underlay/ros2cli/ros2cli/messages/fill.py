@@ -14,7 +14,7 @@ HEADER, TIME = 'std_msgs/Header', 'builtin_interfaces/Time'
 
 
 def _boolean(value: Any) -> bool:
-    """Return a boolean of YAML; anything else is truthy in Python, a typing mistake as well."""
+    """Validate a YAML boolean; any other value would be truthy in Python, even a typo."""
     if isinstance(value, bool):
         return value
     raise ValueError(value)
@@ -95,7 +95,7 @@ def _cast(name: str, field_type: str, value: Any) -> Any:
 
 
 def _check_length(name: str, field_type: str, length: int) -> None:
-    """Refuse what `double[9]` or `sequence<double, 3>` has no room for."""
+    """Validate a length against types such as `double[9]` and `sequence<double, 3>`."""
     exact = re.fullmatch(r'.*\[(\d+)\]', field_type)
     if exact and length != int(exact[1]):
         raise ValueError(f"'{name}' needs {exact[1]} elements, but got {length}")
@@ -148,7 +148,7 @@ def _is_text(type_name: str) -> bool:
 
 
 def _limits(type_name: str) -> tuple[int, int]:
-    """Return the least and the greatest number of a type such as `int8` or `uint64`."""
+    """Return the minimum and maximum of a type such as `int8` or `uint64`."""
     bits = int(type_name.rpartition('int')[2])
     if type_name.startswith('u'):
         return 0, 2**bits - 1

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Import of a package of interfaces only those that are used.
+Lazy import of interface packages: only the interfaces that are used are loaded.
 
 The `__init__.py` that rosidl generates for the messages of a package imports each of them from a
-module of its own. A command needs one or two of them. Here the same lines tell which module has a
-name, and that module is imported when the name is first used.
+module of its own. A command needs one or two of them. Here the same lines are parsed to map names
+to modules, and a module is imported when its name is first used.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ KINDS = ('msg', 'srv', 'action')
 
 
 def import_interfaces_when_used() -> None:
-    """Let the import system treat packages of interfaces so, from now on."""
+    """Install the import hook for interface packages."""
     if not any(isinstance(finder, _Finder) for finder in sys.meta_path):
         sys.meta_path.insert(0, _Finder())
 
 
 class _Finder:
-    """Finds `package.msg` and the like, if nothing but imports is in it."""
+    """Meta path finder for `package.msg` and the like that contain nothing but imports."""
 
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return how to load a package of interfaces, None for any other module."""
+        """Return the spec of an interface package; None for any other module."""
         _, _, kind = name.rpartition('.')
         if kind not in KINDS or path is None:
             return None
@@ -46,17 +46,17 @@ class _Finder:
 
 
 class _Loader:
-    """Makes a package whose names are imported when they are used."""
+    """Loader of a package whose names are imported on first use."""
 
     def __init__(self, modules: dict[str, str]) -> None:
-        """Keep which module has which name."""
+        """Initialize with the modules by name."""
         self._modules = modules
 
     def create_module(self, spec: ModuleSpec) -> None:
-        """Leave it to the import system to make the module."""
+        """Use the default module creation."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Give the package its names."""
+        """Add the lazily imported names to the package."""
         module.__dict__['__getattr__'] = _getter(module, self._modules)
         module.__dict__['__dir__'] = lambda: sorted({*module.__dict__, *self._modules})
         module.__dict__['__all__'] = list(self._modules)
@@ -74,7 +74,7 @@ def _getter(module: ModuleType, modules: dict[str, str]) -> Callable[[str], Any]
 
 
 def _modules_of_names(path: str) -> dict[str, str]:
-    """Return which module each name comes from; nothing if a line is no such import."""
+    """Return the module of each name; nothing if any line is not such an import."""
     found = {}
     with open(path, encoding='utf-8') as lines:
         for line in lines:

@@ -15,11 +15,11 @@ EXAMPLES = {
 
 
 class UnknownType(Exception):
-    """A name stands for no interface that is installed."""
+    """A name does not denote an installed interface."""
 
 
 class WrongKind(UnknownType):
-    """A name stands for a message where a service is needed, or the like."""
+    """A name denotes the wrong kind of interface, such as a message instead of a service."""
 
 
 def get_message(name: str) -> Any:
@@ -39,7 +39,7 @@ def get_message(name: str) -> Any:
     Raises
     ------
     UnknownType
-        There is none; WrongKind if the name is that of a service or action.
+        There is no such message; WrongKind if the name is that of a service or action.
 
     """
     return _get_interface(name, 'msg')
@@ -64,7 +64,7 @@ def get_passed_type(name: str, kind: str) -> Any:
     Raises
     ------
     RuntimeError
-        There is none of this kind.
+        There is no such interface of this kind.
 
     """
     try:
@@ -99,7 +99,7 @@ def _get_interface(name: str, kind: str) -> Any:
         module = import_module(f'{package}.{kind}')
     except ModuleNotFoundError as error:
         raise UnknownType(_no_package_text(package, kind)) from error
-    except ImportError as error:  # it is there, and says itself what it lacks
+    except ImportError as error:  # it exists, and its error names the missing dependency
         raise UnknownType(f"'{package}' cannot be imported: {error}") from error
     interface = getattr(module, short_name, None)
     if not isinstance(interface, type):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A message that the command line fills."""
+"""Messages filled from the command line."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FIELD_ERROR = 'Failed to populate field: {}'
 
 class OutgoingMessage:
     """
-    A message from the command line, whose time stamps are set each time it is sent.
+    Message from the command line whose time stamps are set each time it is sent.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages as plain Python values: mappings, lists, numbers and texts."""
+"""Messages as plain Python values: mappings, lists, numbers and strings."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ IDL_NAMES = {'double': 'float64', 'float': 'float32', 'boolean': 'bool', 'octet'
 
 
 class Shortening(NamedTuple):
-    """How long texts and arrays may become, and whether they are shown at all."""
+    """Maximum length of strings and arrays, and whether they are shown at all."""
 
     length: int | None = None
     hide_arrays: bool = False
@@ -25,14 +25,14 @@ def to_plain(value: Any, shortening: Shortening = Shortening(), field_type: str 
     value
         The message or value.
     shortening
-        How long texts and arrays may become.
+        Maximum lengths of strings and arrays.
     field_type
         The type of the field, as rosidl names it, such as `sequence<double>`.
 
     Returns
     -------
     Any
-        Mappings in the order of the fields, lists, numbers and texts.
+        Mappings in the order of the fields, lists, numbers and strings.
 
     """
     if hasattr(value, 'get_fields_and_field_types'):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages as YAML and as comma separated values."""
+"""Serialization of messages to YAML and comma-separated values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def to_yaml(value: Any, shortening: Shortening = Shortening(), *, flow_style: bo
     value
         The message.
     shortening
-        How long texts and arrays may become.
+        Maximum lengths of strings and arrays.
     flow_style
         Whether to write it on one line instead of one field per line.
 
@@ -34,7 +34,7 @@ def plain_to_yaml(plain: Any, *, flow_style: bool = False) -> str:
     Parameters
     ----------
     plain
-        Mappings, lists, numbers and texts.
+        Mappings, lists, numbers and strings.
     flow_style
         Whether to write it on one line.
 
@@ -56,7 +56,7 @@ def to_csv(value: Any, shortening: Shortening = Shortening()) -> str:
     value
         The message.
     shortening
-        How long texts and arrays may become.
+        Maximum lengths of strings and arrays.
 
     """
     return plain_to_csv(to_plain(value, shortening))
@@ -69,7 +69,7 @@ def plain_to_csv(plain: Any) -> str:
     Parameters
     ----------
     plain
-        Mappings, lists, numbers and texts; nothing is quoted.
+        Mappings, lists, numbers and strings; nothing is quoted.
 
     """
     return ','.join(str(leaf) for leaf in _leaves(plain))

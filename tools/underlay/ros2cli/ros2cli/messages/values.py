@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The values of a message as the command line gives them, in YAML.
+Parser for the values of a message on the command line, in YAML.
 
-Nearly all are like `{linear: {x: 0.3}, name: arm}`: words, numbers and truth values in braces and
-brackets. These are read here, since the import of PyYAML takes a tenth of the time of a command;
-whatever else YAML allows is left to it.
+Nearly all are like `{linear: {x: 0.3}, name: arm}`: words, numbers and booleans in braces and
+brackets. These are parsed here, since the import of PyYAML takes a tenth of the time of a command;
+all other YAML is left to PyYAML.
 """
 
 from __future__ import annotations
@@ -63,19 +63,19 @@ def _parse_yaml(text: str) -> dict[str, Any]:
 
 
 class _NotSimple(Exception):
-    """A text needs all of YAML, or is wrong."""
+    """The text needs a full YAML parser, or is malformed."""
 
 
 class _Simple:
-    """A reader of simple mappings; whatever it returns, YAML would."""
+    """Parser of simple mappings; its results equal those of PyYAML."""
 
     def __init__(self, text: str) -> None:
-        """Read a text from its begin."""
+        """Start at the beginning of a text."""
         self._tokens = self._split(text.strip(' '))
         self._depth = 0
 
     def mapping(self) -> dict[str, Any]:
-        """Return the mapping that the whole text is."""
+        """Parse the whole text as a mapping."""
         if self._next()[0] != '{':
             raise _NotSimple
         result = self._rest_of_mapping()
@@ -84,7 +84,7 @@ class _Simple:
         return result
 
     def _split(self, text: str) -> Iterator[tuple[str, str, str]]:
-        """Yield brackets and commas, names before a colon, and values."""
+        """Tokenize into brackets, commas, names before a colon, and values."""
         place = 0
         while place < len(text):
             found = _TOKEN.match(text, place)
@@ -100,7 +100,7 @@ class _Simple:
         return token
 
     def _rest_of_mapping(self) -> dict[str, Any]:
-        """Read `a: 1, b: 2}`; whoever calls has read the brace."""
+        """Parse `a: 1, b: 2}`, after the opening brace."""
         result: dict[str, Any] = {}
         mark, name, _ = self._next()
         if mark == '}':
@@ -113,7 +113,7 @@ class _Simple:
         raise _NotSimple
 
     def _rest_of_sequence(self) -> list[Any]:
-        """Read `1, 2]`; whoever calls has read the bracket."""
+        """Parse `1, 2]`, after the opening bracket."""
         result: list[Any] = []
         token = self._next()
         if token[0] == ']':
@@ -125,7 +125,7 @@ class _Simple:
             token = self._next()
 
     def _goes_on(self, end: str) -> bool:
-        """Tell whether a comma follows, and not the bracket that ends the collection."""
+        """Consume a separator; whether it is a comma, and not the closing bracket."""
         mark = self._next()[0]
         if mark not in (',', end):
             raise _NotSimple

@@ -16,7 +16,7 @@ def add_values_arguments(parser: argparse.ArgumentParser, what: str) -> None:
     parser
         The parser of the verb.
     what
-        What is filled, for the help, such as `goal`.
+        The name of the message in the help, such as `goal`.
 
     """
     source = parser.add_mutually_exclusive_group()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hidden node through which verbs see the graph."""
+"""The hidden node of verbs, and their access to the graph."""
 
 NODE_NAME_PREFIX = '_ros2cli'
 HIDDEN_NODE_PREFIX = '_'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options that all verbs with a node share; importing this does not import rclpy."""
+"""Options shared by all verbs with a node; importing this does not import rclpy."""
 
 from __future__ import annotations
 

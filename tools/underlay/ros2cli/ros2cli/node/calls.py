@@ -18,13 +18,13 @@ def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = fl
     Parameters
     ----------
     node
-        The node to spin meanwhile.
+        The node to spin while waiting.
     client
         The client of the service.
     future
         The future of the call.
     timeout_s
-        How long to wait at most, in s.
+        The timeout in s.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = fl
     Raises
     ------
     RuntimeError
-        The service goes away, or does not answer in time.
+        The service disappears, or does not respond in time.
 
     """
     name = client.srv_name
@@ -58,7 +58,7 @@ def call(
     Parameters
     ----------
     node
-        The node that calls it, and that is spun meanwhile.
+        The node that calls it, and that is spun while waiting.
     service_type
         The class of the service.
     name
@@ -66,7 +66,7 @@ def call(
     request
         The request.
     timeout_s
-        How long to wait for the response, in s; the connection may take another 5 s.
+        The timeout for the response, in s; the connection may take another 5 s.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def call(
     Raises
     ------
     RuntimeError
-        The service does not connect, goes away, or does not answer in time.
+        The service does not connect, disappears, or does not respond in time.
 
     """
     client = node.create_client(service_type, name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node for the time of one command."""
+"""A node for the duration of one command."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ __all__ = ['DirectNode', 'add_arguments']
 
 class DirectNode:
     """
-    An rclpy node that exists inside a `with` statement; its attributes are those of the node.
+    An rclpy node that exists inside a `with` statement; it forwards the node's attributes.
 
     rclpy is initialized on entry and shut down on exit.
 
     Parameters
     ----------
     args : argparse.Namespace | None
-        The options of `add_node_arguments`; None, or what is left out, is the default.
+        The options of `add_node_arguments`; None or missing options mean the defaults.
     node_name
         The name of the node; by default a hidden one with the process ID.
     survives_interrupt
-        Whether the node outlives Ctrl-C, so that there is time for some last words.
+        Whether the node outlives Ctrl-C, so that it can still send final messages.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class DirectNode:
         )
 
     def __enter__(self) -> DirectNode:
-        """Start rclpy and the node; nobody is waited for."""
+        """Initialize rclpy and create the node; discovery is not waited for."""
         rclpy.init(args=[], signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
@@ -82,7 +82,7 @@ class DirectNode:
 
     @property
     def watch(self) -> GraphWatch:
-        """Return what sees the graph, which rclpy itself discovers more slowly."""
+        """Return the graph watch, which is faster than the discovery of rclpy."""
         if self._watch is None:
             from ros2cli.graph.watch import GraphWatch
 
@@ -101,7 +101,7 @@ class DirectNode:
         Parameters
         ----------
         timeout_s
-            How long to wait at most, in s.
+            The timeout in s.
 
         """
         self.executor.spin_once(timeout_sec=timeout_s)
@@ -118,7 +118,7 @@ class DirectNode:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """End the node; an error because SIGTERM has ended rclpy becomes a clean end."""
+        """Shut the node down; suppress an error caused by SIGTERM having shut rclpy down."""
         terminated = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
         with interrupts_deferred():
             if self._watch is not None:
@@ -132,10 +132,10 @@ class DirectNode:
 
     def _destroy_waitables(self) -> None:
         """
-        Destroy what `Node.destroy_node` leaves to the garbage collector, as clients of actions.
+        Destroy what `Node.destroy_node` leaves to the garbage collector, such as action clients.
 
-        Each keeps the participant alive, and the process ends without collecting garbage: others
-        would wait for 20 s for the answers of a participant that is no more.
+        Each keeps the participant alive, and the process exits without garbage collection: others
+        would wait 20 s for answers from a participant that no longer exists.
         """
         for each in list(self.node.waitables):
             if destroy := getattr(each, 'destroy', None):
@@ -143,6 +143,6 @@ class DirectNode:
 
 
 def _check_rclpy() -> None:
-    """End a wait in which no ROS takes part: SIGTERM ends rclpy, and that only."""
+    """Raise if rclpy is shut down, to end a wait outside of ROS: SIGTERM only shuts rclpy down."""
     if not rclpy.ok():
         raise ExternalShutdownException

@@ -12,7 +12,7 @@ from ros2node.api import get_node_names
 
 def find_node(watch: GraphWatch, name: str, timeout_s: float = 0.0) -> str:
     """
-    Find a node by its name, and wait for it if it is not there yet.
+    Find a node by its name, and wait for it if it does not exist yet.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def find_node(watch: GraphWatch, name: str, timeout_s: float = 0.0) -> str:
     Raises
     ------
     RuntimeError
-        There is no such node in time; the message suggests a similar name.
+        The node does not appear in time; the message suggests a similar name.
 
     """
     full_name = name if name.startswith('/') else f'/{name}'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Import rclpy without what a command does not need of it."""
+"""Import rclpy without the parts that a command does not need."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from ros2cli.messages.lazy_packages import import_interfaces_when_used
 
 def import_rclpy() -> None:
     """
-    Import rclpy, unless it is there already.
+    Import rclpy, unless it is imported already.
 
-    Its C library loads a hundred others. Python has each of their functions looked up at once;
-    here that happens when one is first called, as for any program in C, and most never are. Of
-    the messages that rclpy imports most are never used either.
+    Its C library loads a hundred others. By default Python resolves all their symbols at once
+    (RTLD_NOW); here each is bound on first call, as in any C program, and most never are. Most
+    of the messages that rclpy imports are never used either.
     """
     if 'rclpy' in sys.modules:
         return
@@ -34,5 +34,5 @@ def import_rclpy() -> None:
 
 
 def _is_method(candidate: object) -> bool:
-    """Tell what `inspect.ismethod` does, which rclpy imports by its name."""
+    """Stand in for `inspect.ismethod`, which rclpy imports by its name."""
     return isinstance(candidate, MethodType)

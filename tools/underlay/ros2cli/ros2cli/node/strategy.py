@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What verbs that only read the graph use instead of a node: there is no daemon."""
+"""The node strategy of verbs that only read the graph; there is no daemon."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ def NodeStrategy(  # noqa: N802
     args: argparse.Namespace, find: Callable[[Graph], object] = lambda _: True
 ) -> Iterator[Graph]:
     """
-    Yield the complete graph, in a `with` statement; the name is the one that extensions know.
+    Yield the complete graph, in a `with` statement; extensions know it by this name.
 
     Parameters
     ----------
     args : argparse.Namespace
         The options of `add_strategy_arguments`.
     find
-        What is looked for in a graph; it is waited for during the spin time.
+        Searches a graph; a result is waited for during the spin time.
 
     Yields
     ------
     Graph
-        The graph, which stays as it is.
+        The graph, a snapshot that does not change.
 
     """
     with GraphWatch(args.spin_time) as watch:

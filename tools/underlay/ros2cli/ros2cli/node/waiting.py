@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait for something in the graph."""
+"""Spin a node while waiting."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ def wait_until(
     node
         The node.
     is_true
-        The condition, which is looked at between callbacks.
+        The condition, which is checked between callbacks.
     patience
-        What tells the user about the wait; None says nothing.
+        Reports the wait to the user; None for no report.
     timeout_s
-        How long to wait at most, in s.
+        The timeout in s.
 
     Returns
     -------
@@ -50,14 +50,14 @@ def wait_until(
 
 def spin_until(node: Any, end_s: float) -> None:
     """
-    Spin a node until a moment, at least once.
+    Spin a node until a point in time, at least once.
 
     Parameters
     ----------
     node
         The node.
     end_s
-        The moment, in s of the monotonic clock.
+        The end time, in s of the monotonic clock.
 
     """
     while True:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A reader or writer, as its participant describes it (8.5.4.4, 9.6.2.2)."""
+"""Readers and writers, as described by their participants (8.5.4.4, 9.6.2.2)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ GUID_BYTES = 16
 
 
 class Qos(NamedTuple):
-    """Quality of service in the enumerators of DDS; durations in nanoseconds."""
+    """Quality of service as DDS enumerators; durations in nanoseconds."""
 
     reliability: int
     durability: int
@@ -41,9 +41,9 @@ class Endpoint(NamedTuple):
     A reader or writer.
 
     :param guid: 16 bytes
-    :param topic: name in DDS, with the prefix that ROS gives it
+    :param topic: name in DDS, with the prefix added by ROS
     :param type_name: name in DDS
-    :param type_hash: REP-2016 text such as `RIHS01_...`, or ''
+    :param type_hash: REP-2016 string such as `RIHS01_...`, or ''
     """
 
     guid: bytes
@@ -77,14 +77,14 @@ def guid_of(parameters: Parameters) -> bytes:
 
 def endpoint_of(parameters: Parameters, *, is_writer: bool) -> Endpoint:
     """
-    Decode an endpoint; what it leaves out has the default of DDS.
+    Decode an endpoint; missing parameters have the DDS defaults.
 
     Parameters
     ----------
     parameters : Parameters
         The description of the endpoint.
     is_writer
-        Whether it is a writer, whose default reliability is another than that of a reader.
+        Whether it is a writer, whose default reliability differs from that of a reader.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which node has which endpoints: messages of the topic `ros_discovery_info`."""
+"""Assignment of endpoints to nodes: messages of the topic `ros_discovery_info`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ENCAPSULATION_BYTES = 4
 
 
 class NodeEntities(NamedTuple):
-    """A node and the identities of its endpoints."""
+    """A node and the GUIDs of its endpoints."""
 
     namespace: str
     name: str
@@ -51,7 +51,7 @@ def decode_entities(payload: bytes) -> tuple[NodeEntities, ...]:
 
 
 class _Cursor:
-    """Reads CDR (version 1) from after the participant's own identity on."""
+    """CDR (version 1) reader that starts after the participant's own GUID."""
 
     def __init__(self, payload: bytes) -> None:
         self._data = payload[ENCAPSULATION_BYTES:]

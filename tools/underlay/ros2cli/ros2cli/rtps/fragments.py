@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Put samples together that are too large for one datagram (8.4.14.1)."""
+"""Reassembly of samples that are too large for one datagram (8.4.14.1)."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ MAX_SAMPLE_BYTES = 1 << 24
 
 
 class Fragments:
-    """The parts of a writer's latest sample; if one of them is lost, all are asked for again."""
+    """Fragments of a writer's latest sample; if one is lost, all are requested again."""
 
     def __init__(self) -> None:
-        """Have no part."""
+        """Start without fragments."""
         self._number = 0
         self._parts: dict[int, bytes] = {}
         self._missing = 0
@@ -26,18 +26,18 @@ class Fragments:
         Parameters
         ----------
         fragment
-            A part of a sample; that of another sample than the last drops the parts of the last
-            one.
+            A fragment of a sample; the fragments of the previous sample are dropped when it
+            belongs to another one.
 
         Returns
         -------
         Data or None
-            The whole sample if this was the last part that was missing.
+            The whole sample if this was the last missing fragment.
 
         Raises
         ------
         ValueError
-            The sample is said to be larger than 16 MiB.
+            The declared sample size is larger than 16 MiB.
 
         """
         if fragment.size > MAX_SAMPLE_BYTES:

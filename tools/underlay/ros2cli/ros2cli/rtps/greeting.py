@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What we say of ourselves: a participant without nodes, and a reader of `ros_discovery_info`.
+Our own announcement: a participant without nodes, with a reader of `ros_discovery_info`.
 
-Nobody lists us: `ros2` commands and rclpy know only participants that tell their enclave.
+We appear in no list: `ros2` commands and rclpy ignore participants that announce no enclave.
 """
 
 from __future__ import annotations
@@ -54,20 +54,20 @@ DISPOSED = b'\0\0\0\3'
 
 
 def new_prefix() -> bytes:
-    """Return the first part of our identities, which nobody else has."""
+    """Return a new unique GUID prefix for us."""
     return VENDOR_UNKNOWN + os.urandom(PREFIX_BYTES - len(VENDOR_UNKNOWN))
 
 
 def greeting(prefix: bytes, addresses: Sequence[Address]) -> bytes:
     """
-    Return the datagram that makes a participant describe itself to us.
+    Build the datagram that makes a participant describe itself to us.
 
     Parameters
     ----------
     prefix
         Our GUID prefix (12 bytes).
     addresses
-        The addresses of our socket, as others reach it.
+        The addresses at which others reach our socket.
 
     """
     return message(
@@ -80,7 +80,7 @@ def greeting(prefix: bytes, addresses: Sequence[Address]) -> bytes:
 
 def farewell(prefix: bytes) -> bytes:
     """
-    Return the datagram that makes a participant forget us.
+    Build the datagram that makes a participant forget us.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers of the protocol: entities, parameters and ports (9.3.1.2, 9.6.2.3, 9.6.3)."""
+"""Protocol constants: entity IDs, parameter IDs and ports (9.3.1.2, 9.6.2.3, 9.6.3)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PUBLICATIONS_WRITER = bytes.fromhex('000003c2')
 PUBLICATIONS_READER = bytes.fromhex('000003c7')
 SUBSCRIPTIONS_WRITER = bytes.fromhex('000004c2')
 SUBSCRIPTIONS_READER = bytes.fromhex('000004c7')
-ENTITIES_READER = bytes.fromhex('00000104')  # our own: a reader of a topic without keys
+ENTITIES_READER = bytes.fromhex('00000104')  # our own: a reader of a keyless topic
 
 PID_SENTINEL = 0x01
 PID_LEASE_DURATION = 0x02
@@ -36,8 +36,8 @@ PID_ENDPOINT_GUID = 0x5A
 PID_KEY_HASH = 0x70
 PID_STATUS_INFO = 0x71
 
-# What a participant announces of its built-in endpoints (9.3.2): all of PDP and EDP but the
-# writer of publications, for there are none.
+# Our announced built-in endpoints (9.3.2): all of PDP and EDP except the publications writer,
+# since we have no publications.
 BUILTIN_ENDPOINTS = 0b111011
 
 MULTICAST_ADDRESS = '239.255.0.1'
@@ -49,7 +49,7 @@ MAX_PARTICIPANTS = 120
 
 def multicast_port(domain_id: int) -> int:
     """
-    Return the UDP port on which all participants of a domain listen to multicast.
+    Return the multicast discovery port of a domain.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def multicast_port(domain_id: int) -> int:
 
 def unicast_ports(domain_id: int) -> range:
     """
-    Return the UDP ports that the participants of a domain take for discovery, in turn.
+    Return the unicast discovery ports of a domain, by participant index.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ def message(own_prefix: bytes, *parts: bytes) -> bytes:
 
 def info_destination(prefix: bytes) -> bytes:
     """
-    Build an INFO_DST submessage, which says for whom the submessages that follow are.
+    Build an INFO_DST submessage, which names the receiver of the submessages that follow.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: byt
     payload
         The serialized sample, with its encapsulation header.
     key_qos
-        Inline parameters; with them the payload is only the key.
+        Inline QoS parameters; with them the payload is only the key.
 
     """
     flags = INLINE_QOS | KEY if key_qos else PAYLOAD
@@ -73,16 +73,16 @@ def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: byt
 
 def heartbeat(reader: bytes, writer: bytes, first: int, last: int, count: int) -> bytes:
     """
-    Build a HEARTBEAT submessage, which announces samples and asks what the reader lacks.
+    Build a HEARTBEAT submessage, which announces samples and requests an ACKNACK.
 
     Parameters
     ----------
     reader, writer
         The entity IDs (4 bytes each) of both ends.
     first, last
-        The sequence numbers that the writer has.
+        The range of sequence numbers that the writer has.
     count
-        The number of this heartbeat, by which a repetition is recognized.
+        The number of this heartbeat, by which duplicates are recognized.
 
     """
     numbers = _sequence_number(first) + _sequence_number(last)
@@ -91,18 +91,19 @@ def heartbeat(reader: bytes, writer: bytes, first: int, last: int, count: int) -
 
 def acknack(reader: bytes, writer: bytes, base: int, missing: list[int], count: int) -> bytes:
     """
-    Build an ACKNACK submessage, which acknowledges samples and requests those that are missing.
+    Build an ACKNACK submessage, which acknowledges samples and requests missing ones.
 
     Parameters
     ----------
     reader, writer
         The entity IDs (4 bytes each) of both ends.
     base
-        All samples before this sequence number have come; 0 asks for a heartbeat only.
+        All samples before this sequence number have been received; 0 only requests a heartbeat.
     missing
-        The sequence numbers to request, from `base` on; those 256 or more after it are left out.
+        The sequence numbers to request, from `base` on; those at `base` + 256 or later are left
+        out.
     count
-        The number of this message, by which a repetition is recognized.
+        The number of this message, by which duplicates are recognized.
 
     """
     flags = 0 if missing or not base else FINAL

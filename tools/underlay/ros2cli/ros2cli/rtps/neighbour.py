@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Another participant: what it has told us, and what we still have to ask."""
+"""Discovery state of another participant: its endpoints and nodes, and what to request."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MAX_PATIENCE_S = 0.5
 
 class Neighbour:
     """
-    Another participant; it makes and reads datagrams, but neither sends nor receives any.
+    Another participant; builds and parses datagrams, but neither sends nor receives any.
 
     Parameters
     ----------
@@ -35,16 +35,16 @@ class Neighbour:
     prefix
         The participant's GUID prefix (12 bytes).
     discovery
-        Where it hears about participants and endpoints.
+        Its address for participant and endpoint discovery.
     user
-        Where it hears about messages.
+        Its address for user traffic.
 
     Attributes
     ----------
     heard_s
-        When it said something last, in s of the observer's clock.
+        When it was last heard, in s of the observer's clock.
     lease_s
-        How long it may be silent before others have to take it for lost, in s.
+        Its lease duration, after which it counts as lost, in s.
     endpoints
         The readers and writers that it has described, by GUID.
     nodes
@@ -73,27 +73,27 @@ class Neighbour:
 
     @property
     def is_here(self) -> bool:
-        """Tell if it is on this machine."""
+        """Whether it is on this machine."""
         return self.discovery[0] == THIS_HOST
 
     @property
     def is_complete(self) -> bool:
-        """Tell if all its endpoints and nodes are known."""
+        """Whether all its endpoints and nodes are known."""
         return all(stream.is_complete for stream in self._streams())
 
     @property
     def knows_reader(self) -> bool:
-        """Tell if it has tried to tell us its nodes, or cannot do so yet."""
+        """Whether it has matched our reader of nodes, or has no writer for it yet."""
         return self._entities is None or self._entities.is_announced
 
     @property
     def due_s(self) -> float:
-        """Return when to ask again."""
+        """The time of the next request."""
         return float('inf') if self._is_acknowledged else self._ask_again_s
 
     def handle(self, news: Submessage) -> None:
         """
-        Take in a submessage from this participant.
+        Handle a submessage from this participant.
 
         Parameters
         ----------
@@ -126,12 +126,12 @@ class Neighbour:
         """
         Build the datagrams that request what is missing.
 
-        Each time it takes longer until the next request; when all is there, it is acknowledged.
+        The interval between requests grows; a complete state is acknowledged.
 
         Parameters
         ----------
         now_s
-            The present time, in s of the observer's clock.
+            The current time, in s of the observer's clock.
 
         Yields
         ------
@@ -148,7 +148,7 @@ class Neighbour:
             yield self._message(self._entities.request()), self._user
 
     def _on_sample(self, stream: Stream, sample: Data) -> None:
-        """Take in a sample; a damaged one would be no better if it came again."""
+        """Handle a sample; a damaged one is not requested again."""
         stream.settle([sample.number])
         if stream is self._entities:
             self._on_nodes(sample)
@@ -156,7 +156,7 @@ class Neighbour:
             self._on_endpoint(sample)
 
     def _hurry(self) -> None:
-        """Do not wait with the next request when what was asked for is there."""
+        """Make the next request due as soon as the previous one is answered."""
         if self.is_complete:
             if not self._is_acknowledged:
                 self._ask_again_s = 0.0

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Ask all participants, one after the other.
+Observer that queries all participants, one after the other.
 
-Each answers with dozens of datagrams; if all did that at once, our socket would overflow and most
+Each answers with dozens of datagrams; if all answered at once, our socket would overflow and most
 would have to be sent again, which takes seconds.
 """
 
@@ -29,14 +29,14 @@ NEVER_S = float('-inf')
 
 class Observer:
     """
-    Collects what the participants of a domain tell about themselves.
+    Collects the endpoints and nodes that the participants of a domain announce.
 
     Parameters
     ----------
     addresses
-        Of our own socket, as others reach it.
+        The addresses at which others reach our socket.
     send
-        Sends a datagram to an address; it is the only way out.
+        Sends a datagram to an address; the only output of the observer.
 
     """
 
@@ -48,46 +48,47 @@ class Observer:
         self._send = send
         self._neighbours: dict[bytes, Neighbour] = {}
         self._expected: dict[Address, str] = {}
-        self._silent: dict[Address, float] = {}  # who has not answered, and when it was greeted
+        self._silent: dict[Address, float] = {}  # unanswered addresses, and when they were greeted
         self._next_greeting_s = NEVER_S
         self._alive_s = self._now_s = NEVER_S
         self._latest = b''
 
     @property
     def neighbours(self) -> list[Neighbour]:
-        """Return those who have answered."""
+        """The participants that have answered."""
         return list(self._neighbours.values())
 
     @property
     def silent(self) -> list[Address]:
-        """Return who is expected, but has not answered."""
+        """The addresses of expected participants that have not answered."""
         return list(self._silent)
 
     @property
     def missing(self) -> int:
-        """Return how many of those whom we know of have not told everything."""
+        """The number of known participants that are incomplete."""
         return len(self._silent) + sum(not each.is_complete for each in self.neighbours)
 
     @property
     def is_complete(self) -> bool:
-        """Tell if all whom we know of have told everything."""
+        """Whether all known participants are complete."""
         return not self.missing
 
     @property
     def due_s(self) -> float:
-        """Return when there is something to send."""
+        """The time of the next transmission."""
         greeting_s = min(self._silent.values(), default=float('inf')) + GREET_AGAIN_S
         question_s = min((each.due_s for each in self.neighbours), default=float('inf'))
         return min(max(greeting_s, self._next_greeting_s), question_s)
 
     def expect(self, present: Mapping[Address, str]) -> None:
         """
-        Set which participants there are on this machine; those that have left are forgotten.
+        Set the participants on this machine; those that have left are forgotten.
 
         Parameters
         ----------
         present
-            Where they listen, without ourselves, each with what tells it from a later one there.
+            Their addresses, without our own, each with an identifier that distinguishes it from a
+            later participant at the same address.
 
         """
         before, self._expected = self._expected, dict(present)
@@ -103,7 +104,7 @@ class Observer:
 
     def greet(self, address: Address) -> None:
         """
-        Ask whoever listens at an address to describe itself.
+        Request the participants at an address to describe themselves.
 
         Parameters
         ----------
@@ -115,12 +116,12 @@ class Observer:
 
     def ask(self, now_s: float) -> None:
         """
-        Send what is due: the next greeting, requests, and signs of life.
+        Send what is due: the next greeting, requests, and keep-alive messages.
 
         Parameters
         ----------
         now_s
-            The present time of a monotonic clock, in s.
+            The current time of a monotonic clock, in s.
 
         """
         self._now_s = now_s
@@ -143,7 +144,7 @@ class Observer:
 
     def handle(self, datagram: bytes, host: str) -> None:
         """
-        Take in a datagram; a damaged one is as good as lost.
+        Handle a datagram; a damaged one is dropped.
 
         Parameters
         ----------
@@ -158,20 +159,20 @@ class Observer:
             return
         if prefix in self._neighbours:
             self._neighbours[prefix].heard_s = self._now_s
-        self._latest = datagram  # which often comes a second time, through another interface
+        self._latest = datagram  # often received a second time, through another interface
         with suppress(ValueError):
             for news in submessages(datagram, self._prefix):
                 self._handle(news, prefix, host)
 
     def leave(self) -> None:
-        """Take leave of all, so that nobody keeps anything for us."""
+        """Send farewells to all participants, so that they release our state."""
         addresses = {each.discovery for each in self.neighbours}
         greeted = {address for address, when in self._silent.items() if when > NEVER_S}
         for address in addresses | greeted:
             self._send(farewell(self._prefix), address)
 
     def _forget_lost(self) -> None:
-        """Forget those on other machines who have said nothing for longer than they promise."""
+        """Remove participants on other machines whose lease has expired."""
         for each in self.neighbours:
             if not each.is_here and self._now_s > each.heard_s + max(each.lease_s, LEASE_S):
                 del self._neighbours[each.prefix]
@@ -200,4 +201,4 @@ class Observer:
         met.heard_s = self._now_s
         met.lease_s = described.duration_ns(PID_LEASE_DURATION) / 10**9
         if self._silent.pop(address, None) is None:
-            self.greet(address)  # for by multicast it hears of participants, but not of readers
+            self.greet(address)  # multicast announces participants to it, but not readers

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lists of parameters, in which participants and endpoints describe themselves (9.4.2.11)."""
+"""Parameter lists, by which participants and endpoints describe themselves (9.4.2.11)."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ THIS_HOST = '127.0.0.1'
 
 
 class Parameters(NamedTuple):
-    """The values of a list by their identifiers, and the byte order in which they are."""
+    """The values of a parameter list by their identifiers, and their byte order."""
 
     values: dict[int, list[bytes]]
     order: str
 
     def first(self, identifier: int) -> bytes:
         """
-        Return the first value of a parameter, or nothing.
+        Return the first value of a parameter; empty if it is missing.
 
         Parameters
         ----------
@@ -41,7 +41,7 @@ class Parameters(NamedTuple):
 
     def text(self, identifier: int) -> str:
         """
-        Decode a string parameter; '' if it is not there.
+        Decode a string parameter; '' if it is missing.
 
         Parameters
         ----------
@@ -58,7 +58,7 @@ class Parameters(NamedTuple):
 
     def octets(self, identifier: int) -> bytes:
         """
-        Decode a parameter that is a sequence of bytes; empty if it is not there.
+        Decode a parameter that is a sequence of bytes; empty if it is missing.
 
         Parameters
         ----------
@@ -86,7 +86,7 @@ class Parameters(NamedTuple):
         identifier
             The parameter ID.
         default
-            What is returned if it is not there.
+            What is returned if it is missing.
 
         Raises
         ------
@@ -109,12 +109,12 @@ class Parameters(NamedTuple):
         identifier
             The parameter ID.
         offset
-            Where the duration begins in the value, in bytes.
+            The offset of the duration in the value, in bytes.
 
         Returns
         -------
         int
-            Nanoseconds; INFINITE_NS if it is infinite or not there.
+            Nanoseconds; INFINITE_NS if it is infinite or missing.
 
         Raises
         ------
@@ -184,9 +184,9 @@ def read_parameters(data: bytes, offset: int, order: str) -> tuple[Parameters, i
     Parameters
     ----------
     data
-        The bytes that have the list.
+        The bytes that contain the list.
     offset
-        Where it begins.
+        The offset of the list.
     order
         The byte order in the notation of struct, `<` or `>`.
 
@@ -198,7 +198,7 @@ def read_parameters(data: bytes, offset: int, order: str) -> tuple[Parameters, i
     Raises
     ------
     struct.error
-        The list is cut off.
+        The list is truncated.
 
     """
     values: dict[int, list[bytes]] = {}
@@ -263,7 +263,7 @@ def number_value(number: int) -> bytes:
     Parameters
     ----------
     number
-        An unsigned number of 32 bits.
+        An unsigned 32-bit number.
 
     """
     return struct.pack('<I', number)

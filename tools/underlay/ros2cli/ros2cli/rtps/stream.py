@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What has come of a writer's samples, and what is missing (8.4.10)."""
+"""State of a reliable reader: received and missing samples of a writer (8.4.10)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from ros2cli.rtps.fragments import Fragments
 from ros2cli.rtps.message import acknack
 from ros2cli.rtps.wire import MAX_NUMBERS
 
-MAX_AHEAD = 10_000  # samples that are kept in mind behind one that is missing
+MAX_AHEAD = 10_000  # received samples that are tracked behind a missing one
 
 
 class Stream:
     """
-    The reading end of a reliable writer: which samples have come, and which are missing.
+    State of a reader of a reliable writer: the received and the missing samples.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class Stream:
     Attributes
     ----------
     fragments
-        What reassembles samples that are too large for one datagram.
+        The reassembly of samples that are too large for one datagram.
 
     """
 
@@ -42,27 +42,27 @@ class Stream:
 
     @property
     def is_announced(self) -> bool:
-        """Tell if the writer has said what it has."""
+        """Whether the writer has announced its samples."""
         return self._last is not None
 
     @property
     def is_complete(self) -> bool:
-        """Tell if all has come that the writer has, as far as it has said."""
+        """Whether all announced samples have been received."""
         return self._last is not None and self._next > self._last
 
     @property
     def is_answered(self) -> bool:
-        """Tell if all has come that was asked for, but not all that there is."""
+        """Whether all requested samples have been received, but not all announced ones."""
         return not self.is_complete and self._next > self._requested > 0
 
     def on_heartbeat(self, first: int, last: int) -> bool:
         """
-        Take in which sequence numbers the writer has.
+        Handle a heartbeat with the sequence numbers that the writer has.
 
         Parameters
         ----------
         first, last
-            The least and the greatest sequence number; what is before the first will never come.
+            The lowest and the highest sequence number; earlier samples will never arrive.
 
         Returns
         -------
@@ -77,7 +77,7 @@ class Stream:
 
     def wants(self, number: int) -> bool:
         """
-        Whether a sample has not come yet; most come twice.
+        Whether a sample has not been received yet; most arrive twice.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class Stream:
 
     def settle(self, numbers: Iterable[int]) -> None:
         """
-        Mark samples that have come, or will never come.
+        Mark samples as received or as never to arrive.
 
         Parameters
         ----------
@@ -102,12 +102,12 @@ class Stream:
 
     def skip(self, start: int, end: int) -> None:
         """
-        Mark a range of samples that will never come.
+        Mark a range of samples as never to arrive.
 
         Parameters
         ----------
         start, end
-            The first sequence number, and that after the last.
+            The first sequence number, and the one after the last.
 
         """
         if start <= self._next:
@@ -117,9 +117,9 @@ class Stream:
 
     def request(self) -> bytes:
         """
-        Return the submessage that tells what has come and asks for what is missing.
+        Build the ACKNACK submessage that acknowledges samples and requests missing ones.
 
-        As long as nothing is known it asks for a heartbeat.
+        Before the first heartbeat it only requests a heartbeat.
         """
         base = 0 if self._last is None else self._next
         end = min(self._last or 0, base + MAX_NUMBERS - 1) + 1

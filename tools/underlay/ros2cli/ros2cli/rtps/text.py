@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Strings, as anybody in the network may send them."""
+"""Decoding of untrusted strings from the network."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ def text_of(raw: bytes) -> str:
     Parameters
     ----------
     raw
-        UTF-8, with or without zeros at the end.
+        UTF-8, with or without trailing zeros.
 
     """
     text = raw.rstrip(b'\0').decode('utf-8', 'backslashreplace')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Datagrams that we read: a header and submessages (8.3, 9.4)."""
+"""Datagrams that we receive: a header and submessages (8.3, 9.4)."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ INLINE_QOS = 0b0010
 PAYLOAD = 0b0100
 KEY = 0b1000
 KEY_OF_FRAGMENT = 0b0100
-MAX_NUMBER = 2**62  # of a sample; the last numbers of 64 bits are not worth a special case
+MAX_NUMBER = 2**62  # of a sample; the last 64-bit numbers are not worth a special case
 MAX_NUMBERS = 256  # in a set of sequence numbers
 
 
 class Data(NamedTuple):
-    """A sample, or the news that an instance is no more, of which only the key may be there."""
+    """A sample, or the disposal of an instance, which may contain only the key."""
 
     reader: bytes
     writer: bytes
@@ -37,10 +37,10 @@ class Data(NamedTuple):
 
 class Fragment(NamedTuple):
     """
-    A part of a sample that is too large for one datagram.
+    Fragment of a sample that is too large for one datagram.
 
-    :param start: of the part in the sample
-    :param size: of the sample
+    :param start: offset of the fragment in the sample
+    :param size: size of the whole sample
     """
 
     reader: bytes
@@ -52,7 +52,7 @@ class Fragment(NamedTuple):
 
 
 class Heartbeat(NamedTuple):
-    """The sequence numbers that a writer has."""
+    """The range of sequence numbers that a writer has."""
 
     reader: bytes
     writer: bytes
@@ -61,7 +61,7 @@ class Heartbeat(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Sequence numbers that a writer no longer has: from start to before end, and some more."""
+    """Sequence numbers that a writer no longer has: those from start to end - 1, and some more."""
 
     reader: bytes
     writer: bytes
@@ -90,12 +90,12 @@ def sender(datagram: bytes) -> bytes | None:
 
 def submessages(datagram: bytes, own_prefix: bytes) -> Iterator[Submessage]:
     """
-    Decode the submessages of a datagram that are meant for us and tell about the graph.
+    Decode the submessages of a datagram that are addressed to us and describe the graph.
 
     Parameters
     ----------
     datagram
-        The datagram, of which `sender` says that it is RTPS.
+        The datagram, which `sender` has recognized as RTPS.
     own_prefix
         Our GUID prefix (12 bytes).
 

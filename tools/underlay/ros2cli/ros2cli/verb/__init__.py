@@ -29,7 +29,7 @@ class VerbExtension:
         """
         Execute the verb.
 
-        A RuntimeError is printed on stderr, like a str that is returned, and gives status 1.
+        A RuntimeError, like a returned str, is printed on stderr and results in status 1.
 
         Parameters
         ----------

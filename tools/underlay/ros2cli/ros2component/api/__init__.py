@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Containers of components, asked through their services."""
+"""Component containers, queried through their services."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ def find_container(watch: GraphWatch, name: str) -> str:
     Parameters
     ----------
     watch
-        The graph, which is waited for as long as the spin time if the container is not in it yet.
+        The graph; the container is waited for during the spin time if it is not in it yet.
     name
-        The name that the user has written, with or without the leading slash.
+        The name as written by the user, with or without the leading slash.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def get_components(node: Any, container: str, timeout_s: float) -> list[Componen
     container
         The full name of the container.
     timeout_s
-        How long to wait for the response, in s.
+        The timeout for the response, in s.
 
     Returns
     -------
@@ -127,12 +127,12 @@ def load_component(node: Any, container: str, args: argparse.Namespace) -> Compo
     Returns
     -------
     Component
-        The unique ID that the container has given the component, and its full node name.
+        The unique ID assigned by the container, and the full node name.
 
     Raises
     ------
     RuntimeError
-        The container rejects the request, goes away, or does not connect.
+        The container rejects the request, disappears, or does not connect.
 
     """
     service = container_services().LoadNode
@@ -173,7 +173,7 @@ def unload_component(node: Any, container: str, uid: int) -> str:
     Raises
     ------
     RuntimeError
-        The container goes away or does not connect.
+        The container disappears or does not connect.
 
     """
     service = container_services().UnloadNode

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The components that packages register in the index of resources."""
+"""The components that packages register in the ament index."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to load into a container, and under which name."""
+"""Arguments for the component to load into a container."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ LOG_LEVELS = {'unset': 0, 'debug': 10, 'info': 20, 'warn': 30, 'error': 40, 'fat
 
 def add_load_arguments(parser: argparse.ArgumentParser) -> None:
     """
-    Add the arguments that say which component to load, with which name and parameters.
+    Add the arguments for the component to load, its name and its parameters.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of a container, from a package that may not be installed."""
+"""The container services, from a package that may not be installed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def container_services() -> Any:
-    """Return the module with the classes of the services; RuntimeError if there is none."""
+    """Return the module with the service classes; raise RuntimeError if it is not installed."""
     try:
         from composition_interfaces import srv
     except ImportError as error:

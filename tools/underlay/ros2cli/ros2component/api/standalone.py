@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A container for one component, which lives as long as the command."""
+"""A container for one component, which runs as long as the command."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ END_TIMEOUT_S = 5.0
 
 def run_standalone(args: argparse.Namespace) -> int:
     """
-    Start a container, load one component into it, and wait until the container ends.
+    Start a container, load one component into it, and wait until the container exits.
 
     The container is terminated when this returns or raises, and killed after another 5 s.
 
@@ -40,7 +40,7 @@ def run_standalone(args: argparse.Namespace) -> int:
     Raises
     ------
     RuntimeError
-        There is no executable of a container, it ends early, or it rejects the component.
+        There is no container executable, it exits early, or it rejects the component.
 
     """
     with _container_process(args.container_node_name) as process:
@@ -64,7 +64,7 @@ def _load(process: subprocess.Popen[bytes], args: argparse.Namespace) -> None:
 
 @contextmanager
 def _container_process(name: str) -> Iterator[subprocess.Popen[bytes]]:
-    """Start a container; it ends with the block at the latest."""
+    """Start a container; it is terminated at the end of the block at the latest."""
     process = subprocess.Popen([_executable(), '--ros-args', '-r', f'__node:={name}'])
     try:
         yield process

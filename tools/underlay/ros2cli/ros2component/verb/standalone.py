@@ -38,12 +38,12 @@ class StandaloneVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Start a container, load a component into it, and stay until the container ends.
+        Start a container, load a component into it, and wait until the container exits.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Returns
         -------

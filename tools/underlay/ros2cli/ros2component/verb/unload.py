@@ -40,12 +40,12 @@ class UnloadVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Unload components from a container one by one, and go on if one of them stays.
+        Unload components from a container one by one, and continue if one cannot be unloaded.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The verbs of `ros2 daemon`, one a module."""
+"""The verbs of `ros2 daemon`, one per module."""
 
 import argparse
 
@@ -19,12 +19,12 @@ class AnswerVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Print that there is no daemon, which is no error, so that scripts go on.
+        Print that there is no daemon; this is not an error, so that scripts continue.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line, as for `VerbExtension.main`.
+            The parsed arguments, as for `VerbExtension.main`.
 
         """
         print(ANSWER)

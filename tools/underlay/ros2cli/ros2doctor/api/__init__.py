@@ -2,8 +2,8 @@
 """
 Checks and reports.
 
-A package adds its own by the entry-point groups `ros2doctor.checks` and `ros2doctor.report`, with
-a class derived from DoctorCheck or DoctorReport.
+A package adds its own through the entry point groups `ros2doctor.checks` and `ros2doctor.report`,
+with a class derived from DoctorCheck or DoctorReport.
 """
 
 from ros2doctor.api.examining import generate_reports, run_checks

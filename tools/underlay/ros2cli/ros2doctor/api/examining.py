@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run all checks, and make all reports."""
+"""Run all checks, and generate all reports."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def examine(*, include_warnings: bool, exclude_packages: bool) -> set[str]:
     Parameters
     ----------
     include_warnings
-        Whether a check that finds warnings only counts as failed, too.
+        Whether a check with only warnings counts as failed, too.
     exclude_packages
         Whether the check of the workspace's packages is left out.
 
@@ -48,7 +48,7 @@ def run_checks(
     """
     Run the checks and print the findings of each as soon as it is done.
 
-    A check that raises an exception counts as failed and does not keep the others from running.
+    A check that raises an exception counts as failed; the others still run.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def run_checks(
     Returns
     -------
     tuple
-        The categories of the checks that failed, how many checks failed, and how many there were.
+        The categories of the failed checks, the number of failed checks, and their total number.
 
     """
     failed: set[str] = set()
@@ -110,7 +110,7 @@ def generate_reports(
     Yields
     ------
     Report
-        A section; where its report raises an exception, one that names the exception.
+        A section; if its report raises an exception, a section that names the exception.
 
     """
     for report in _load(REPORTS, REPORT_GROUP, exclude_packages):
@@ -119,7 +119,7 @@ def generate_reports(
 
 
 def _load(entries: Mapping[str, Entry], group: str, exclude_packages: bool) -> Iterator[Any]:
-    """Yield an instance of each class of a table and a group; warn of what cannot be loaded."""
+    """Yield an instance of each class of a table and a group; warn of those that fail to load."""
     for name, entry in {**entries_of_group(group), **entries}.items():
         if exclude_packages and name == WORKSPACE:
             continue
@@ -130,7 +130,7 @@ def _load(entries: Mapping[str, Entry], group: str, exclude_packages: bool) -> I
 
 
 def _result(check: Any) -> Result:
-    """Return what a check finds; one that fails itself does not keep the others from it."""
+    """Run a check and return its findings; catch its exceptions, so that the others run."""
     try:
         result: Result = check.check()
     except Exception as error:

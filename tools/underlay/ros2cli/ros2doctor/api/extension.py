@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base classes of checks and reports."""
+"""Base classes of checks and reports."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ros2doctor.api.report import Report
 
 
 class DoctorCheck:
-    """A check: what it belongs to, and what it finds."""
+    """Base class of a check: its category and its findings."""
 
     def category(self) -> str:
-        """Return what the check is about, in a word; the report of that name tells more."""
+        """Return the category, in one word; the report of the same name has details."""
         raise NotImplementedError(f'{type(self).__name__} does not implement category()')
 
     def check(self) -> Result:
-        """Return what was found."""
+        """Run the check and return its findings."""
         raise NotImplementedError(f'{type(self).__name__} does not implement check()')
 
 
@@ -23,7 +23,7 @@ class DoctorReport:
     """A section of `ros2 doctor --report`."""
 
     def category(self) -> str:
-        """Return what the report is about, in a word; the check of that name judges it."""
+        """Return the category, in one word; the check of the same name evaluates it."""
         raise NotImplementedError(f'{type(self).__name__} does not implement category()')
 
     def report(self) -> Report:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a check finds."""
+"""Findings of checks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 
 class Severity(Enum):
-    """How bad a finding is: with an error something does not work."""
+    """Severity of a finding: an error means that something does not work."""
 
     ERROR = 'ERROR'
     WARNING = 'WARNING'
@@ -17,11 +17,11 @@ class Severity(Enum):
 
 class Finding(NamedTuple):
     """
-    Something that is wrong.
+    A problem found by a check.
 
     :param what: what is wrong, in one sentence
     :param why: what does not work because of it
-    :param mend: the command, or the change, that mends it
+    :param mend: the command, or the change, that fixes it
     """
 
     severity: Severity
@@ -37,7 +37,7 @@ class Result:
     Parameters
     ----------
     findings
-        What the check has found so far; an iterator is read to its end at once.
+        The initial findings; an iterator is exhausted at once.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How findings and reports are printed."""
+"""Formatting of findings and reports."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ INDENT = '    '
 
 def doctor_warn(msg: str) -> None:
     """
-    Warn on stderr that the doctor itself cannot do something.
+    Print a warning about the doctor itself on stderr.
 
     Parameters
     ----------
     msg
-        The warning, which is printed without a source line of the doctor.
+        The warning, which is printed without a source line.
 
     """
     warnings.warn_explicit(msg, UserWarning, 'ros2doctor', 1)
@@ -26,12 +26,12 @@ def doctor_warn(msg: str) -> None:
 
 def doctor_error(msg: str) -> None:
     """
-    Print on stderr that the doctor itself has failed at something.
+    Print an error of the doctor itself on stderr.
 
     Parameters
     ----------
     msg
-        What has failed, printed as a warning that begins with `ERROR:`.
+        The error, printed as a warning that begins with `ERROR:`.
 
     """
     doctor_warn(f'ERROR: {msg}')
@@ -46,7 +46,7 @@ def finding_text(category: str, finding: Finding) -> str:
     category
         The category of the check that found it.
     finding
-        The finding; lines are left out where it does not say why, or how to fix it.
+        The finding; lines without a reason or fix are left out.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def format_print(report: Report) -> None:
     Parameters
     ----------
     report
-        The section; `none` stands below the title of one without items.
+        The section; `none` is printed below the title if it has no items.
 
     """
     print(f'\n   {report.name}')

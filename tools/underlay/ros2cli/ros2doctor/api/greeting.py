@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Greet other hosts by a topic and by multicast, and count who is heard."""
+"""Exchange greetings with other hosts by topic and by multicast, and count those received."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def greet(node: Any, args: argparse.Namespace) -> None:
 
 def table(topic: str, by_topic: Sources, by_multicast: Sources, own: str) -> str:
     """
-    Format a table of how many greetings of each process came by topic and by multicast.
+    Format a table of the greetings received from each process by topic and by multicast.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def table(topic: str, by_topic: Sources, by_multicast: Sources, own: str) -> str
     by_topic, by_multicast
         Number of greetings received each way, by name of the sender (`host/pid`).
     own
-        The name of this process, whose row is marked, and is there even if nothing was heard.
+        The name of this process, whose row is marked, and present even without greetings.
 
     Returns
     -------
@@ -83,23 +83,23 @@ def table(topic: str, by_topic: Sources, by_multicast: Sources, own: str) -> str
 
 class MulticastGroup:
     """
-    Member of the multicast group that all hosts greet, to be used in a `with` statement.
+    Member of the multicast group that all hosts greet; use it in a `with` statement.
 
     Parameters
     ----------
     ttl
         Time to live of the packets sent (0 to 255): with 1 they stay in this network, and each
-        router that they are to pass takes one more.
+        router to pass requires one more.
 
     Attributes
     ----------
     error
-        Why the group could not be joined, or a greeting not be sent; None if nothing has failed.
+        Why joining the group or sending a greeting failed; None without a failure.
 
     Raises
     ------
     OSError
-        The TTL is out of range, or another program has the port to itself.
+        The TTL is out of range, or another program uses the port exclusively.
 
     """
 
@@ -120,7 +120,7 @@ class MulticastGroup:
             self.error = None
 
     def __enter__(self) -> MulticastGroup:
-        """Say if nothing can be heard here."""
+        """Print a message if the group could not be joined."""
         if self.error:
             print(f'multicast does not work on this machine: {self.error.strerror}')
         return self
@@ -145,7 +145,7 @@ class MulticastGroup:
             self.error = error
 
     def received(self) -> Iterator[str]:
-        """Yield the greetings that have come since."""
+        """Yield the greetings received since the last call."""
         while True:
             try:
                 yield self._socket.recv(LONGEST_GREETING).decode(errors='replace')

@@ -31,9 +31,9 @@ class Report:
         Parameters
         ----------
         item_name
-            What stands on the left; several lines may have the same name.
+            The left column; several lines may have the same name.
         item_info
-            What stands on the right, converted by `str`.
+            The right column, converted by `str`.
 
         """
         self.items.append((item_name, str(item_info)))

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is wrong with the facts, one check a module."""
+"""Checks of the facts, one per module."""

@@ -12,14 +12,14 @@ from ros2doctor.facts.wheels import install_command
 
 
 class ClientLibraryCheck(DoctorCheck):
-    """The check of rclpy, by use."""
+    """Check of rclpy by using it."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'rclpy'
 
     def check(self) -> Result:
-        """Return why no node can start."""
+        """Check whether nodes can start."""
         return Result(client_library_findings(why_rclpy_does_not_start(), install_command()))
 
 

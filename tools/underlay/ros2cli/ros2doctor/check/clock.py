@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that somebody tells the time to the nodes that take it from a topic."""
+"""Check that /clock is published if nodes use simulated time."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from ros2doctor.facts.graph import Graph
 
 
 class ClockCheck(GraphCheck):
-    """The check of the time that a simulator, or a bag, publishes."""
+    """Check of the time that a simulator or a bag publishes."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'clock'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """
-        Check for nodes whose time stands still because nobody publishes /clock.
+        Check for nodes whose time stands still because /clock is not published.
 
         Parameters
         ----------
@@ -37,7 +37,7 @@ class ClockCheck(GraphCheck):
 
 def clock_findings(nodes: Collection[str]) -> Iterator[Finding]:
     """
-    Report one error about all nodes that wait for a /clock that nobody publishes.
+    Report one error about all nodes that wait for a /clock without publishers.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check what running nodes say of themselves."""
+"""Check the diagnostics of running nodes."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from ros2doctor.facts.graph import Graph
 
 
 class DiagnosticsCheck(GraphCheck):
-    """The check of the topics `diagnostics`."""
+    """Check of the `diagnostics` topics."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'diagnostics'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """
-        Check what nodes report on the diagnostics topics.
+        Check the diagnostic status of components.
 
         Parameters
         ----------

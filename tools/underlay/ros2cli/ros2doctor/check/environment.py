@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the shell is set up for one ROS 2, and for this one."""
+"""Check that the shell is set up for exactly one ROS 2 installation, this one."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ NEW_TERMINAL = 'open a new terminal and run: '
 
 
 class EnvironmentCheck(DoctorCheck):
-    """The check of the shell's variables and programs."""
+    """Check of the shell's variables and programs."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'environment'
 
     def check(self) -> Result:
-        """Return what is wrong with the environment of this process."""
+        """Check the environment of this process."""
         return Result(environment_findings(read_environment()))
 
 
 def environment_findings(facts: Environment) -> Iterator[Finding]:
     """
-    Report what is wrong with the environment variables and programs of a shell.
+    Report problems of the environment variables and programs of a shell.
 
-    Where no ROS 2 environment is sourced, what depends on one is not examined.
+    Without a sourced ROS 2 environment, anything that depends on one is not examined.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that all frames hang together."""
+"""Check that all frames are connected."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ Parents = dict[str, set[str]]
 
 
 class FramesCheck(GraphCheck):
-    """The check of the trees of transforms."""
+    """Check of the transform trees."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'frames'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """
-        Check for what keeps transforms from being looked up.
+        Check for problems that make transform lookups fail.
 
         Parameters
         ----------
@@ -49,7 +49,7 @@ def frame_findings(
     transforms: Iterable[Transform], waits_for_clock: bool = False
 ) -> Iterator[Finding]:
     """
-    Report what is wrong with the trees of frames that some transforms form.
+    Report problems of the frame trees formed by transforms.
 
     Parameters
     ----------
@@ -61,8 +61,8 @@ def frame_findings(
     Yields
     ------
     Finding
-        An error for a frame with several parents, or for frames that hang on no root; a warning
-        where the frames of one topic have several roots.
+        An error for a frame with several parents, or for frames without a root; a warning if the
+        frames of one topic have several roots.
 
     """
     trees: dict[str, Parents] = defaultdict(lambda: defaultdict(set))
@@ -82,7 +82,7 @@ def frame_findings(
 
 def roots(parents: Parents) -> list[str]:
     """
-    List the root frames: those that are a parent and have none.
+    List the root frames: those with children but without a parent.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def roots(parents: Parents) -> list[str]:
     Returns
     -------
     list of str
-        The frames of the world first, in the order of REP 105, then the others by name.
+        World frames first, in the order of REP 105, then the others by name.
 
     """
     above = {parent for each in parents.values() for parent in each}
@@ -128,7 +128,7 @@ def _two_roots(topic: str, found: list[str], mend: str) -> Finding:
 
 
 def _joining(topic: str, found: list[str]) -> str:
-    """Say how the two first trees become one."""
+    """Format the fix that joins the first two trees."""
     return (
         'start the node that publishes what is missing, or publish it by hand until Ctrl-C (here '
         f"'{found[1]}' at the origin of '{found[0]}'; change that):\n"
@@ -148,7 +148,7 @@ def _publish_command(topic: str, parent: str, child: str) -> str:
 
 
 def _below(found: list[str], parents: Parents) -> set[str]:
-    """Return the frames that hang on the roots of their tree."""
+    """Return the frames that descend from the roots."""
     below: set[str] = set()
     more = set(found)
     while more:

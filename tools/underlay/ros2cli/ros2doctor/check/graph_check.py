@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the checks of the running nodes have in common."""
+"""Base class of the checks of running nodes."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ros2doctor.facts.graph import Graph, read_graph
 
 
 class GraphCheck(DoctorCheck):
-    """A check of the graph; where rclpy does not start, which has a check, there is none."""
+    """Base class of a graph check; skipped if rclpy does not start, which has its own check."""
 
     def check(self) -> Result:
-        """Return what is wrong with the graph."""
+        """Check the graph."""
         if why_rclpy_does_not_start():
             return Result()
         return Result(self.findings(read_graph()))
@@ -27,12 +27,12 @@ class GraphCheck(DoctorCheck):
         Parameters
         ----------
         graph
-            All that is known of the running nodes, which `read_graph` reads once for all checks.
+            The facts about the running nodes, which `read_graph` reads once for all checks.
 
         Yields
         ------
         Finding
-            What is wrong.
+            A problem.
 
         Raises
         ------

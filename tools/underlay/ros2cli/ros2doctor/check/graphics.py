@@ -19,20 +19,20 @@ PACKAGES = {
 
 
 class GraphicsCheck(DoctorCheck):
-    """The check of what a simulator draws with."""
+    """Check of the rendering of a simulator."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'graphics'
 
     def check(self) -> Result:
-        """Return what keeps a simulator from drawing."""
+        """Check for problems that prevent a simulator from rendering."""
         return Result(graphics_findings(read_graphics()))
 
 
 def graphics_findings(facts: Graphics) -> Iterator[Finding]:
     """
-    Report what keeps a simulator from rendering, or makes it slow.
+    Report problems that prevent a simulator from rendering, or slow it down.
 
     Parameters
     ----------

@@ -13,20 +13,20 @@ from ros2doctor.facts.libraries import Libraries, read_libraries
 
 
 class LibrariesCheck(DoctorCheck):
-    """The check of LD_LIBRARY_PATH."""
+    """Check of LD_LIBRARY_PATH."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'libraries'
 
     def check(self) -> Result:
-        """Return what is wrong with the library path of this process."""
+        """Check the library path of this process."""
         return Result(library_findings(read_libraries(), set_up_command()))
 
 
 def library_findings(facts: Libraries, set_up: str) -> Iterator[Finding]:
     """
-    Report what is wrong with LD_LIBRARY_PATH.
+    Report problems of LD_LIBRARY_PATH.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ def library_findings(facts: Libraries, set_up: str) -> Iterator[Finding]:
     Yields
     ------
     Finding
-        An error where libraries of the wheels are not found, or those of another ROS come first; a
-        warning where a folder replaces libraries of the system.
+        An error if libraries of the wheels are not found, or those of another ROS take precedence;
+        a warning if a folder shadows system libraries.
 
     """
     names = [os.path.realpath(folder.path) for folder in facts.search]

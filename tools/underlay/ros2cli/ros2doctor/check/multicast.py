@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judge by which interfaces nodes can announce themselves."""
+"""Evaluate on which interfaces nodes can announce themselves."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def multicast_findings(facts: Network) -> Iterator[Finding]:
 
 def multicast_state(error: OSError | None) -> str:
     """
-    Describe in a few words whether multicast works.
+    Summarize whether multicast works.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def multicast_state(error: OSError | None) -> str:
     Returns
     -------
     str
-        The words, in lower case and without a period.
+        The summary, in lower case and without a period.
 
     """
     if error is None:

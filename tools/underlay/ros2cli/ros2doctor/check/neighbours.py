@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the nodes of other machines are there on purpose."""
+"""Check that nodes on other machines are visible on purpose."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ DEFAULT_DOMAIN = 0
 
 
 class NeighboursCheck(GraphCheck):
-    """The check of the nodes of other machines."""
+    """Check of the nodes on other machines."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'neighbours'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """
-        Check for nodes of other machines in the default domain.
+        Check for nodes on other machines in the default domain.
 
         Parameters
         ----------

@@ -22,20 +22,20 @@ PEERS_VARIABLE, SERVER_VARIABLE = 'ROS_STATIC_PEERS', 'ROS_DISCOVERY_SERVER'
 
 
 class NetworkCheck(DoctorCheck):
-    """The check of the network."""
+    """Check of the network."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'network'
 
     def check(self) -> Result:
-        """Return what keeps nodes from finding each other."""
+        """Check for problems that prevent discovery."""
         return Result(network_findings(read_network()))
 
 
 def network_findings(facts: Network) -> Iterator[Finding]:
     """
-    Report what keeps nodes from discovering each other, or messages from arriving.
+    Report problems that prevent discovery or message delivery.
 
     Discovery range, static peers, domain, interfaces, multicast, DDS profile and shared memory are
     examined.
@@ -71,7 +71,7 @@ def discovery_range(facts: Network) -> str:
     Returns
     -------
     str
-        The value as it was set, which may be none of those that ROS knows.
+        The value as set, which may be unknown to ROS.
 
     """
     return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '') or SUBNET
@@ -129,7 +129,7 @@ def _range(facts: Network) -> Iterator[Finding]:
 
 
 def _peers(facts: Network) -> Iterator[Finding]:
-    """Yield what names other machines although no socket is open to them."""
+    """Yield the settings that name other machines although no socket is open to them."""
     if discovery_range(facts) != LOCALHOST:
         return
     for name in (PEERS_VARIABLE, SERVER_VARIABLE):
@@ -145,7 +145,7 @@ def _peers(facts: Network) -> Iterator[Finding]:
 
 
 def _hosts(text: str) -> list[str]:
-    """Return the hosts of a list as in ROS_STATIC_PEERS, or with ports as of discovery servers."""
+    """Return the hosts of a list like ROS_STATIC_PEERS, or with ports as for discovery servers."""
     return [each.strip().rpartition(':')[0] or each.strip() for each in text.split(';') if each]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that every node has a name of its own, and topics that follow its namespace."""
+"""Check that node names are unique, and that topics follow the namespaces of nodes."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.graph_check import GraphCheck
 from ros2doctor.facts.graph import Endpoint, Graph
 
-# Topics that all robots have in common on purpose.
+# Topics that robots share on purpose.
 _COMMON = frozenset(
     ('/clock', '/diagnostics', '/parameter_events', '/rosout', '/tf', '/tf_static')
 )
 
 
 class NodesCheck(GraphCheck):
-    """The check of the names of the running nodes."""
+    """Check of the names of the running nodes."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'nodes'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
@@ -49,12 +49,12 @@ def name_findings(names: Iterable[str]) -> Iterator[Finding]:
     Parameters
     ----------
     names
-        Full names, each as often as there are nodes of that name.
+        Full names, repeated for each node of that name.
 
     Yields
     ------
     Finding
-        One warning for each name that several nodes have.
+        One warning for each name shared by several nodes.
 
     """
     for name, count in sorted(Counter(names).items()):

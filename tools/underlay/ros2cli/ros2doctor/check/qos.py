@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that all subscriptions get the messages of all publishers of their topic."""
+"""Check that all subscriptions receive from all publishers of their topic."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ Pair = tuple[Endpoint, Endpoint]
 
 
 class QosCheck(GraphCheck):
-    """The check of every pair of a publisher and a subscription, judged by nodes."""
+    """Check of each pair of publisher and subscription, evaluated per node."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'qos'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """
-        Check for publishers and subscriptions between which no message passes.
+        Check for incompatible publishers and subscriptions.
 
         Parameters
         ----------
@@ -88,17 +88,17 @@ def pair_findings(
     endpoints: Iterable[Endpoint], why_not: Callable[[Any, Any], str]
 ) -> Iterator[Finding]:
     """
-    Report the pairs of endpoints between whose nodes no message passes.
+    Report the pairs of nodes with incompatible endpoints.
 
-    A node may subscribe to a topic twice, with QoS profiles that complement each other: whoever
-    reaches one of the subscriptions reaches the node.
+    A node may subscribe to a topic twice, with QoS profiles that complement each other: a
+    publisher that reaches one of the subscriptions reaches the node.
 
     Parameters
     ----------
     endpoints
         The publishers and subscriptions of all nodes.
     why_not
-        Gets the offered and the requested QoS, and returns why they are incompatible, or ''
+        Accepts the offered and the requested QoS, and returns why they are incompatible, or ''
         if they are not; see `why_incompatible`.
 
     Yields

@@ -17,14 +17,14 @@ from ros_environment.advice import listing
 
 
 class ScriptsCheck(DoctorCheck):
-    """The check of the interpreters of installed scripts."""
+    """Check of the interpreters of installed scripts."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'scripts'
 
     def check(self) -> Result:
-        """Return which installed scripts run with a wrong interpreter."""
+        """Check for installed scripts with a wrong interpreter."""
         return Result(script_findings(read_scripts(), mending_command))
 
 
@@ -34,15 +34,15 @@ def script_findings(
     """
     Report installed scripts whose interpreter does not exist, or is another Python.
 
-    Scripts that look their interpreter up in PATH, by `env`, are not counted.
+    Scripts that look their interpreter up in PATH, by `env`, are ignored.
 
     Parameters
     ----------
     scripts
         The scripts to examine.
     mend
-        Returns the command that installs the scripts of a workspace again, or those of the
-        environment for None; see `mending_command`.
+        Returns the command that reinstalls the scripts of a workspace, or those of the environment
+        for None; see `mending_command`.
 
     Yields
     ------
@@ -61,7 +61,7 @@ def script_findings(
 
 def mending_command(workspace: Path | None) -> str:
     """
-    Build the command that writes the scripts of a workspace, or the environment, again.
+    Build the command that reinstalls the scripts of a workspace or of the environment.
 
     Parameters
     ----------

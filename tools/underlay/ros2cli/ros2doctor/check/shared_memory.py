@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judge the room for messages between processes of this machine."""
+"""Evaluate the shared memory for messages between processes of this machine."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CLEAN_UP = 'for l in /dev/shm/fastrtps_[0-9a-f]*_el; do flock -n "$l" rm -f "$l"
 
 def shared_memory_findings(facts: SharedMemory | None) -> Iterator[Finding]:
     """
-    Report shared memory that is missing, almost full, or taken by killed processes.
+    Report shared memory that is missing, almost full, or occupied by killed processes.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the installed wheels belong together."""
+"""Check that the versions of the installed wheels match."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ LAST_SETUPTOOLS = 79
 
 
 class WheelsCheck(DoctorCheck):
-    """The check of the versions of the wheels."""
+    """Check of the versions of the wheels."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'wheels'
 
     def check(self) -> Result:
-        """Return which wheels are missing, or of a version that was not tested."""
+        """Check for wheels that are missing or of an untested version."""
         return Result(wheel_findings(read_wheels()))
 
 
@@ -79,7 +79,7 @@ def _other_versions(facts: Wheels) -> Iterator[Finding]:
 
 
 def _setuptools(facts: Wheels) -> Iterator[Finding]:
-    """Judge the one version that matters in every workspace, where none are pinned."""
+    """Check the setuptools version, which matters in every workspace, even without pins."""
     version = facts.installed.get('setuptools', '0')
     if int(version.partition('.')[0]) > LAST_SETUPTOOLS:
         yield Finding(

@@ -14,20 +14,20 @@ from ros_environment.advice import build_command, listing, source_command
 
 
 class WorkspaceCheck(DoctorCheck):
-    """The check of the workspaces at hand."""
+    """Check of the relevant workspaces."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'workspace'
 
     def check(self) -> Result:
-        """Return what has to be built or sourced."""
+        """Check for workspaces and packages that have to be built or sourced."""
         return Result(workspace_findings(read_workspaces()))
 
 
 def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
     """
-    Report which workspaces and packages have to be built or sourced.
+    Report workspaces and packages that have to be built or sourced.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
 
 
 def _is_used(workspace: Workspace) -> bool:
-    """Tell whether a workspace is around the current folder, or sourced, not just near."""
+    """Whether a workspace contains the current folder or is sourced."""
     return workspace.is_current or any(package.is_known for package in workspace.packages)
 
 

@@ -29,9 +29,9 @@ class DoctorCommand(VerbCommand):
         Parameters
         ----------
         parser
-            The parser of the command, which they are added to.
+            The parser of the command.
         cli_name
-            The words that call the command, such as `ros2 doctor`, for the help of its verbs.
+            The command line up to the command, such as `ros2 doctor`, for the help of its verbs.
         argv
             The words after these, which tell which verb is called; its arguments are added, too.
 

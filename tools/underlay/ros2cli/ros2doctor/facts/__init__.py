@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is the case, one subject a module; nothing is judged here."""
+"""Facts about the system, one subject per module, without any evaluation."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Try in a process of its own whether rclpy starts: where it does not, it may crash or exit."""
+"""Test in a separate process whether rclpy starts, since it may crash or exit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ERROR_LINE = re.compile(r'[A-Za-z_.]*Error: ')
 
 @lru_cache(maxsize=1)
 def why_rclpy_does_not_start() -> str:
-    """Return the last words of a process that uses rclpy, or '' if all is well."""
+    """Return the last error of a process that uses rclpy, or '' if it succeeds."""
     try:
         result = subprocess.run(
             [sys.executable, '-c', PROBE],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes that take their time from the topic /clock."""
+"""The nodes that use the time of the topic /clock."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def nodes_on_clock(node: Any, candidates: Iterable[str]) -> tuple[str, ...]:
     """
     Find the nodes whose parameter use_sim_time is true, by their parameter services.
 
-    All are asked at the same time, which takes a second at most; those that have not answered by
+    All are queried at the same time, which takes a second at most; those that have not answered by
     then are left out.
 
     Parameters
@@ -26,7 +26,7 @@ def nodes_on_clock(node: Any, candidates: Iterable[str]) -> tuple[str, ...]:
     node
         The `DirectNode` that calls the services.
     candidates
-        Full names of the nodes to ask, of which the first 50 by name are.
+        Full names of the nodes to query; only the first 50 by name are.
 
     Returns
     -------

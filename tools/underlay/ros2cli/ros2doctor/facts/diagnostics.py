@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What running nodes say of themselves on the topics `diagnostics`."""
+"""The diagnostics that running nodes publish on the `diagnostics` topics."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WARN = 1
 
 class Complaint(NamedTuple):
     """
-    Something that is not all right.
+    A diagnostic status that is not OK.
 
     :param level: 1 is a warning, more is worse
     """
@@ -25,7 +25,7 @@ class Complaint(NamedTuple):
 
 class DiagnosticsListener:
     """
-    Keeps the newest diagnostic status of each component of a robot.
+    Listener that stores the newest diagnostic status of each component of a robot.
 
     Parameters
     ----------
@@ -41,12 +41,12 @@ class DiagnosticsListener:
 
     @property
     def is_listening(self) -> bool:
-        """Tell whether there is any topic to listen to."""
+        """Whether there is any topic to listen to."""
         return bool(self._subscriptions)
 
     @property
     def complaints(self) -> list[Complaint]:
-        """Return what is not all right."""
+        """Return the statuses that are not OK."""
         return sorted(each for each in self._newest.values() if each.level >= WARN)
 
     def listen_to(self, types: Mapping[str, str]) -> None:

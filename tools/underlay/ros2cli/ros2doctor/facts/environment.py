@@ -21,15 +21,15 @@ PATH_VARIABLES = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH'
 @dataclass(frozen=True)
 class Environment:
     """
-    What a shell passes on to the programs that it starts.
+    Environment that a shell passes on to the programs that it starts.
 
     :param python_version: major and minor version of the running Python
     :param prefix: the virtual environment with the wheels
-    :param rclpy: where rclpy would be imported from, if anywhere
-    :param other_python: what `python3` stands for, if it is not that of the environment
-    :param colcon: the program that `colcon` stands for, if any
+    :param rclpy: path from which rclpy would be imported, if any
+    :param other_python: the program that `python3` runs, if not that of the environment
+    :param colcon: the program that `colcon` runs, if any
     :param has_current_folder: whether the current folder has not been deleted
-    :param set_up: a command that sources what is near, or that makes it
+    :param set_up: a command that sources or builds the nearest workspace
     """
 
     variables: Mapping[str, str]
@@ -85,7 +85,7 @@ def _has_current_folder() -> bool:
 
 
 def set_up_command() -> str:
-    """Return the command that gives a new shell its environment, from what is there."""
+    """Return the command that sources or builds the nearest workspace in a new shell."""
     from ros_environment.workspace import workspaces
 
     for workspace in workspaces():

@@ -18,7 +18,7 @@ from ros2doctor.facts.transforms import Transform, TransformListener
 
 TRANSFORM_TIME_S = 1.0
 DIAGNOSTICS_TIME_S = 1.5
-"""Longer than a second, which is how often they are usually published."""
+"""Longer than a second, their usual publication period."""
 PERIOD_S = 0.05
 
 
@@ -27,7 +27,7 @@ class Endpoint:
     """
     A publisher or subscription.
 
-    :param node: full name of the node that has it
+    :param node: full name of its node
     :param qos: its quality of service, as rclpy describes it
     :param is_elsewhere: whether it is on another machine
     """
@@ -43,13 +43,13 @@ class Endpoint:
 @dataclass(frozen=True)
 class Graph:
     """
-    All that is known of the running nodes.
+    Facts about the running nodes.
 
-    :param nodes: full names, each as often as there are nodes of that name
+    :param nodes: full names, repeated for each node of that name
     :param elsewhere: names of nodes that run on other machines
-    :param domain_id: the domain that was looked at
-    :param complaints: what nodes say on the topics `diagnostics` that is not all right
-    :param without_clock: names of nodes that take the time from /clock, which nobody publishes
+    :param domain_id: the ROS domain ID
+    :param complaints: statuses on the `diagnostics` topics that are not OK
+    :param without_clock: names of nodes that use /clock although it is not published
     """
 
     nodes: tuple[str, ...] = ()
@@ -63,7 +63,7 @@ class Graph:
 
 @lru_cache(maxsize=1)
 def read_graph() -> Graph:
-    """Look at the graph once, for all checks and reports."""
+    """Read the graph once, for all checks and reports."""
     from ros2cli.node.direct import DirectNode
     from ros2node.api import get_node_names
 
@@ -94,13 +94,13 @@ def read_graph() -> Graph:
 
 
 def _waiting_for_clock(endpoints: Iterable[Endpoint]) -> list[str]:
-    """Return the nodes that subscribe to /clock, if nobody publishes it."""
+    """Return the nodes that subscribe to /clock, if it is not published."""
     clock = [each for each in endpoints if each.topic == CLOCK]
     return [] if any(each.is_publisher for each in clock) else [each.node for each in clock]
 
 
 def _spin(node: Any, duration_s: float) -> None:
-    """Receive for a while what the topics carry that are listened to."""
+    """Spin for a while to receive from the subscribed topics."""
     end = time.monotonic() + duration_s
     while time.monotonic() < end:
         node.spin_once(PERIOD_S)

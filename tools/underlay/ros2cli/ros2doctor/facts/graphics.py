@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a simulator can draw with."""
+"""Facts about OpenGL rendering on this machine."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Graphics:
 
 
 def read_graphics() -> Graphics:
-    """Return what this machine can draw with."""
+    """Return the OpenGL libraries, drivers and devices of this machine."""
     drivers = [path.stem for folder in DRIVER_FOLDERS for path in Path(folder).glob('*.json')]
     devices = [*Path('/dev/dri').glob('renderD*'), *Path('/dev').glob('nvidia[0-9]*')]
     return Graphics(

@@ -18,8 +18,8 @@ class LibraryFolder:
     """
     A folder of LD_LIBRARY_PATH.
 
-    :param has_ros: whether libraries of ROS lie in it
-    :param system_libraries: libraries of the system that it replaces
+    :param has_ros: whether it contains libraries of ROS
+    :param system_libraries: system libraries that it shadows
     """
 
     path: str
@@ -30,7 +30,7 @@ class LibraryFolder:
 @dataclass(frozen=True)
 class Libraries:
     """
-    Where libraries come from.
+    Search path of libraries.
 
     :param own: the folder with the libraries of the wheels
     :param search: the folders of LD_LIBRARY_PATH in their order

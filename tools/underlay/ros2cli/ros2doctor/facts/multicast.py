@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Try multicast; nothing leaves this machine."""
+"""Test multicast; nothing leaves this machine."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def multicast_error(address: str) -> OSError | None:
     Returns
     -------
     OSError or None
-        None if the packet came back, TimeoutError if not within 0.5 s, else what went wrong.
+        None if the packet came back, TimeoutError if not within 0.5 s, else the error.
 
     """
     try:
@@ -40,7 +40,7 @@ def multicast_error(address: str) -> OSError | None:
 
 
 def has_multicast_route() -> bool:
-    """Tell whether the kernel knows an interface for the group of DDS; nothing is sent."""
+    """Whether the kernel has a route to the DDS multicast group; nothing is sent."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
         try:
             asked.connect((DDS_GROUP, DDS_PORT))

@@ -19,12 +19,12 @@ USUAL_PORT_RANGE = (32768, 60999)
 @dataclass(frozen=True)
 class Network:
     """
-    What nodes need to find each other.
+    Facts that discovery depends on.
 
     :param multicast: why multicast is not delivered, if it is not, by name of interface
-    :param has_multicast_route: whether it has a way where no interface is named, as in Fast DDS
-    :param ephemeral_ports: the ports that the kernel gives to whoever asks for any
-    :param shared_memory: the room for messages on this machine; None without any
+    :param has_multicast_route: whether it has a route if no interface is named, as in Fast DDS
+    :param ephemeral_ports: the range of ports that the kernel assigns automatically
+    :param shared_memory: the shared memory for messages on this machine; None without any
     """
 
     variables: Mapping[str, str]
@@ -36,7 +36,7 @@ class Network:
 
 
 def read_network() -> Network:
-    """Return the network of this process."""
+    """Return the network facts of this process."""
     interfaces = tuple(read_interfaces())
     return Network(
         variables=dict(os.environ),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The interpreters that installed scripts name in their first line."""
+"""The interpreters in the shebang lines of installed scripts."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ INSTALL = 'install'
 @dataclass(frozen=True)
 class Script:
     """
-    A program that names an interpreter in its first line.
+    Program with a shebang line.
 
-    :param is_fixed: whether it is named by its path, and not looked up in PATH
+    :param is_fixed: whether the interpreter is named by its path, and not looked up in PATH
     :param exists: whether there is such an interpreter
     :param is_python: whether it is a Python
-    :param is_own: whether it is the one of this environment
+    :param is_own: whether it is that of this environment
     :param workspace: the folder in which colcon has installed the program, if it has
     """
 
@@ -43,7 +43,7 @@ def read_scripts() -> list[Script]:
 
 def read_script(path: Path) -> Script | None:
     """
-    Read which interpreter a script names in its first line (`#!`).
+    Read the interpreter of a script from its shebang line (`#!`).
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def read_script(path: Path) -> Script | None:
     Returns
     -------
     Script or None
-        None if the file cannot be read or is no script.
+        None if the file cannot be read or is not a script.
 
     """
     try:
@@ -78,7 +78,7 @@ def read_script(path: Path) -> Script | None:
 
 
 def _workspace(path: Path) -> Path | None:
-    """Return the folder with the install folder that a program is in."""
+    """Return the workspace whose install folder contains a program."""
     return next((each.parent for each in path.parents if each.name == INSTALL), None)
 
 

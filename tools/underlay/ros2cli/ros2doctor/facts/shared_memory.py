@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The shared memory through which messages between processes of this machine go."""
+"""The shared memory that transports messages between processes of this machine."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import shutil
 
 FOLDER = Path('/dev/shm')
-LOCKS = 'fastrtps_[0-9a-f]*_el'  # of segments; ports have other locks
+LOCKS = 'fastrtps_[0-9a-f]*_el'  # locks of segments; those of ports differ
 LOCK_SUFFIX = '_el'
 BLOCK_BYTES = 512
 
@@ -18,11 +18,11 @@ BLOCK_BYTES = 512
 @dataclass(frozen=True)
 class SharedMemory:
     """
-    What there is, in bytes.
+    Shared memory usage, in bytes.
 
-    :param free: the room left
+    :param free: the free space
     :param orphans: how many segments belong to processes that were killed
-    :param orphan_bytes: the memory that these still take
+    :param orphan_bytes: the memory that these still occupy
     """
 
     free: int
@@ -32,12 +32,12 @@ class SharedMemory:
 
 def read_shared_memory(folder: Path = FOLDER) -> SharedMemory | None:
     """
-    Measure the shared memory that Fast DDS can use, and what killed processes have left in it.
+    Measure the shared memory available to Fast DDS, and the orphans of killed processes.
 
     Parameters
     ----------
     folder
-        Where it is mounted.
+        The mount point of the shared memory.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def read_shared_memory(folder: Path = FOLDER) -> SharedMemory | None:
 
 
 def _is_orphan(lock: Path) -> bool:
-    """Tell if nobody holds a lock; Fast DDS holds one on each segment as long as it is used."""
+    """Whether no process holds the lock; Fast DDS locks each segment as long as it is used."""
     try:
         with lock.open('rb') as stream:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)

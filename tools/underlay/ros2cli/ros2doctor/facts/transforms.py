@@ -26,7 +26,7 @@ class Transform(NamedTuple):
 
 class TransformListener:
     """
-    Collects the transforms of all topics that carry some.
+    Listener that collects the transforms of all transform topics.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class TransformListener:
 
     @property
     def is_listening(self) -> bool:
-        """Tell whether there is any topic to listen to."""
+        """Whether there is any topic to listen to."""
         return bool(self._subscriptions)
 
     def listen_to(self, types: Mapping[str, str]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The distributions that are installed, and those that a workspace pins."""
+"""The installed distributions, and those pinned by a workspace."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Wheels:
 
 
 def read_wheels() -> Wheels:
-    """Return what this environment has, and what the workspace that made it pins."""
+    """Return the installed versions, and those pinned by the workspace of this environment."""
     root = _root()
     text = (root / REQUIREMENTS).read_text(encoding='utf-8') if root else ''
     installed = {
@@ -45,11 +45,11 @@ def read_wheels() -> Wheels:
 
 
 def install_command() -> str:
-    """Return the command that installs the pins anew, also where the set-up seems complete."""
+    """Return the command that reinstalls the pinned versions, even if the setup seems complete."""
     root, environment = _root(), Path(environment_prefix())
     if root is None:
         return 'install the wheels of your environment again, with python3 -m pip'
-    if root != _home():  # after a move only a new environment will do
+    if root != _home():  # after a move a new environment is required
         return f'make -C {shlex.quote(str(root))} distclean build'
     stamps = ' '.join(shlex.quote(str(environment / 'stamp' / name)) for name in STAMPS)
     elsewhere = environment.resolve() != (root / '.venv').resolve()
@@ -110,14 +110,14 @@ def _applies(marker: str | None, python: str) -> bool:
 
 
 def _root() -> Path | None:
-    """Return the workspace that has made this environment, also if both were moved together."""
+    """Return the workspace that created this environment, even if both were moved together."""
     home = _home()
     candidates = (home, Path(environment_prefix()).parent) if home else ()
     return next((root for root in candidates if (root / REQUIREMENTS).is_file()), None)
 
 
 def _home() -> Path | None:
-    """Return where the workspace was that has made this environment, if one has."""
+    """Return the original path of the workspace that created this environment, if any."""
     try:
         text = Path(environment_prefix(), 'stamp', 'home').read_text(encoding='utf-8')
     except OSError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The packages of the workspaces at hand: in the source tree, built, and known to the shell."""
+"""The packages of the relevant workspaces: in the source tree, built, and known to the shell."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class PackageState:
 
     :param is_built: whether the install folder has it
     :param is_known: whether this shell finds it
-    :param changed: files that are newer than what was built from them, and differ from it
+    :param changed: files that are newer than the build, and differ from their installed copies
     """
 
     name: str
@@ -50,7 +50,7 @@ class Workspace:
 
 
 def read_workspaces() -> list[Workspace]:
-    """Return the workspace around the current folder, and those that are sourced."""
+    """Return the workspace that contains the current folder, and those that are sourced."""
     known = known_packages()
     return [_read_workspace(folder, known) for folder in workspaces()]
 
@@ -79,7 +79,7 @@ def changed_files(source: SourcePackage, prefix: Path) -> Iterator[str]:
     """
     List the source files of a package that were changed after it was built.
 
-    A file whose installed copy is the same does not count; one without a copy counts if it is part
+    A file that equals its installed copy does not count; one without a copy counts if it is part
     of the build, or if others of its kind are installed where its copy would be.
 
     Parameters
@@ -87,7 +87,7 @@ def changed_files(source: SourcePackage, prefix: Path) -> Iterator[str]:
     source
         The package in the source tree.
     prefix
-        Where it is installed, which colcon marks with the time of the build; without that mark,
+        The install prefix, in which colcon marks the time of the build; without that mark,
         nothing is listed.
 
     Yields
@@ -109,7 +109,7 @@ def changed_files(source: SourcePackage, prefix: Path) -> Iterator[str]:
 
 
 def _folders_of_copies(prefix: Path, package: str) -> list[Path]:
-    """Return where files of a package are copied to; with symbolic links there is no copy."""
+    """Return the folders that files of a package are copied to; symlink installs have none."""
     modules = [path.parent for path in prefix.glob(f'lib/python3*/site-packages/{package}')]
     return [prefix / 'share' / package, *modules]
 
@@ -123,7 +123,7 @@ def _source_files(folder: Path) -> Iterator[Path]:
 
 
 def _differs(source: Path, copies: list[Path]) -> bool:
-    """Compare a file with its copies; one without copies counts if it should have some."""
+    """Whether a file differs from its installed copies, or lacks a copy that it should have."""
     existing = [copy for copy in copies if copy.is_file()]
     if not existing:
         return _is_built_from(source) or any(map(_has_siblings, copies))
@@ -135,5 +135,5 @@ def _is_built_from(source: Path) -> bool:
 
 
 def _has_siblings(copy: Path) -> bool:
-    """Tell whether files of the same kind are where a copy would be."""
+    """Whether files with the same suffix are installed where a copy would be."""
     return bool(copy.suffix) and any(copy.parent.glob(f'*{copy.suffix}'))

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The sections of `ros2 doctor --report`, one a module."""
+"""The sections of `ros2 doctor --report`, one per module."""

@@ -12,10 +12,10 @@ NAMES = (*PATH_VARIABLES, 'LD_LIBRARY_PATH', 'PATH', 'VIRTUAL_ENV', 'CONDA_PREFI
 
 
 class EnvironmentReport(DoctorReport):
-    """The report of the shell's variables and programs."""
+    """Report of the shell's variables and programs."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'environment'
 
     def report(self) -> Report:

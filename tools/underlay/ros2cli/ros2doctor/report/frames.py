@@ -9,12 +9,12 @@ from ros2doctor.report.graph_report import GraphReport
 
 
 class FramesReport(GraphReport):
-    """The report of the transforms."""
+    """Report of the transforms."""
 
     TITLE = 'TRANSFORMS'
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'frames'
 
     def fill(self, report: Report, graph: Graph) -> None:

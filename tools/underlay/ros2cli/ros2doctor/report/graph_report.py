@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the reports of the running nodes have in common."""
+"""Base class of the reports of running nodes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ros2doctor.facts.graph import Graph, read_graph
 
 
 class GraphReport(DoctorReport):
-    """A report of the graph; where rclpy does not start it says why."""
+    """Base class of a graph report; contains the reason if rclpy does not start."""
 
     TITLE = ''
 
@@ -26,14 +26,14 @@ class GraphReport(DoctorReport):
 
     def fill(self, report: Report, graph: Graph) -> None:
         """
-        Add what there is to report about the graph.
+        Add the items about the graph.
 
         Parameters
         ----------
         report
             The section, with its title and without items.
         graph
-            All that is known of the running nodes, which `read_graph` reads once for all reports.
+            The facts about the running nodes, which `read_graph` reads once for all reports.
 
         Raises
         ------

@@ -11,10 +11,10 @@ VARIABLES = ('DISPLAY', 'WAYLAND_DISPLAY', 'MUJOCO_GL', 'LIBGL_ALWAYS_SOFTWARE')
 
 
 class GraphicsReport(DoctorReport):
-    """The report of what a simulator draws with."""
+    """Report of the rendering of a simulator."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'graphics'
 
     def report(self) -> Report:

@@ -9,10 +9,10 @@ from ros2doctor.facts.libraries import read_libraries
 
 
 class LibrariesReport(DoctorReport):
-    """The report of the folders of libraries."""
+    """Report of the library folders."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'libraries'
 
     def report(self) -> Report:

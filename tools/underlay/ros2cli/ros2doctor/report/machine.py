@@ -12,10 +12,10 @@ from ros2doctor.api.report import Report
 
 
 class PlatformReport(DoctorReport):
-    """The report of the machine and its Python."""
+    """Report of the machine and its Python."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'platform'
 
     def report(self) -> Report:

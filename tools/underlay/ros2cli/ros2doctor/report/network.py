@@ -12,10 +12,10 @@ from ros2doctor.facts.network import Network, read_network
 
 
 class NetworkReport(DoctorReport):
-    """The report of interfaces and discovery."""
+    """Report of interfaces and discovery."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'network'
 
     def report(self) -> Report:

@@ -11,12 +11,12 @@ from ros2doctor.report.graph_report import GraphReport
 
 
 class NodesReport(GraphReport):
-    """The report of the running nodes and their topics."""
+    """Report of the running nodes and their topics."""
 
     TITLE = 'NODES AND TOPICS'
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'nodes'
 
     def fill(self, report: Report, graph: Graph) -> None:

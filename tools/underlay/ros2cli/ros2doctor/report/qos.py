@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every pair of a publisher and a subscription."""
+"""Pairs of publishers and subscriptions."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ros2doctor.report.graph_report import GraphReport
 
 
 class QosReport(GraphReport):
-    """The report of which subscriptions get the messages of which publishers."""
+    """Report of the compatibility of publishers and subscriptions."""
 
     TITLE = 'QOS COMPATIBILITY LIST'
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'qos'
 
     def fill(self, report: Report, graph: Graph) -> None:

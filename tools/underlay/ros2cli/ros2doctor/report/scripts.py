@@ -11,10 +11,10 @@ from ros2doctor.facts.scripts import read_scripts
 
 
 class ScriptsReport(DoctorReport):
-    """The report of which interpreter runs how many scripts."""
+    """Report of the number of scripts per interpreter."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'scripts'
 
     def report(self) -> Report:

@@ -9,10 +9,10 @@ from ros2doctor.facts.wheels import read_wheels
 
 
 class WheelsReport(DoctorReport):
-    """The report of the versions of the wheels."""
+    """Report of the versions of the wheels."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'wheels'
 
     def report(self) -> Report:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The packages of the workspaces at hand."""
+"""The packages of the relevant workspaces."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from ros2doctor.facts.workspace import PackageState, read_workspaces
 
 
 class WorkspaceReport(DoctorReport):
-    """The report of what is built and sourced."""
+    """Report of built and sourced packages."""
 
     def category(self) -> str:
-        """Return the name."""
+        """Return the category."""
         return 'workspace'
 
     def report(self) -> Report:

@@ -21,9 +21,9 @@ class HelloVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 doctor hello`; not used.
+            The command line up to the verb, such as `ros2 doctor hello`; unused.
 
         """
         add_node_arguments(parser)
@@ -61,7 +61,7 @@ class HelloVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         """
         from ros2cli.node.direct import DirectNode

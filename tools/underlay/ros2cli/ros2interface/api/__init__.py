@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The interfaces that are installed, from the index of resources; nothing is imported."""
+"""The installed interfaces, from the ament index; nothing is imported."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def get_interfaces(package: str, kinds: Iterable[str]) -> list[str]:
     package
         The name of a package with interfaces.
     kinds
-        Which kinds are wanted: 'msg', 'srv' or 'action'.
+        The kinds to list: 'msg', 'srv' or 'action'.
 
     Returns
     -------

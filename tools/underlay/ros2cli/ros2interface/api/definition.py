@@ -35,7 +35,7 @@ def read_definition(name: str) -> Definition:
     Raises
     ------
     RuntimeError
-        There is no such interface; the text says which part of the name is wrong.
+        There is no such interface; the message states which part of the name is wrong.
 
     """
     package, kind, type_name = split_name(name)
@@ -82,7 +82,7 @@ def _missing_text(name: str, path: str) -> str:
 
 
 def _closest(name: str) -> str:
-    """Return a line with the interface that may be meant, or ''."""
+    """Return a line that suggests the interface probably meant, or ''."""
     from ros2cli.suggest import closest_name
 
     package, _, rest = name.partition('/')

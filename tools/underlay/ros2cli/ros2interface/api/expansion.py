@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Definitions with the definitions of their fields' types below each field."""
+"""Expansion of definitions with those of nested types."""
 
 from __future__ import annotations
 
@@ -87,5 +87,5 @@ def field_type(line: str, package: str) -> str | None:
 
 
 def _without_comment(line: str) -> str:
-    """Return a line without its comment; a `#` in quotes begins none."""
+    """Return a line without its comment; a `#` in quotes does not start one."""
     return COMMENT.sub(lambda match: match[1] or '', line).rstrip()

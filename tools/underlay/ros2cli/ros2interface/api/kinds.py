@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The kinds of interfaces and the options that choose among them."""
+"""The kinds of interfaces and the options that select them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def add_kind_arguments(parser: argparse.ArgumentParser) -> None:
     Parameters
     ----------
     parser
-        The parser of a verb, which they are added to.
+        The parser of a verb.
 
     """
     add = parser.add_argument
@@ -31,7 +31,7 @@ def chosen_kinds(args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     args : argparse.Namespace
-        What a parser with the options of `add_kind_arguments` has parsed.
+        The parsed arguments with the options of `add_kind_arguments`.
 
     Returns
     -------

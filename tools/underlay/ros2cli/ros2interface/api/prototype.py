@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the user of an interface fills."""
+"""Default instances of interfaces for users to fill in."""
 
 from __future__ import annotations
 

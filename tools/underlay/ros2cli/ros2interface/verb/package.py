@@ -19,9 +19,9 @@ class PackageVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 interface package`; not used.
+            The command line up to the verb, such as `ros2 interface package`; unused.
 
         """
         add_kind_arguments(parser)
@@ -34,7 +34,7 @@ class PackageVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Returns
         -------

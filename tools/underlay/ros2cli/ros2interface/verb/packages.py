@@ -19,9 +19,9 @@ class PackagesVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 interface packages`; not used.
+            The command line up to the verb, such as `ros2 interface packages`; unused.
 
         """
         add_kind_arguments(parser)
@@ -33,7 +33,7 @@ class PackagesVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         """
         from ros2interface.api import get_interface_packages, get_interfaces

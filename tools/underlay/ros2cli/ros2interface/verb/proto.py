@@ -18,9 +18,9 @@ class ProtoVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 interface proto`; not used.
+            The command line up to the verb, such as `ros2 interface proto`; unused.
 
         """
         parser.add_argument(
@@ -35,7 +35,7 @@ class ProtoVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Raises
         ------

@@ -21,9 +21,9 @@ class ShowVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 interface show`; not used.
+            The command line up to the verb, such as `ros2 interface show`; unused.
 
         """
         parser.add_argument(
@@ -48,12 +48,12 @@ class ShowVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Raises
         ------
         RuntimeError
-            There is no such interface, or none is named on standard input where it was to be.
+            There is no such interface, or standard input should name one and does not.
 
         """
         from ros2interface.api.definition import read_definition

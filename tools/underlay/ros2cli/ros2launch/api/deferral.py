@@ -2,9 +2,9 @@
 """
 Import asyncio without the modules that a launch does not need.
 
-asyncio imports all it may ever use; TLS, the inspection of signatures and what prints
-tracebacks take a third of the time in which a launch starts. Here these modules are executed when
-one of their names is first used, which in a launch is nearly never.
+asyncio imports all that it may ever use; TLS, signature inspection and traceback formatting take
+a third of the startup time of a launch. Here these modules are executed when one of their names
+is first used, which hardly ever happens in a launch.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ import sys
 from ros2cli.deferral import defer, defer_found
 
 WHOLE_MODULES = ('inspect', 'linecache', 'ssl', 'textwrap')
-"""What asyncio and logging import, and use only where something goes wrong."""
+"""Modules that asyncio and logging import, but use only for errors."""
 
 
 def import_asyncio() -> None:
-    """Import asyncio, unless it is there already, and leave for later what can wait."""
+    """Import asyncio, unless it is imported already, and defer modules that it rarely needs."""
     if 'asyncio' in sys.modules:
         return
     package = PathFinder.find_spec('asyncio')

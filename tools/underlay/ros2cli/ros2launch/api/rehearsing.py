@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Show what a launch file would start."""
+"""Dry run of a launch file."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def rehearse_launch_file(
     launch_file_arguments
         Launch arguments as `name:=value`.
     as_json
-        Whether it is printed as JSON, also if it fails; all other output then goes to stderr.
+        Whether to print JSON, even on failure; all other output then goes to stderr.
     **options
         Fields of `LaunchOptions`, other than `noninteractive`.
 
@@ -69,7 +69,7 @@ def rehearse_launch_file(
 
 @contextmanager
 def _output_to_stderr() -> Iterator[None]:
-    """Lead the standard output elsewhere, also that of what is called or run meanwhile."""
+    """Redirect standard output to stderr, including that of functions and child processes."""
     with redirect_stdout(sys.stderr):
         if sys.__stdout__ is None or sys.__stderr__ is None:
             yield
@@ -92,5 +92,5 @@ def _print_tree(root: Any) -> None:
 
 
 def _plain(value: Any) -> Any:
-    """Return a value that JSON does not know as one that it knows."""
+    """Convert a value that is not JSON-serializable."""
     return value.decode('utf-8', 'replace') if isinstance(value, bytes) else str(value)

@@ -13,14 +13,14 @@ from ros2launch.api.arguments import parse_launch_arguments
 @dataclass(frozen=True)
 class LaunchOptions:
     """
-    How a launch is run.
+    Options for running a launch.
 
-    :param noninteractive: whether nobody sits at a terminal
-    :param debug: whether everything is logged
-    :param check_names: whether arguments that no launch file declares are mistakes
-    :param resolve_programs: whether all programs must be there before the first one starts
-    :param prefork: whether Python nodes are copies of a process that is ready
-    :param scoped_location: whether an include keeps its location to itself
+    :param noninteractive: whether there is no user at a terminal
+    :param debug: whether debug messages are logged
+    :param check_names: whether arguments that no launch file declares are errors
+    :param resolve_programs: whether all programs must exist before the first one starts
+    :param prefork: whether Python nodes are forked from a prepared process
+    :param scoped_location: whether the location of an include is scoped to it
     """
 
     noninteractive: bool = False
@@ -39,7 +39,7 @@ def launch_a_launch_file(
     **options: bool,
 ) -> int:
     """
-    Run a launch file until everything that it started has ended.
+    Run a launch file until all processes that it started have exited.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def launch_a_launch_file(
     launch_file_arguments
         Launch arguments as `name:=value`.
     strict_exit
-        Whether the status tells of processes that failed.
+        Whether the exit status reflects failed processes.
     **options
         Fields of `LaunchOptions`.
 
@@ -82,7 +82,7 @@ def make_service(path: str, argument_texts: Sequence[str], options: LaunchOption
     argument_texts
         Launch arguments as `name:=value`.
     options
-        How the launch is run.
+        The options of the launch.
 
     Returns
     -------

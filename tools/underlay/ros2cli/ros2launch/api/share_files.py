@@ -10,7 +10,7 @@ class MultipleLaunchFilesError(Exception):
     """Several files of a package have the same name."""
 
     def __init__(self, message: str, paths: list[str]) -> None:
-        """Keep the paths that were found."""
+        """Initialize with the found paths."""
         super().__init__(message)
         self.paths = paths
 

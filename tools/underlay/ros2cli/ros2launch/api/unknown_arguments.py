@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arguments of the command line that no launch file knows."""
+"""Detection of launch arguments that no launch file declares."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ MAGIC = frozenset(
 
 class UnknownArguments:
     """
-    Check of the launch arguments that were given against those that the launch declares or uses.
+    Check of the given launch arguments against those that the launch declares or uses.
 
-    It is called with the context when the launch has been visited, before a process starts.
+    It is called with the context after the launch has been visited, before any process starts.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class UnknownArguments:
         self._source = source
 
     def __call__(self, context: Any) -> None:
-        """Raise an error about a misspelt name, warn of others that nothing has looked up."""
+        """Raise an error for a misspelt name; warn of other names that were never looked up."""
         unused = [name for name in self._unused(context) if not self._may_be_used(name, context)]
         declared = self._declared(context) if unused else set()
         unknown = [name for name in unused if name not in declared]
@@ -58,7 +58,7 @@ class UnknownArguments:
         Parameters
         ----------
         context
-            The context of the launch, which tells what was declared and looked up so far.
+            The context of the launch, with the arguments declared and looked up so far.
 
         Returns
         -------
@@ -77,7 +77,7 @@ class UnknownArguments:
         return [name for name in self._given if name not in looked_up]
 
     def _declared(self, context: Any) -> set[str]:
-        """Return the names declared so far, and those in what was not visited."""
+        """Return the names declared so far, and those in entities that were not visited."""
         declared = set(context.launch_configurations.declared)
         description = self._source.try_get_launch_description_without_context()
         if description is not None:
@@ -85,7 +85,7 @@ class UnknownArguments:
         return declared
 
     def _may_be_used(self, name: str, context: Any) -> bool:
-        """Return whether something that waits for an event looks a name up, or may do so."""
+        """Whether an entity that waits for an event looks a name up, or may do so."""
         from launch._preflight import may_look_up
 
         return bool(may_look_up(name, context))

@@ -25,9 +25,9 @@ class LaunchCommand(CommandExtension):
         Parameters
         ----------
         parser
-            The parser of the command, which they are added to.
+            The parser of the command.
         cli_name, argv
-            The words that call the command, and those after them; not used.
+            The command line up to the command, and the arguments after it; unused.
 
         """
         add_launch_options(parser)
@@ -41,9 +41,9 @@ class LaunchCommand(CommandExtension):
         Parameters
         ----------
         parser
-            The parser of the command; not used.
+            The parser of the command; unused.
         args : argparse.Namespace
-            What it has parsed.
+            The parsed arguments.
 
         Returns
         -------
@@ -53,7 +53,7 @@ class LaunchCommand(CommandExtension):
         Raises
         ------
         RuntimeError
-            There is no such launch file, an argument is malformed, or options do not go together.
+            There is no such launch file, an argument is malformed, or options conflict.
 
         """
         from ros2launch.api.deferral import import_asyncio
@@ -86,7 +86,7 @@ class LaunchCommand(CommandExtension):
 
 
 def _common(args: argparse.Namespace) -> dict[str, bool]:
-    """Return the options that a dry run obeys as well."""
+    """Return the options that also apply to a dry run."""
     return {
         'check_names': not args.allow_unknown_args,
         'resolve_programs': not args.no_preflight,

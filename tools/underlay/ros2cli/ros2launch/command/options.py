@@ -14,7 +14,7 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
     Parameters
     ----------
     parser
-        The parser of the command, which they are added to.
+        The parser of the command.
 
     """
     add = parser.add_argument
@@ -95,7 +95,7 @@ def prefix_arguments(args: argparse.Namespace) -> list[str]:
     Parameters
     ----------
     args : argparse.Namespace
-        What a parser with these options has parsed.
+        The parsed arguments with these options.
 
     Returns
     -------

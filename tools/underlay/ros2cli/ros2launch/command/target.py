@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch file that the words of the command line stand for."""
+"""Resolution of the positional arguments to a launch file."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ def find_target(
     arguments: list[str],
 ) -> tuple[str, list[str]]:
     """
-    Find the launch file that the positional arguments of the command line name.
+    Find the launch file named by the positional arguments.
 
     Parameters
     ----------
     package_or_path
-        The path of a launch file, which counts if it exists, or the name of a package.
+        The path of a launch file, which takes precedence if it exists, or the name of a package.
     file_name
         The name of a launch file of the package; after a path the first launch argument, if any.
     arguments : list[str]
@@ -48,7 +48,7 @@ def find_target(
 
 
 def _refuse_file(path: str) -> NoReturn:
-    """Raise an error about a file that is not there."""
+    """Raise an error about a missing file."""
     from launch._missing_file import explain_missing_file
 
     lines = [explain_missing_file('launch file', path)]

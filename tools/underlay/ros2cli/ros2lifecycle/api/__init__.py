@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes with a life cycle, asked through their services."""
+"""Lifecycle nodes, queried through their services."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def get_lifecycle_nodes(graph: Graph, *, include_hidden_nodes: bool) -> list[str
     graph
         The graph to search.
     include_hidden_nodes
-        Whether nodes are listed, too, of whose full name a part begins with an underscore.
+        Whether to include nodes with a part of the full name that starts with an underscore.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def find_lifecycle_node(node: Any, name: str) -> str:
     Raises
     ------
     RuntimeError
-        There is no such node, or it is no lifecycle node.
+        There is no such node, or it is not a lifecycle node.
 
     """
     full_name = find_node(node.watch, name)
@@ -85,12 +85,12 @@ def get_state(node: Any, name: str, timeout_s: float = float('inf')) -> State:
     name
         The full name of the lifecycle node.
     timeout_s
-        How long to wait for the answer, once the service is connected.
+        The timeout for the response, once the service is connected, in s.
 
     Raises
     ------
     RuntimeError
-        The service does not connect, does not answer in time, or goes away.
+        The service does not connect, does not respond in time, or disappears.
 
     """
     service = f'{name}{STATE_SERVICE}'
@@ -116,7 +116,7 @@ def get_transitions(node: Any, name: str, *, all_states: bool) -> list[Transitio
     Raises
     ------
     RuntimeError
-        The service does not connect, or goes away before it answers.
+        The service does not connect, or disappears before it responds.
 
     """
     kind = 'get_transition_graph' if all_states else 'get_available_transitions'
@@ -127,7 +127,7 @@ def get_transitions(node: Any, name: str, *, all_states: bool) -> list[Transitio
 
 def change_state(node: Any, name: str, transition: Transition) -> bool:
     """
-    Trigger a transition of a lifecycle node, and wait until it is over.
+    Trigger a transition of a lifecycle node, and wait until it is complete.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def change_state(node: Any, name: str, transition: Transition) -> bool:
     Raises
     ------
     RuntimeError
-        The service does not connect, or goes away before it answers.
+        The service does not connect, or disappears before it responds.
 
     """
     request = ChangeState.Request(transition=transition)
@@ -158,7 +158,7 @@ def state_text(state: State) -> str:
     Parameters
     ----------
     state
-        The state, of which label and number are shown.
+        The state, whose label and ID are shown.
 
     """
     return f'{state.label} [{state.id}]'

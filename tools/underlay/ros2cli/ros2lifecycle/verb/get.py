@@ -23,9 +23,9 @@ class GetVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 lifecycle get`; not used.
+            The command line up to the verb, such as `ros2 lifecycle get`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -39,12 +39,12 @@ class GetVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Raises
         ------
         RuntimeError
-            The node that was named is no lifecycle node, or does not answer.
+            The given node is not a lifecycle node, or does not answer.
 
         """
         from ros2cli.node.direct import DirectNode

@@ -19,9 +19,9 @@ class ListVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 lifecycle list`; not used.
+            The command line up to the verb, such as `ros2 lifecycle list`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -38,12 +38,12 @@ class ListVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Raises
         ------
         RuntimeError
-            The node is no lifecycle node, or does not answer.
+            The node is not a lifecycle node, or does not answer.
 
         """
         from ros2cli.node.direct import DirectNode

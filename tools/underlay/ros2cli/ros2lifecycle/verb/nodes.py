@@ -15,14 +15,14 @@ class NodesVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
-        Add the choice of hidden nodes and of a mere count.
+        Add the options for hidden nodes and for printing only a count.
 
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 lifecycle nodes`; not used.
+            The command line up to the verb, such as `ros2 lifecycle nodes`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -31,12 +31,12 @@ class NodesVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Print the full names of the lifecycle nodes, one a line, or only their number.
+        Print the full names of the lifecycle nodes, one per line, or only their number.
 
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         """
         from ros2cli.node.strategy import NodeStrategy

@@ -20,9 +20,9 @@ class SetVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 lifecycle set`; not used.
+            The command line up to the verb, such as `ros2 lifecycle set`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -37,17 +37,17 @@ class SetVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Returns
         -------
         str or None
-            The error message if the node cannot make the transition now, or it has failed.
+            The error message if the transition is not available now, or has failed.
 
         Raises
         ------
         RuntimeError
-            The node is no lifecycle node, or does not answer.
+            The node is not a lifecycle node, or does not answer.
 
         """
         from ros2cli.node.direct import DirectNode

@@ -25,12 +25,12 @@ def send(data: bytes, *, group: str, port: int, ttl: int) -> None:
     group, port
         The IPv4 address of the group, and the UDP port.
     ttl
-        Time to live (0 to 255): 0 stays on this machine, 1 in this network, each router takes one.
+        Time to live (0 to 255): 0 stays on this machine, 1 in this network, each router uses one.
 
     Raises
     ------
     RuntimeError
-        The network does not take the packet; the text says why.
+        The packet cannot be sent; the message states why.
 
     """
     try:
@@ -58,7 +58,7 @@ def receive(*, group: str, port: int) -> tuple[bytes, tuple[str, int]]:
     Raises
     ------
     RuntimeError
-        The group cannot be joined, or the port is taken; the text says why.
+        The group cannot be joined, or the port is taken; the message states why.
 
     """
     try:

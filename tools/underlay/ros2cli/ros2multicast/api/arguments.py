@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The address of multicast packets on the command line."""
+"""Arguments for the address and TTL of multicast packets."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def add_group_arguments(parser: argparse.ArgumentParser) -> None:
     Parameters
     ----------
     parser
-        The parser of a verb, which they are added to.
+        The parser of a verb.
 
     """
     parser.add_argument(
@@ -43,7 +43,7 @@ def time_to_live(text: str) -> int:
     Parameters
     ----------
     text
-        The word on the command line.
+        The argument text.
 
     Returns
     -------
@@ -53,7 +53,7 @@ def time_to_live(text: str) -> int:
     Raises
     ------
     argparse.ArgumentTypeError
-        The text is no such number.
+        The text is not such a number.
 
     """
     return _number(text, 0, 255)

@@ -19,9 +19,9 @@ class ReceiveVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 multicast receive`; not used.
+            The command line up to the verb, such as `ros2 multicast receive`; unused.
 
         """
         add_group_arguments(parser)
@@ -33,7 +33,7 @@ class ReceiveVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Raises
         ------

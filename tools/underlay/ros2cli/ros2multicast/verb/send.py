@@ -21,9 +21,9 @@ class SendVerb(VerbExtension):
         Parameters
         ----------
         parser
-            The parser of the verb, which they are added to.
+            The parser of the verb.
         cli_name
-            The words that call the verb, such as `ros2 multicast send`; not used.
+            The command line up to the verb, such as `ros2 multicast send`; unused.
 
         """
         add_group_arguments(parser)
@@ -42,12 +42,12 @@ class SendVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            What the parser of the verb has parsed.
+            The parsed arguments.
 
         Raises
         ------
         RuntimeError
-            The network does not take the packet.
+            The packet cannot be sent.
 
         """
         from ros2multicast.api import send

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes of the graph and what they offer."""
+"""The nodes of the graph and their interfaces."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
     Parameters
     ----------
     node
-        A `Graph`, which leaves out the node that asks, or anything else with
+        A `Graph`, which excludes the calling node, or any other object with
         `get_node_names_and_namespaces`.
     include_hidden_nodes
         Whether to include nodes with a leading underscore in the name or a part of the namespace.
@@ -63,7 +63,7 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
 
 def shared_names(names: list[NodeName]) -> list[str]:
     """
-    Find the full names that more than one node has.
+    Find the full names that are shared by several nodes.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ class ListVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 node list`; not used here.
+            The command line up to the verb, such as `ros2 node list`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -34,12 +34,12 @@ class ListVerb(VerbExtension):
         """
         Print the full names of the nodes, one per line, or their number.
 
-        With the names, a warning on stderr tells which of them several nodes share.
+        A warning on stderr lists names that are shared by several nodes.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.node.strategy import NodeStrategy

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of a node, asked for through its services."""
+"""The parameters of a node, accessed through its services."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def list_parameters(
     prefixes
         Only names with one of these prefixes, as `a` for `a.b`; all names if it is empty.
     timeout_s
-        How long to wait for the response once the service is connected, in s.
+        The timeout for the response once the service is connected, in s.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def get_parameters(node: Any, node_name: str, names: list[str]) -> list[Paramete
     Get the values of parameters.
 
     A node may return no values at all because one of the parameters is not declared; then each is
-    asked for separately.
+    requested separately.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options and arguments that the verbs of `ros2 param` share."""
+"""Options and arguments shared by the verbs of `ros2 param`."""
 
 from __future__ import annotations
 

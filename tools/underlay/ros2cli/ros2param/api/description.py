@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a node tells about a parameter, as text."""
+"""Formatting of parameter descriptors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def description_lines(descriptor: ParameterDescriptor) -> Iterator[str]:
     Parameters
     ----------
     descriptor
-        What the node returns for the parameter.
+        The descriptor that the node returns.
 
     Yields
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters that a file has for a node."""
+"""Reading of parameter files."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def read_parameters(
     """
     Read a node's parameters from a YAML parameter file.
 
-    Of sections with wildcards in their names a later one overrides an earlier one, and the section
-    that names the node itself overrides them all.
+    Later sections with wildcards in their names override earlier ones, and the section that names
+    the node itself overrides them all.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def read_parameters(
     Raises
     ------
     RuntimeError
-        The file cannot be read, has nothing for this node, or a value is missing or too large.
+        The file cannot be read, has no section for this node, or a value is missing or too large.
 
     """
     try:
@@ -61,8 +61,8 @@ def matches(pattern: str, node_name: str) -> bool:
     Parameters
     ----------
     pattern
-        Parts joined by slashes: `*` stands for one whole part, `**` for any number of them, also
-        none. Within a part an asterisk is an ordinary character.
+        Parts joined by slashes: `*` matches one whole part, `**` any number of parts, including
+        zero. Within a part an asterisk is an ordinary character.
     node_name
         Full name of the node, with the leading slash.
 
@@ -74,11 +74,11 @@ def matches(pattern: str, node_name: str) -> bool:
 
 
 class _Mistake(Exception):
-    """What is wrong with a file, as the end of a sentence about it."""
+    """A problem of a file, as the end of the error message."""
 
 
 def _chosen(sections: Collection[str], node_name: str, *, use_wildcard: bool) -> list[str]:
-    """Return the sections that are for a node, its own one last."""
+    """Return the sections that apply to a node, its own last."""
     exact = [name for name in sections if name == node_name]
     general = [name for name in sections if WILDCARD in name and matches(name, node_name)]
     chosen = [*(general if use_wildcard else ()), *exact]
@@ -125,7 +125,7 @@ def _parameters(node_name: str, value: Any) -> Mapping[Any, Any]:
 
 
 def _misplaced_text(name: str, value: Any) -> str:
-    """Return that a value is outside of the parameters, and which name may be misspelt."""
+    """Format the message for a value outside of the parameters, with a hint to a misspelt name."""
     text = f"has the value {value!r} for '{name}', which is not below '{PARAMETERS}'"
     misspelt = [part for part in name.split('/') if 'parameters' in part]
     return f"{text}: '{misspelt[-1]}' needs two underscores" if misspelt else text

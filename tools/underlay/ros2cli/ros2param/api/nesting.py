@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Between the dotted names of parameters and nested mappings."""
+"""Conversion between dotted parameter names and nested mappings."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def flatten(nested: Mapping[Any, Any], prefix: str = '') -> Iterator[tuple[str, 
     nested
         Values or mappings by name; mappings may be nested to any depth.
     prefix
-        Put in front of each name, with its final dot.
+        The prefix of each name, with its final dot.
 
     Yields
     ------

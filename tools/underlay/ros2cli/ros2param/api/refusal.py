@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why a node may refuse a value."""
+"""Hints why a node may reject a value."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node whose parameters a command is about."""
+"""The node whose parameters a command accesses."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ros2param.api import LIST_SERVICE
 @contextmanager
 def remote_node(args: argparse.Namespace) -> Iterator[tuple[Any, str]]:
     """
-    Create a node for this command and find the one whose parameters it is about.
+    Create a node for this command and find the one whose parameters it accesses.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values of parameters as plain values, as texts, and from texts."""
+"""Conversion of parameter values to and from plain values and text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import yaml
 
 
 class ValueType(NamedTuple):
-    """How a type of parameter is called, and in which field its value is."""
+    """Name of a parameter type, and the field with its value."""
 
     name: str
     label: str
@@ -55,7 +55,7 @@ LARGEST_INTEGER = 2**63
 
 def type_name(kind: int) -> str:
     """
-    Name a parameter type, such as `double array`.
+    Return the name of a parameter type, such as `double array`.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def parse_value(text: str) -> ParameterValue:
     Returns
     -------
     ParameterValue
-        The value; a string parameter with the whole text if it is no YAML or fits no other type.
+        The value; a string parameter with the whole text if it is not YAML or fits no other type.
 
     Raises
     ------

@@ -26,7 +26,7 @@ class DeleteVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param delete`; not used here.
+            The command line up to the verb, such as `ros2 param delete`; unused.
 
         """
         add_param_arguments(parser)
@@ -35,14 +35,14 @@ class DeleteVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Delete the parameter and print the node's answer.
+        Delete the parameter and print the node's response.
 
         A rejection goes to stderr, but the exit status stays 0.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from rcl_interfaces.msg import ParameterValue

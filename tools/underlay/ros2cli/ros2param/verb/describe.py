@@ -22,7 +22,7 @@ class DescribeVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param describe`; not used here.
+            The command line up to the verb, such as `ros2 param describe`; unused.
 
         """
         add_param_arguments(parser)
@@ -36,7 +36,7 @@ class DescribeVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2param.api import (

@@ -21,7 +21,7 @@ class DumpVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param dump`; not used here.
+            The command line up to the verb, such as `ros2 param dump`; unused.
 
         """
         add_param_arguments(parser)
@@ -34,7 +34,7 @@ class DumpVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.messages.text import plain_to_yaml

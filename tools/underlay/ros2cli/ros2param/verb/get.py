@@ -25,7 +25,7 @@ class GetVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param get`; not used here.
+            The command line up to the verb, such as `ros2 param get`; unused.
 
         """
         add_param_arguments(parser)
@@ -40,7 +40,7 @@ class GetVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------

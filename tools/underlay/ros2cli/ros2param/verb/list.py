@@ -22,7 +22,7 @@ class ListVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param list`; not used here.
+            The command line up to the verb, such as `ros2 param list`; unused.
 
         """
         add_param_arguments(parser)
@@ -36,7 +36,7 @@ class ListVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.node.direct import DirectNode

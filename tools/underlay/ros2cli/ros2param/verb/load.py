@@ -23,7 +23,7 @@ class LoadVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param load`; not used here.
+            The command line up to the verb, such as `ros2 param load`; unused.
 
         """
         add_param_arguments(parser)
@@ -37,12 +37,12 @@ class LoadVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Set the parameters of the file one by one and print the node's answer to each.
+        Set the parameters of the file one by one and print the node's response to each.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2param.api.file import read_parameters

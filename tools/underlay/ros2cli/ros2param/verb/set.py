@@ -26,7 +26,7 @@ class SetVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 param set`; not used here.
+            The command line up to the verb, such as `ros2 param set`; unused.
 
         """
         add_param_arguments(parser)
@@ -36,14 +36,14 @@ class SetVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Set the parameter and print the node's answer.
+        Set the parameter and print the node's response.
 
         A rejection goes to stderr, but the exit status stays 0.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2param.api import set_parameter

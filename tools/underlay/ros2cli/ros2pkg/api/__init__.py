@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is installed: packages, their prefixes, share folders and executables."""
+"""Installed packages with their prefixes, share folders and executables."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ def get_package_prefix(package_name: str) -> str:
     Returns
     -------
     str
-        The folder that holds the package's `share` and `lib`.
+        The folder that contains the package's `share` and `lib`.
 
     Raises
     ------
     PackageNotFoundError
-        The package is not installed, or its name is no valid one.
+        The package is not installed, or its name is not valid.
 
     """
     try:

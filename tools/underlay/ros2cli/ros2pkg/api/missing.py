@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Error texts of the verbs for packages that are not installed."""
+"""Error messages for packages that are not installed."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def missing_package_by_name(package: str, detail: str = '') -> str:
     package
         The package as the user wrote it.
     detail
-        What else to say in the first line, after a colon.
+        A detail to append to the first line, after a colon.
 
     Returns
     -------

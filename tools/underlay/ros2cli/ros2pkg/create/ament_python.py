@@ -92,5 +92,5 @@ def _setup_py(description: PackageDescription) -> str:
 
 
 def _excused(line: str) -> str:
-    """Mark a line that a long name or description makes longer than the linter allows."""
+    """Append a `noqa` mark to a line that exceeds the line length of the linter."""
     return f'{line}  # noqa: E501' if len(line) > 99 else line

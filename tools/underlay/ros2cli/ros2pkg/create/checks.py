@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reasons not to create a package, each with the way out."""
+"""Validation of a package to create, with remedies."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import sys
 
 def refusal(args: argparse.Namespace, package_folder: str) -> str:
     """
-    Check that a package can be created.
+    Check whether a package can be created.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def _python_refusal(args: argparse.Namespace) -> str:
 
 
 def _module_problem(what: str, name: str) -> str:
-    """Return why a name cannot be that of a Python module, or ''."""
+    """Check whether a name is valid for a Python module; return the problem, or ''."""
     if not name.isidentifier():
         return (
             f"{what} '{name}' is no name of a Python module: use letters, digits and underscores "
@@ -91,7 +91,7 @@ def _module_problem(what: str, name: str) -> str:
 
 
 def _better_name(name: str) -> str:
-    """Return a name of letters, digits and underscores that is close to another one."""
+    """Convert a name to a similar one of letters, digits and underscores."""
     return re.sub(r'^(?![A-Za-z])', 'n', re.sub(r'[^A-Za-z0-9_]', '_', name))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is to be created."""
+"""Description of the package to create."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class PackageDescription(NamedTuple):
-    """All that the files of a new package depend on."""
+    """All properties of a new package."""
 
     name: str
     package_format: int

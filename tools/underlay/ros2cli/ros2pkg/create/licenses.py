@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The licences whose texts this package knows."""
+"""Licences with available texts."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def license_text(identifier: str, holder: str) -> str | None:
     Returns
     -------
     str or None
-        The text, or None for a licence that is not known.
+        The text, or None for an unknown licence.
 
     """
     if identifier not in known_licenses():
@@ -41,7 +41,7 @@ def license_text(identifier: str, holder: str) -> str | None:
 
 def unknown_license_warning(identifier: str) -> str:
     """
-    Format the warning about a licence that is not known, with a list of those that are.
+    Format the warning about an unknown licence, with a list of the known ones.
 
     Parameters
     ----------

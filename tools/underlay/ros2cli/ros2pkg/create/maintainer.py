@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The maintainer's address when none is given."""
+"""The default email address of the maintainer."""
 
 from __future__ import annotations
 

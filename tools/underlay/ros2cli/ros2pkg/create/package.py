@@ -24,7 +24,7 @@ def create_package(description: PackageDescription, package_folder: str) -> None
     description
         The package; its build type is `ament_cmake` or `ament_python`.
     package_folder
-        Where to create it; the folder itself is created, too.
+        The folder of the package, which is created, too.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write folders and files, and say so."""
+"""Write folders and files, and report each."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import os
 
 class Writer:
     """
-    Creates the folders and files of a package, and prints the path of each.
+    Writer that creates the folders and files of a package, and prints the path of each.
 
     Parameters
     ----------

@@ -80,12 +80,12 @@ class CreateVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Create the package, or list the licences that are known for `--license ?`.
+        Create the package, or list the known licences for `--license ?`.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------

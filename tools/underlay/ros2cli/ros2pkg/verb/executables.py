@@ -26,7 +26,7 @@ class ExecutablesVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 pkg executables`; not used here.
+            The command line up to the verb, such as `ros2 pkg executables`; unused.
 
         """
         parser.add_argument('package_name', nargs='?', help='The package name')
@@ -41,7 +41,7 @@ class ExecutablesVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------

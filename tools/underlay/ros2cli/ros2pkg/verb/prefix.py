@@ -21,7 +21,7 @@ class PrefixVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 pkg prefix`; not used here.
+            The command line up to the verb, such as `ros2 pkg prefix`; unused.
 
         """
         parser.add_argument('package_name', help='The package name')
@@ -36,7 +36,7 @@ class PrefixVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------

@@ -24,7 +24,7 @@ class XmlVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 pkg xml`; not used here.
+            The command line up to the verb, such as `ros2 pkg xml`; unused.
 
         """
         parser.add_argument('package_name', help='The package name')
@@ -37,12 +37,12 @@ class XmlVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------
         str or None
-            The error message if the package, its manifest or the tag is missing, or it is no XML.
+            The error message if the package, its manifest or the tag is missing, or it is not XML.
 
         """
         try:

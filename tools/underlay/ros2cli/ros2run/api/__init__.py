@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find executables of packages and run them as children that never outlive the command."""
+"""Find executables of packages and run them as child processes that never outlive the command."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class MultipleExecutables(Exception):
     """Several executables of a package have the same name."""
 
     def __init__(self, paths: list[str]) -> None:
-        """Keep the paths that were found."""
+        """Initialize with the found paths."""
         super().__init__(', '.join(paths))
         self.paths = paths
 
@@ -55,7 +55,7 @@ def get_executable_path(*, package_name: str, executable_name: str) -> str | Non
 
 def run_executable(*, path: str, argv: list[str], prefix: list[str] | None = None) -> int:
     """
-    Run an executable in the foreground until it ends.
+    Run an executable in the foreground until it exits.
 
     Parameters
     ----------
@@ -64,12 +64,12 @@ def run_executable(*, path: str, argv: list[str], prefix: list[str] | None = Non
     argv
         Its arguments.
     prefix
-        The words to put in front, such as those of `gdb -ex run --args`.
+        The prefix command, such as `gdb -ex run --args`, as a list of words.
 
     Returns
     -------
     int
-        The exit status, or minus the number of the signal that ended it.
+        The exit status, or the negative number of the signal that terminated it.
 
     Raises
     ------

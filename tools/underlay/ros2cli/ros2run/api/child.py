@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run one child in the foreground and pass signals on to it."""
+"""Run a child process in the foreground and forward signals to it."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ SENT_BY_KERNEL = 0x80
 
 def run_child(command: list[str]) -> int:
     """
-    Run a command in the foreground until it ends, and forward signals to it.
+    Run a command in the foreground until it exits, and forward signals to it.
 
-    The child stays in the terminal's foreground group, so that it can read the keyboard. A
-    Ctrl-C reaches it from the terminal, and is therefore not passed on a second time.
+    The child stays in the terminal's foreground process group, so that it can read the keyboard.
+    Ctrl-C reaches it from the terminal, and is therefore not forwarded a second time.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def run_child(command: list[str]) -> int:
     Returns
     -------
     int
-        The exit status, or minus the number of the signal that ended it.
+        The exit status, or the negative number of the signal that terminated it.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def _why_not(program: str, error: OSError) -> str:
 
 
 def _wait(pid: int, waited: set[signal.Signals]) -> int:
-    """Forward signals until the child has ended."""
+    """Forward signals until the child has exited."""
     while True:
         ended, status = os.waitpid(pid, os.WNOHANG)
         if ended:
@@ -70,6 +70,6 @@ def _wait(pid: int, waited: set[signal.Signals]) -> int:
 
 
 def _drop_pending(waited: set[signal.Signals]) -> None:
-    """Take signals off the queue which came after the child's end; they were meant for it."""
+    """Discard pending signals that arrived after the child's exit; they were meant for it."""
     while signal.sigtimedwait(waited, 0):
         continue

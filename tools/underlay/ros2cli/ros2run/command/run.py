@@ -23,7 +23,7 @@ class RunCommand(CommandExtension):
         parser
             The parser of the command.
         cli_name, argv
-            The words that call the command, `ros2 run`, and those after them; not used here.
+            The command line up to the command, `ros2 run`, and the arguments after it; unused.
 
         """
         parser.add_argument(
@@ -42,14 +42,14 @@ class RunCommand(CommandExtension):
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
         """
-        Find the executable and run it until it ends.
+        Find the executable and run it until it exits.
 
         Parameters
         ----------
         parser
-            The parser of the command; not used here.
+            The parser of the command; unused.
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------
@@ -78,7 +78,7 @@ class RunCommand(CommandExtension):
 
 
 def _split(text: str) -> list[str]:
-    """Return the words of a command, or say why it has none."""
+    """Split a command into words; raise ArgumentTypeError with the reason if that fails."""
     import shlex
 
     try:

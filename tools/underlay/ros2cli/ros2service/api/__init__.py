@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The services of the graph."""
+"""Services in the graph."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def get_service_names_and_types(
     Parameters
     ----------
     node
-        A `Graph`, which leaves out the node that asks, or anything else with
+        A `Graph`, which excludes the calling node, or any other object with
         `get_service_names_and_types`.
     include_hidden_services
         Whether to include services with a part that starts with an underscore.
@@ -46,7 +46,7 @@ def get_service_names_and_types(
 
 def get_service_types(node: Any, service: str) -> list[str]:
     """
-    Look up the types of a service, hidden or not.
+    Return the types of a service, hidden or not.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Call a service and show the request and the response."""
+"""Call a service and print the request and the response."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ros2service.api import get_service_types, service_hint
 
 class Caller:
     """
-    Calls a service, and prints the requests and responses.
+    Service client that prints the requests and responses.
 
     The client is created at once, but may connect later: call `wait_for_service` first.
 
@@ -38,7 +38,7 @@ class Caller:
         self._type_name = type_name(service_type)
 
     def wait_for_service(self) -> None:
-        """Wait as long as it takes, and say so if the service is not there at once."""
+        """Wait for the service without a timeout, and report if it is not available at once."""
         if not self._is_offered():
             print('waiting for service to become available...')
         patience = Patience(f"the service '{self._name}'", self._hint)
@@ -51,7 +51,7 @@ class Caller:
         Parameters
         ----------
         request
-            The request; its time stamps are set anew for each call.
+            The request; its time stamps are updated for each call.
         rate_hz
             Calls per second, each after the response to the last one; None for a single call.
 
@@ -76,7 +76,7 @@ class Caller:
         print(f'response:\n{response!r}\n')
 
     def _is_offered(self) -> bool:
-        """Tell if somebody offers the service with this type; then it connects in a moment."""
+        """Whether the service is offered with this type, and is therefore about to connect."""
         graph = self._node.graph
         types = get_service_types(graph, self._name)
         return bool(graph.count_services(self._name)) and self._type_name in types

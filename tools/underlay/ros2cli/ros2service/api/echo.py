@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Print the events of a service whose introspection is on."""
+"""Print the events of a service with introspection enabled."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
     service
         Full name of the service.
     args : argparse.Namespace
-        The parsed command line; without `service_type` the type is taken from the graph.
+        The parsed command line; without `service_type` the type is read from the graph.
 
     Raises
     ------
@@ -60,7 +60,7 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
 
 def event_formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
     """
-    Create the function that formats service events as the options ask for.
+    Create the function that formats service events according to the options.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def event_formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
     Returns
     -------
     callable
-        Takes the event message and its message info; returns the text, YAML or CSV.
+        Accepts the event message and its message info; returns the text, YAML or CSV.
 
     """
     shortening = chosen_shortening(args)

@@ -23,7 +23,7 @@ class CallVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 service call`; not used here.
+            The command line up to the verb, such as `ros2 service call`; unused.
 
         """
         parser.add_argument(
@@ -49,7 +49,7 @@ class CallVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.messages.lookup import get_passed_type

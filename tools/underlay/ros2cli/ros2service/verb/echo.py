@@ -23,7 +23,7 @@ class EchoVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 service echo`; not used here.
+            The command line up to the verb, such as `ros2 service echo`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -44,7 +44,7 @@ class EchoVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.names import absolute

@@ -22,7 +22,7 @@ class FindVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 service find`; not used here.
+            The command line up to the verb, such as `ros2 service find`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -40,7 +40,7 @@ class FindVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.node.strategy import NodeStrategy

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of the graph."""
+"""Topics in the graph."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def get_topic_names_and_types(
     Parameters
     ----------
     node
-        A `Graph`, which leaves out the node that asks, or anything else with
+        A `Graph`, which excludes the calling node, or any other object with
         `get_topic_names_and_types`.
     include_hidden_topics
         Whether to include topics with a part that starts with an underscore.
@@ -41,7 +41,7 @@ def get_topic_names_and_types(
 
 def get_topic_types(node: Any, topic: str) -> list[str]:
     """
-    Look up the types of a topic, hidden or not.
+    Return the types of a topic, hidden or not.
 
     Parameters
     ----------

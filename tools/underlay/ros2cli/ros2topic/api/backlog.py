@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell messages that come as they are published from those that are repeated for a latecomer."""
+"""Distinguish live messages from those that are repeated for a late subscription."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ CONNECTION_NS = 2_000_000_000
 
 class Backlog:
     """
-    Sorts out what was published before we were connected.
+    Filter for messages that were published before the subscription was connected.
 
-    A reliable publisher knows of us some time before we know of it, and repeats what it has
-    published meanwhile all at once: that says nothing about its rate.
+    A reliable publisher discovers us some time before we discover it, and repeats the messages
+    published in between in one burst, which is not representative of its rate.
     """
 
     def __init__(self) -> None:
-        """Wait for the first message."""
+        """Start before the first message."""
         self._start_ns: int | None = None
 
     def has(self, info: Mapping[str, int]) -> bool:

@@ -27,7 +27,7 @@ class BandwidthMeter:
         Parameters
         ----------
         now_s
-            When it arrived, in s, on the clock that `report` is called with.
+            The arrival time in s, on the same clock as for `report`.
         size
             Its serialized size in bytes.
 
@@ -41,7 +41,7 @@ class BandwidthMeter:
         Parameters
         ----------
         now_s
-            The present time in s; the bandwidth is the mean from the oldest message on.
+            The current time in s; the bandwidth is the mean since the oldest message.
 
         Returns
         -------

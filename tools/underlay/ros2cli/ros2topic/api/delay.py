@@ -36,7 +36,7 @@ class DelayMeter:
         self._changed = True
 
     def report(self) -> str:
-        """Return the two lines of a report, or '' if nothing has come since the last one."""
+        """Return the two lines of a report, or '' without new messages since the last one."""
         if not self._changed:
             return ''
         self._changed = False

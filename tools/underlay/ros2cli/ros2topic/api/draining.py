@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Take the messages that have piled up, without a round through the executor for each."""
+"""Take pending messages without an executor cycle for each."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MOST_AT_ONCE = 500
 
 def drain(subscription: Any) -> Iterator[tuple[Any, Any]]:
     """
-    Take the messages that are waiting in a subscription, at most 500 of them.
+    Yield the pending messages of a subscription, at most 500.
 
     Parameters
     ----------

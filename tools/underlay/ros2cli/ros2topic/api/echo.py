@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Print the messages of a topic as they come."""
+"""Print the messages of a topic as they arrive."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PERIOD_S = 0.1
 
 def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> None:
     """
-    Print the messages of a topic until the first one or the timeout, if the options say so.
+    Print the messages of a topic, optionally until the first one or a timeout.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Listener:
     """
     Subscribes to a topic and prints the messages that it receives.
 
-    Unless the options say otherwise, the quality of service is what all publishers offer.
+    Unless the options override it, the QoS matches all publishers.
 
     Parameters
     ----------
@@ -79,9 +79,9 @@ class Listener:
     Attributes
     ----------
     count
-        How many messages have been printed.
+        The number of printed messages.
     has_received
-        Whether any message has come, also one that the filter rejects.
+        Whether any message has been received, even one that the filter rejects.
 
     """
 
@@ -125,7 +125,7 @@ class Listener:
         Parameters
         ----------
         end_s
-            When to stop, in s of the monotonic clock.
+            The end time, in s of the monotonic clock.
         patience
             Reports the wait on stderr if nothing has been printed for a while.
 
@@ -137,7 +137,7 @@ class Listener:
                 patience.check()
 
     def _receive(self, message: Any, info: Any) -> None:
-        """Print a message and those that wait behind it, in one go."""
+        """Print a message and all pending ones, in one write."""
         texts = self._texts(message, info)
         for each in drain(self._subscription):
             texts += self._texts(*each)
@@ -159,7 +159,7 @@ class Listener:
         return bool(self._node.count_publishers(self._topic) == 1)
 
     def _report_lost(self, status: Any) -> None:
-        """Report a loss that the middleware notices, unless the gap will show it."""
+        """Report a loss detected by the middleware, unless a sequence gap will reveal it."""
         if not self._has_one_publisher():
             print(lost_text(status.total_count_change, status.total_count), end='')
 

@@ -28,7 +28,7 @@ def add_echo_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_form_arguments(parser: argparse.ArgumentParser) -> None:
     """
-    Add the options for the output format: YAML or CSV, and how much of arrays and strings.
+    Add the options for the output format: YAML or CSV, and limits for arrays and strings.
 
     Parameters
     ----------

@@ -10,14 +10,14 @@ from typing import Any
 
 def add_filter_argument(parser: argparse.ArgumentParser, what: str) -> None:
     """
-    Add the option `--filter`, a condition that messages must fulfil.
+    Add the option `--filter`, a condition that messages must meet.
 
     Parameters
     ----------
     parser
         The parser of the verb.
     what
-        What the verb does with the messages, for the help, such as `echo`.
+        The action of the verb on the messages, for the help, such as `echo`.
 
     """
     parser.add_argument(

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Filters of messages: expressions in Python's notation, of which only harmless parts are allowed.
+Message filters: expressions in Python syntax, of which only a safe subset is allowed.
 
-The expression is parsed but never given to Python to run: each allowed part of its syntax tree
-becomes a small function of the names it may use, which are `m`, the message, and the loop
+The expression is parsed but never evaluated by Python: each allowed node of its syntax tree
+becomes a small function of the names in scope, which are `m`, the message, and the loop
 variables of generator expressions.
 """
 
@@ -21,7 +21,7 @@ Part = Callable[[Names], Any]
 
 
 def _of_numbers(operate: Callable[..., Any]) -> Callable[..., Any]:
-    """Keep an operation from texts and lists, which it would make as long as memory is."""
+    """Restrict an operation to numbers; on strings and lists it could exhaust memory."""
 
     def operate_on_numbers(*operands: Any) -> Any:
         for operand in operands:
@@ -74,12 +74,12 @@ class MessageFilter:
     Parameters
     ----------
     text
-        The expression in Python's notation; the message is `m`.
+        The expression in Python syntax; the message is `m`.
 
     Raises
     ------
     ArgumentTypeError
-        The text is no expression, or a part of it is not allowed in a filter.
+        The text is not an expression, or a part of it is not allowed in a filter.
 
     """
 
@@ -91,7 +91,7 @@ class MessageFilter:
             raise argparse.ArgumentTypeError(f'{text!r} is no expression: {error}') from error
 
     def __call__(self, message: Any) -> bool:
-        """Return whether the condition holds; RuntimeError if it does not fit the message."""
+        """Evaluate the condition; raise RuntimeError if it does not fit the message."""
         try:
             return bool(self._condition({'m': message}))
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
@@ -128,7 +128,7 @@ def _attribute(node: ast.Attribute, known: set[str]) -> Part:
 
 
 def _field(message: Any, name: str) -> Any:
-    """Return a field of a message; what is no message has none, only methods."""
+    """Return a field of a message; raise AttributeError for any other attribute or object."""
     if name not in getattr(message, 'get_fields_and_field_types', dict)():
         raise AttributeError(f'{type(message).__name__!r} object has no field {name!r}')
     return getattr(message, name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Name the other end when the quality of service keeps two ends of a topic apart."""
+"""Identify the nodes that cannot connect to an endpoint because of incompatible QoS."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
 
 class Incompatibility:
     """
-    Reports on stderr which nodes cannot connect because of incompatible quality of service.
+    Report on stderr about nodes that cannot connect because of incompatible QoS.
 
     Nothing is looked up before the middleware reports a mismatch: pass `on_event` to rclpy as the
     callback for incompatible QoS, and call `check` regularly.
@@ -45,22 +45,22 @@ class Incompatibility:
 
     def on_event(self, _: Any) -> None:
         """
-        Note that the middleware has reported a mismatch, for the next `check`.
+        Record a mismatch reported by the middleware, for the next `check`.
 
         Parameters
         ----------
         _
-            The event of rclpy; not used, since it does not name the other node.
+            The event of rclpy; unused, since it does not identify the other node.
 
         """
         self._is_due = True
 
     def check(self) -> None:
-        """Name the nodes of a mismatch as soon as they are known."""
+        """Report the nodes of a mismatch as soon as they are known."""
         if not self._is_due:
             return
         reasons = [(info, self._reason(info)) for info in self._others()]
-        # A node with several ends is reached by one that fits.
+        # A node with several endpoints is reached through a compatible one.
         reached = {_full_name(info) for info, reason in reasons if not reason}
         for info, reason in reasons:
             is_apart = reason and _full_name(info) not in reached
@@ -105,17 +105,17 @@ def _full_name(info: Any) -> str:
 
 def as_discovered(profile: QoSProfile) -> QoSProfile:
     """
-    Complete a QoS profile the way other nodes discover it.
+    Complete a QoS profile to the form that other nodes discover.
 
     Parameters
     ----------
     profile
-        The profile of a publisher or subscription; it stays as it is.
+        The profile of a publisher or subscription; it is not changed.
 
     Returns
     -------
     QoSProfile
-        A copy: durations that are not set are infinite, liveliness by default is automatic.
+        A copy: unset durations become infinite, and the system default liveliness automatic.
 
     """
     seen = copy_profile(profile)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notice messages that were lost, also those for which the middleware reports nothing."""
+"""Detection of lost messages, including those that the middleware does not report."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Any
 
 class LossCounter:
     """
-    Counts the gaps in the sequence numbers that a publisher gives its messages.
+    Counter of the gaps in the sequence numbers of a publisher.
 
-    A queue that overflows because the reader is slow drops messages without an event. The numbers
-    tell, as long as they all come from one publisher.
+    A queue that overflows because the reader is slow drops messages without an event. The sequence
+    numbers reveal this, as long as they all come from one publisher.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class LossCounter:
     Attributes
     ----------
     total
-        How many messages have been lost so far.
+        The number of messages lost so far.
 
     """
 
@@ -66,7 +66,7 @@ def lost_text(change: int, total: int) -> str:
     Parameters
     ----------
     change, total
-        How many messages were lost since the last report, and in all.
+        The number of messages lost since the last report, and in total.
 
     """
     return f'A message was lost!!!\n\ttotal count change:{change}\n\ttotal count: {total}---\n'

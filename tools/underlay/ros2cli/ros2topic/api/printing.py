@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How `ros2 topic echo` prints a message."""
+"""Message formatting of `ros2 topic echo`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SEPARATOR = '---'
 
 def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
     """
-    Create the function that formats messages as the options ask for.
+    Create the function that formats messages according to the options.
 
     Parameters
     ----------
@@ -26,8 +26,8 @@ def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
     Returns
     -------
     callable
-        Takes a message, as bytes if `raw` is set, and its message info; returns the text with the
-        separator. It raises RuntimeError if the messages lack the chosen field.
+        Accepts a message, as bytes if `raw` is set, and its message info; returns the text with
+        the separator. It raises RuntimeError if the messages lack the chosen field.
 
     """
     shortening = chosen_shortening(args)
@@ -64,7 +64,7 @@ def nested_field(message: Any, path: str) -> Any:
     message
         The message.
     path
-        The names of the fields on the way, joined by dots, such as `pose.position`.
+        The names of the nested fields, joined by dots, such as `pose.position`.
 
     Raises
     ------

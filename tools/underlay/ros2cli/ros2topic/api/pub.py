@@ -24,21 +24,21 @@ SETTLE_S = 0.25
 
 def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> None:
     """
-    Publish a message as often and as fast as the options say.
+    Publish a message with the count and rate of the options.
 
     Parameters
     ----------
     node
         The `DirectNode` that publishes; it spins for `keep_alive` s after the last message.
     message
-        The message; its time stamps are set anew each time.
+        The message; its time stamps are updated each time.
     args : argparse.Namespace
         The parsed command line of `ros2 topic pub`.
 
     Raises
     ------
     RuntimeError
-        Fewer subscriptions than wanted match within `max_wait_time_secs`.
+        Fewer subscriptions than requested match within `max_wait_time_secs`.
 
     """
     publication = Publication(node, message, args)
@@ -50,14 +50,14 @@ def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> No
 
 class Publication:
     """
-    Publishes a message with the rate, count and quality of service of the command line.
+    Publisher of a message with the rate, count and QoS of the command line.
 
     Parameters
     ----------
     node
         The `DirectNode` that publishes.
     message
-        The message; its time stamps are set anew each time.
+        The message; its time stamps are updated each time.
     args : argparse.Namespace
         The parsed command line of `ros2 topic pub`.
 
@@ -82,7 +82,7 @@ class Publication:
         )
 
     def publish_all(self) -> None:
-        """Publish as many times as is asked for, or for ever."""
+        """Publish the requested number of times, or endlessly."""
         times = 1 if self._args.once else self._args.times
         count = 0
         next_s = time.monotonic()
@@ -100,7 +100,7 @@ class Publication:
         self._publisher.publish(outgoing)
 
     def wait_for_subscriptions(self) -> None:
-        """Wait until subscriptions are known, and a moment more until they know us as well."""
+        """Wait until subscriptions are discovered, plus a moment for them to discover us."""
         wanted = self._args.wait_matching_subscriptions
         if wanted is None:
             wanted = 1 if self._args.once or self._args.times else 0

@@ -11,7 +11,7 @@ from ros2cli.messages.values_arguments import add_values_arguments
 
 def add_pub_arguments(parser: argparse.ArgumentParser) -> None:
     """
-    Add the topic, the message, how often to publish it, and what to wait for.
+    Add the topic, the message, the rate and count, and the wait options.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Quality of service that fits the publishers of a topic."""
+"""Selection of a QoS profile compatible with the publishers of a topic."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def override(profile: QoSProfile, args: argparse.Namespace) -> None:
 
 
 def _common(offered: list[Any], strong: Any, weak: Any) -> tuple[Any, str]:
-    """Return the strong policy if all publishers offer it, else the weak one."""
+    """Return the stronger policy if all publishers offer it, else the weaker one."""
     count = sum(policy == strong for policy in offered)
     if count == 0 or count == len(offered):
         return (strong if count else weak), ''

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options for the quality of service; importing this does not import rclpy."""
+"""Options for the quality of service; importing this does not import rclpy."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
     parser
         The parser of the verb.
     role
-        Whose profile it is, for the help: `publisher` or `subscription`.
+        The owner of the profile, for the help: `publisher` or `subscription`.
 
     """
     by_default = 'is `default`' if role == 'publisher' else 'follows the other side'

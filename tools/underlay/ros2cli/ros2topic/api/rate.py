@@ -30,7 +30,7 @@ class RateMeter:
         Parameters
         ----------
         now_s
-            When it happened, in s, on any clock.
+            The time of the event, in s, on any clock.
 
         """
         if self._last_s is not None and now_s < self._last_s:
@@ -42,7 +42,7 @@ class RateMeter:
         self._last_s = now_s
 
     def report(self) -> str:
-        """Return the two lines of a report, or '' if nothing has come since the last one."""
+        """Return the two lines of a report, or '' without new events since the last one."""
         if not self._changed:
             return ''
         self._changed = False

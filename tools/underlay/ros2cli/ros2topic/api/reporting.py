@@ -25,7 +25,7 @@ def report_for_ever(
     node
         The `DirectNode` to spin in between.
     topic
-        Full name of the topic, for the message that nothing has come for long.
+        Full name of the topic, for the message about missing messages.
     report
         Returns the text, or '' if there is nothing new.
     incompatibility

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decide on the message type of a subscription."""
+"""Determine the message type of a subscription."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ def resolve_type(node: Any, topic: str, name: str | None) -> Any:
     """
     Find the message class for a subscription.
 
-    Without a name it is the type in the graph, where the topic may appear within the spin time.
+    Without a name the type is read from the graph; the topic is waited for during the spin time.
 
     Parameters
     ----------
     node
-        The `DirectNode` that is to subscribe.
+        The `DirectNode` that will subscribe.
     topic
         Full name of the topic.
     name
-        The type that the user named, if any; a warning tells if others only use other types.
+        The type given by the user, if any; a warning is printed if only other types are in use.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why no message passes between ends of a topic that have different types."""
+"""Detection of endpoints of a topic with different types."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:
     """
-    Check whether a topic is only used with other types than one's own.
+    Check whether a topic is only used with types other than one's own.
 
     Parameters
     ----------
     graph
-        The graph, which does not contain the node that asks.
+        The graph, which does not contain the calling node.
     topic
         Full name of the topic.
     message_type
@@ -28,7 +28,7 @@ def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:
     Returns
     -------
     str
-        The message, or '' if somebody uses this type or nobody uses the topic.
+        The message, or '' if the topic is used with this type or not at all.
 
     """
     types = get_topic_types(graph, topic)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Subscribe to a topic as soon as it is published, for verbs that measure it."""
+"""Subscribe to a topic once it is published, for verbs that measure it."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ def subscribe_when_published(
     topic
         Full name of the topic.
     callback
-        Takes each message and its time of arrival, in s since 1970.
+        Accepts each message and its arrival time, in s since 1970.
     raw
         Whether the callback gets serialized messages (bytes).
     check
-        Takes the message class before the subscription is made, and may raise RuntimeError.
+        Accepts the message class before the subscription is created; may raise RuntimeError.
 
     Returns
     -------
     Incompatibility
-        To be checked regularly for publishers that cannot connect.
+        The report to check regularly for publishers that cannot connect.
 
     Raises
     ------

@@ -34,16 +34,16 @@ class TopicCommand(VerbCommand):
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
     ) -> None:
         """
-        Add the option that all verbs share, then the verbs.
+        Add the option shared by all verbs, then the verbs.
 
         Parameters
         ----------
         parser
             The parser of the command.
         cli_name
-            The words that call the command, `ros2 topic`.
+            The command line up to the command, `ros2 topic`.
         argv
-            The words after those; the first that is no option chooses the verb to import.
+            The arguments after it; the first that is not an option selects the verb to import.
 
         """
         parser.add_argument(

@@ -27,7 +27,7 @@ class BwVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic bw`; not used here.
+            The command line up to the verb, such as `ros2 topic bw`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -49,7 +49,7 @@ class BwVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.names import absolute

@@ -26,7 +26,7 @@ class DelayVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic delay`; not used here.
+            The command line up to the verb, such as `ros2 topic delay`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -48,7 +48,7 @@ class DelayVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.names import absolute

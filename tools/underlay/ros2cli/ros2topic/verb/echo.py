@@ -23,7 +23,7 @@ class EchoVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic echo`; not used here.
+            The command line up to the verb, such as `ros2 topic echo`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -38,12 +38,12 @@ class EchoVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Print messages until enough have come or the user stops it.
+        Print messages until the limit is reached or the user stops it.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.names import absolute

@@ -25,7 +25,7 @@ class HzVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic hz`; not used here.
+            The command line up to the verb, such as `ros2 topic hz`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -54,7 +54,7 @@ class HzVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.names import absolute

@@ -22,7 +22,7 @@ class InfoVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic info`; not used here.
+            The command line up to the verb, such as `ros2 topic info`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -44,7 +44,7 @@ class InfoVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------

@@ -29,7 +29,7 @@ class ListVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic list`; not used here.
+            The command line up to the verb, such as `ros2 topic list`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -47,7 +47,7 @@ class ListVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.node.strategy import NodeStrategy

@@ -25,7 +25,7 @@ class PubVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic pub`; not used here.
+            The command line up to the verb, such as `ros2 topic pub`; unused.
 
         """
         add_pub_arguments(parser)
@@ -34,12 +34,12 @@ class PubVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Publish until enough is published or the user stops it.
+        Publish until the count is reached or the user stops it.
 
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         """
         from ros2cli.messages.lookup import get_passed_type

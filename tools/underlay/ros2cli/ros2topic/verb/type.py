@@ -22,7 +22,7 @@ class TypeVerb(VerbExtension):
         parser
             The parser of the verb.
         cli_name
-            The words that call the verb, `ros2 topic type`; not used here.
+            The command line up to the verb, such as `ros2 topic type`; unused.
 
         """
         add_strategy_arguments(parser)
@@ -37,7 +37,7 @@ class TypeVerb(VerbExtension):
         Parameters
         ----------
         args : argparse.Namespace
-            The parsed command line.
+            The parsed arguments.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of displays (.rviz): what they say, and how they are written back."""
+"""Configuration files (.rviz): reading, editing and writing them."""
 
 from rviz_common.config.config_error import ConfigError
 from rviz_common.config.configuration import Configuration

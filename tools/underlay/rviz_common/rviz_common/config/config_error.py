@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is wrong with a file of displays."""
+"""The error for an invalid configuration file."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ class ConfigError(ValueError):
     Parameters
     ----------
     source
-        The file, or where else the text is from.
+        The file, or another source of the text.
     line
-        The line of the error, from 1 on; None if it concerns the whole file.
+        The line of the error, counted from 1; None if it concerns the whole file.
     reason
         What is wrong, as a message for the user.
 

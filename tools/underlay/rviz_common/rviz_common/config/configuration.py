@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a .rviz file says, by its sections."""
+"""The contents of a .rviz file, by section."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ TOO_LARGE = f'The file is larger than {LARGEST // 1_000_000} MB.'
 
 class Configuration:
     """
-    The contents of a .rviz file, by its sections; what is not understood is kept.
+    The contents of a .rviz file, by section; unknown content is preserved.
 
     Parameters
     ----------
     document
-        The values of the file, and their lines.
+        The values of the file, and their line numbers.
 
     Raises
     ------
@@ -88,7 +88,7 @@ class Configuration:
 
     @classmethod
     def default(cls) -> Configuration:
-        """Return what is shown without a file."""
+        """Return the configuration used without a file."""
         return cls(Document('the default configuration', default_values()))
 
     @classmethod
@@ -104,7 +104,7 @@ class Configuration:
         Raises
         ------
         ConfigError
-            The file cannot be read, or is no configuration of RViz.
+            The file cannot be read, or is not an RViz configuration.
 
         """
         try:
@@ -125,12 +125,12 @@ class Configuration:
         text
             The YAML.
         source
-            Where the text is from, for error messages.
+            The source of the text, for error messages.
 
         Raises
         ------
         ConfigError
-            The text is no YAML, is empty, or does not have the form of a .rviz file.
+            The text is not YAML, is empty, or does not have the form of a .rviz file.
 
         """
         document = read_yaml(text, source)
@@ -140,7 +140,7 @@ class Configuration:
 
     def text(self, sections: Mapping[Place, Any]) -> str:
         """
-        Format the file with the current sections; what has not changed is kept as it was.
+        Format the file with the current sections; unchanged content is preserved.
 
         Parameters
         ----------
@@ -173,13 +173,13 @@ class Configuration:
         Raises
         ------
         ConfigError
-            The file cannot be written; it is as it was.
+            The file cannot be written; it is left unchanged.
 
         """
         replace_file(path, self.text(sections))
 
     def _entries(self, place: Place, default: list[dict[str, Any]]) -> list[dict[str, Any]]:
-        """Return a list of mappings; the default if there is none at all."""
+        """Return a section that is a list of mappings, or the default if it is missing."""
         found = self._at(place)
         if found is _MISSING:
             return default
@@ -210,7 +210,7 @@ class Configuration:
         return found
 
     def _has(self, value: Any, kind: type, place: Place, is_needed: bool = False) -> Any:
-        """Return a value if it has the kind, or raise ConfigError."""
+        """Return a value if it has the expected type; raise ConfigError otherwise."""
         if isinstance(value, kind) or (value is None and not is_needed):
             return value
         name = place[-1] if place else ''
@@ -231,7 +231,7 @@ _MISSING = object()
 
 
 def _replaced(values: Any, place: Place, section: Any) -> Any:
-    """Return values with another section; the order remains."""
+    """Return the values with a section replaced; the order is preserved."""
     if not place:
         return section
     name = place[0]
@@ -245,7 +245,7 @@ def _shown(value: Any) -> str:
 
 
 def _text_of(path: str) -> str:
-    """Return the text of a file; a pipe, which might never end, is not waited for."""
+    """Read the text of a regular file; a pipe is rejected, as it might never end."""
     with open(path, 'rb', opener=_open_at_once) as file:
         about = os.fstat(file.fileno())
         if not stat.S_ISREG(about.st_mode):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is shown where no file says anything else."""
+"""The default configuration."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ['default_values']
 
 
 def default_values() -> dict[str, Any]:
-    """Return what a new file has: a grid, the usual panels and tools."""
+    """Return the contents of a new file: a grid, and the usual panels and tools."""
     return {
         'Panels': [
             {'Class': 'rviz_common/Displays', 'Name': 'Displays'},

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The values of a YAML file, and the lines where they are."""
+"""The values of a YAML file, and their line numbers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Place = tuple['str | int', ...]
 
 @dataclass(frozen=True)
 class Document:
-    """The values of a YAML file, and the lines where they are."""
+    """The values of a YAML file, and their line numbers."""
 
     source: str
     values: Any
@@ -22,7 +22,7 @@ class Document:
 
     def line(self, place: Place) -> int | None:
         """
-        Find the line of a value, or else that of the nearest value around it.
+        Find the line of a value, or else that of the nearest enclosing value.
 
         Parameters
         ----------
@@ -32,7 +32,7 @@ class Document:
         Returns
         -------
         int | None
-            The line, from 1 on; None without any lines, as for the default configuration.
+            The line, counted from 1; None if there are no lines, as for the default configuration.
 
         """
         for length in range(len(place), -1, -1):

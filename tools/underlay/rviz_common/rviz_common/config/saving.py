@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write a file so that either the old or the new one is there, whatever happens."""
+"""Atomic file writing: after a failure, the old file is still intact."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ __all__ = ['replace_file']
 
 def replace_file(path: str, text: str) -> None:
     """
-    Replace the contents of a file atomically, and keep its permissions.
+    Replace the contents of a file atomically, preserving its permissions.
 
     Parameters
     ----------
     path
-        The file. If it is a symbolic link, the file that it leads to is replaced.
+        The file. If it is a symbolic link, its target is replaced.
     text
         The new contents, written as UTF-8.
 
     Raises
     ------
     ConfigError
-        The file cannot be written; it is as it was.
+        The file cannot be written; it is left unchanged.
 
     """
-    path = os.path.realpath(path)  # the file behind a link, not the link
+    path = os.path.realpath(path)  # the target of a link, not the link itself
     try:
         _replace(path, text.encode())
     except OSError as error:
@@ -56,7 +56,7 @@ def _replace(path: str, content: bytes) -> None:
 
 
 def _mode(path: str) -> int:
-    """Return the permissions of the file as it is, or those of new ones."""
+    """Return the permissions of the existing file, or those of a new one."""
     with suppress(OSError):
         return stat.S_IMODE(os.stat(path).st_mode)
     mask = os.umask(0)

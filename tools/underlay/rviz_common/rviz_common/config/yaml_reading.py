@@ -2,8 +2,8 @@
 """
 Read YAML as RViz writes it.
 
-RViz takes all scalars for texts, and asks what they mean only where they are used. So only what
-is written back the same is made a number here: `007` and `on` remain texts, `1e-05` is a number.
+RViz reads all scalars as strings and interprets them only where they are used. A scalar is
+converted to a number here only if it round-trips: `007` and `on` stay strings, `1e-05` does not.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ Loader = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
 
 def read_yaml(text: str, source: str) -> Document:
     """
-    Parse YAML, and remember the line of each value.
+    Parse YAML, recording the line of each value.
 
     Parameters
     ----------
     text
         A single YAML document, without aliases or duplicate keys.
     source
-        Where the text is from, for error messages.
+        The source of the text, for error messages.
 
     Returns
     -------
@@ -62,12 +62,12 @@ def read_yaml(text: str, source: str) -> Document:
 
 def scalar_value(text: str) -> Any:
     """
-    Convert a scalar without quotes: null, true, false and numbers; all else remains text.
+    Convert an unquoted scalar: null, true, false and numbers; anything else stays a string.
 
     Parameters
     ----------
     text
-        The scalar, as it stands in the file.
+        The scalar, as written in the file.
 
     """
     if text.lower() in WORDS:
@@ -83,7 +83,7 @@ def scalar_value(text: str) -> Any:
 
 
 class _Reader:
-    """Makes values of the events of a file, and remembers their lines."""
+    """Builds values from the parser events of a file, and records their lines."""
 
     def __init__(self, text: str, source: str) -> None:
         self.lines: dict[Place, int] = {}
@@ -104,7 +104,7 @@ class _Reader:
         return value
 
     def _value(self, event: Any, place: Place) -> Any:
-        """Return the value that begins with an event."""
+        """Return the value that starts with an event."""
         line = self.lines[place] = _line(event)
         self._count += 1
         if len(place) > MAXIMAL_DEPTH or self._count > MAXIMAL_COUNT:
@@ -154,7 +154,7 @@ def _line(event: Any) -> int:
 
 
 def _unreadable(error: yaml.MarkedYAMLError, text: str, source: str) -> ConfigError:
-    """Say what cannot be read, and where."""
+    """Return the error for unreadable text, with its line."""
     mark = error.problem_mark or error.context_mark
     if mark is None:
         return ConfigError(source, None, f'This is not YAML: {error}.')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write YAML in the form in which RViz writes it."""
+"""Write YAML in the style of RViz."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ def write_yaml(values: Any) -> str:
 
 
 class _Dumper(yaml.SafeDumper):
-    """Indents lists as RViz does; all scalars are texts, some of them without quotes."""
+    """Indents lists as RViz does; all scalars are strings, some of them unquoted."""
 
     yaml_implicit_resolvers: dict[Any, Any] = {}
 
     def increase_indent(self, flow: bool = False, indentless: bool = False) -> None:
-        """Indent lists below their names, too."""
+        """Indent lists below their keys, too."""
         super().increase_indent(flow, False)
 
     def ignore_aliases(self, data: Any) -> bool:
-        """Write what occurs twice, twice."""
+        """Write repeated values in full, without aliases."""
         return True
 
 
@@ -51,7 +51,7 @@ def _scalar(dumper: yaml.SafeDumper, text: str, style: str | None = None) -> yam
 
 
 def _text(dumper: yaml.SafeDumper, text: str) -> yaml.Node:
-    """Put quotes around what would be read as something else."""
+    """Quote strings that would be read as another type."""
     return _scalar(dumper, text, None if isinstance(scalar_value(text), str) else '"')
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A page in the browser, for who may see it."""
+"""A page in the browser, with access control."""
 
 from rviz_common.page.listening import PortError
 from rviz_common.page.page import Page

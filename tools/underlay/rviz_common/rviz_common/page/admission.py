@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Who may see and use a page.
+Access control of a page.
 
-A browser lets any site that it shows connect to servers of this machine; it only says, in the
-header `Origin`, which site that is. And it takes any name for this machine that a site's owner
-makes the DNS say; then the header `Host` has that name.
+A browser lets any site that it shows connect to servers on this machine; it only reports the
+site, in the header `Origin`. And the owner of a site can make the DNS resolve any name to this
+machine (DNS rebinding); then the header `Host` has that name.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ OWN_NAMES = ('127.0.0.1', 'localhost', '[::1]')
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why a request is not answered, and whether a token would make the difference."""
+    """The reason why a request is rejected, and whether a token would admit it."""
 
     status: HTTPStatus
     sentence: str
@@ -31,14 +31,14 @@ class Refusal:
 
 @dataclass(frozen=True)
 class Admission:
-    """Decides on the requests to a port; without a token it admits whoever is on this machine."""
+    """Access control of a port; without a token it admits all users of this machine."""
 
     port: int
     token: str = ''
 
     @property
     def cookie(self) -> str:
-        """Return the name of the cookie that holds the token; cookies know no ports."""
+        """The name of the cookie with the token, unique per port, as cookies ignore ports."""
         return f'token_{self.port}'
 
     def refusal(
@@ -87,12 +87,12 @@ class Admission:
 
     @property
     def set_cookie(self) -> str:
-        """Return the header that has a browser keep the token."""
+        """The header that makes a browser store the token."""
         return f'{self.cookie}={quote(self.token, safe="")}; HttpOnly; SameSite=Strict; Path=/'
 
     def brings_token(self, path: str) -> bool:
         """
-        Whether a request has a token in its query, which from then on a cookie is to hold.
+        Whether a request has a token in its query, which is then to be stored in a cookie.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class Admission:
         return bool(self.token and _token_in(path))
 
     def _refusal_of_name(self, host: str) -> Refusal | None:
-        """Refuse names of this machine that are not its own."""
+        """Reject names of this machine that are not its own."""
         if host in {f'{name}:{self.port}' for name in OWN_NAMES}:
             return None
         return Refusal(
@@ -144,10 +144,10 @@ def without_token(path: str) -> str:
     Returns
     -------
     str
-        The path on this host, with what else is in the query.
+        The path on this host, with the rest of the query.
 
     """
-    # Two slashes at the beginning would lead elsewhere.
+    # Two leading slashes would redirect to another host.
     place, _, query = path.partition('#')[0].partition('?')
     rest = [each for each in query.split('&') if each and each.partition('=')[0] != 'token']
     return '/' + place.lstrip('/\\') + ('?' if rest else '') + '&'.join(rest)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say in a sentence, and not too often, what goes wrong with connections."""
+"""Rate-limited log messages about failed connections."""
 
 from __future__ import annotations
 
@@ -51,9 +51,9 @@ def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) 
 
 def _shorten(record: logging.LogRecord) -> bool:
     """
-    Tell whether there is something to say, and put it in a sentence.
+    Filter log records, shortening an exception to one line.
 
-    The `websockets` library says too much, also who speaks no HTTP or goes without a word.
+    The `websockets` library logs too much, such as clients that do not speak HTTP or disconnect.
     """
     error = record.exc_info[1] if record.exc_info else None
     if isinstance(error, Exception):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Put an admission before the server of viser, which has none."""
+"""Access control for the viser server, which has none."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from websockets.http11 import Request, Response
 
 __all__ = ['gated']
 
-# More than the parts of half a megabyte in which browsers send files.
+# Larger than the chunks of half a megabyte in which browsers send files.
 LARGEST_BYTES = 2_000_000
-# What a page may load and do: all from here, and inside no page of others.
+# What a page may load and do: only from this origin, and not framed by other pages.
 POLICY = "frame-ancestors 'self'"
 
 
@@ -43,8 +43,8 @@ def gated(
     """
     Secure the viser server that is started in a `with` block.
 
-    It gives the server a socket, a title, an admission control and limits. For this it replaces
-    `websockets.asyncio.server.serve` meanwhile.
+    It gives the server a socket, a title, access control and limits. For this it replaces
+    `websockets.asyncio.server.serve` for the duration of the block.
 
     Parameters
     ----------
@@ -55,11 +55,11 @@ def gated(
     admission
         Decides who may use the page.
     routes
-        What is served besides the page of viser.
+        Routes served in addition to the viser page.
     uploads
         Limits the files that browsers upload.
     options_of
-        Finds the options of a widget of choices.
+        Returns the options of a choice widget.
 
     Yields
     ------
@@ -69,7 +69,7 @@ def gated(
     Raises
     ------
     RuntimeError
-        No server has been started in this way, or a second one.
+        No server has been started in this way, or more than one.
 
     """
     serve = websockets.asyncio.server.serve
@@ -95,7 +95,7 @@ def gated(
 
 
 def _routed(handler: Any, routes: Routes, uploads: Uploads, options_of: OptionsOf) -> Any:
-    """Return what talks to those who connect: a route, or viser."""
+    """Wrap the connection handler, to dispatch connections to a route or to viser."""
 
     async def talk(connection: ServerConnection) -> None:
         request = connection.request
@@ -113,7 +113,7 @@ def _routed(handler: Any, routes: Routes, uploads: Uploads, options_of: OptionsO
 
 
 def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
-    """Return what answers requests that are admitted, and refuses the others."""
+    """Wrap the request handler, to reject requests that are not admitted."""
 
     def process_request(connection: ServerConnection, request: Request) -> Response | None:
         headers = request.headers
@@ -140,7 +140,7 @@ def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
 
 
 def _refused(refusal: Refusal, headers: Headers, title: str) -> Response:
-    """Return why something is not answered: to people a page, to programs a sentence."""
+    """Return the rejection of a request: a page for browsers, plain text for programs."""
     if refusal.wants_token and 'text/html' in ', '.join(headers.get_all('Accept')):
         heading = refusal.sentence.partition('. ')[0]
         text = sign_in_page(title, ', '.join(headers.get_all('Host')), f'{heading}.')
@@ -164,7 +164,7 @@ def _answer(status: HTTPStatus, text: str, kind: str) -> Response:
 
 
 def _with_cookie(path: str, admission: Admission) -> Response:
-    """Send the browser to the address without the token, which the history must not keep."""
+    """Redirect the browser to the URL without the token, to keep it out of the history."""
     place = without_token(path)
     headers = Headers(
         {'Location': place, 'Set-Cookie': admission.set_cookie, 'Content-Length': '0'}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Take a port of this machine, and say where others reach it."""
+"""Listen at a port of this machine, and list the addresses that reach it."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ TRIES = 100
 
 
 class PortError(RuntimeError):
-    """A port that cannot be taken, with the reason."""
+    """A port that cannot be used, with the reason."""
 
 
 def listen(settings: PageSettings) -> socket.socket:
     """
     Open a listening socket at the port of the settings or, without one, at a free one.
 
-    It listens already: two programs may bind the same port as long as neither of them does.
+    The socket is already listening: several programs can bind a port until one of them listens.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def listen(settings: PageSettings) -> socket.socket:
     Raises
     ------
     PortError
-        The host or the port cannot be used, or 100 ports are taken; the message says why.
+        The host or the port cannot be used, or 100 ports are in use; the message says why.
 
     """
     if settings.port is not None:
@@ -61,7 +61,7 @@ def _listen(host: str, port: int) -> socket.socket:
 
 
 def _reason(host: str, port: int, number: int) -> str:
-    """Say why a port cannot be taken, and what to do."""
+    """Describe why a port cannot be used, and what to do about it."""
     why = os.strerror(number)
     if number not in (errno.EADDRINUSE, errno.EACCES):
         return (
@@ -76,18 +76,18 @@ def _reason(host: str, port: int, number: int) -> str:
 
 def reachable(host: str) -> list[str]:
     """
-    List the addresses at which others reach a page that is served at a host.
+    List the addresses at which a page served at a host is reachable.
 
     Parameters
     ----------
     host
-        An IP address. The unspecified one, such as 0.0.0.0, stands for those of all interfaces.
+        An IP address. The unspecified one, such as 0.0.0.0, stands for all interfaces.
 
     Returns
     -------
     list[str]
-        Addresses; first the one that leads to other networks, if there is a way there. That of
-        the loopback interface is listed only if there is no other.
+        Addresses; first the one with the default route, if there is one. The loopback address
+        is listed only if there is no other.
 
     """
     address = ipaddress.ip_address(host)
@@ -100,13 +100,13 @@ def reachable(host: str) -> list[str]:
 
 
 def _address_to_other_networks(version: int) -> str:
-    """Return the address with which packets leave for far away; '' without a way there."""
+    """Return the source address of the default route; '' without a default route."""
     family, test_net = (
         (socket.AF_INET, '192.0.2.1') if version == 4 else (socket.AF_INET6, '2001:db8::1')
     )
     with socket.socket(family, socket.SOCK_DGRAM) as asking:
         try:
-            asking.connect((test_net, 9))  # sends nothing, but chooses the address
+            asking.connect((test_net, 9))  # sends nothing, but selects the source address
         except OSError:
             return ''
         return str(asking.getsockname()[0])

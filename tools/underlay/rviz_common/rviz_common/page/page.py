@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A page in the browser, for who may see it."""
+"""A page in the browser, with access control."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ __all__ = ['Page']
 
 class Page:
     """
-    A page with a scene and widgets, which are those of `viser`; it is served from the beginning.
+    A page with a scene and widgets of `viser`; it is served from the start.
 
     Parameters
     ----------
     title
         The title of the browser's tab.
     settings
-        Where it is served, and with which token; by default at 127.0.0.1. A token that is empty
-        is made up.
+        The host, the port and the token; by default it is served at 127.0.0.1. An empty token is
+        replaced by a generated one.
 
     Raises
     ------
@@ -48,7 +48,7 @@ class Page:
     port
         The port at which it is served.
     routes
-        What is served besides the page itself.
+        Routes served in addition to the page itself.
     uploads
         Limits the files that browsers upload.
     viser
@@ -81,26 +81,26 @@ class Page:
             show_share_button=False,
         )
         self.viser.gui.main_panel.dock_right()
-        # Shadows halve the frames where the processor draws.
+        # Shadows halve the frame rate with software rendering.
         self.viser.scene.configure_default_lights(cast_shadow=False)
 
     @property
     def urls(self) -> list[str]:
-        """Return the addresses to open, with the token if there is one; the best one first."""
+        """The URLs to open, with the token if there is one; the best one first."""
         query = f'?{urlencode({"token": self._token})}' if self._token else ''
         hosts = [f'[{each}]' if ':' in each else each for each in reachable(self.settings.host)]
         return [f'http://{host}:{self.port}/{query}' for host in hosts]
 
     @property
     def url(self) -> str:
-        """Return the address to open."""
+        """The URL to open."""
         return self.urls[0]
 
     def end_upload(self, start: FileTransferStartUpload) -> None:
         """
         Make browsers stop showing the progress of an upload that was rejected.
 
-        They would show it as uploaded instead, so that what they say about it is removed too.
+        They would show it as uploaded instead, so that their notification is removed too.
 
         Parameters
         ----------
@@ -119,13 +119,13 @@ class Page:
                 client.gui._websock_interface.queue_message(message)
 
     def _options_of(self, widget: str) -> tuple[str, ...] | None:
-        """Return what a widget lets people choose, None if it is not there or offers nothing."""
+        """Return the options of a choice widget, None if there is no such widget."""
         handle = self.viser.gui._gui_input_handle_from_uuid.get(widget)
         options: tuple[str, ...] | None = getattr(handle, 'options', None)
         return options
 
     def close(self) -> None:
-        """Serve no longer."""
+        """Stop serving the page."""
         self.viser.stop()
 
     def __enter__(self) -> Page:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a page serves besides itself: small pages inside of it, with a connection of their own."""
+"""Additional routes of a page: small pages embedded in it, with their own connections."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ['Route', 'Routes']
 @dataclass(frozen=True)
 class Route:
     """
-    What is at a path: a text for those who load it, and who talks to those who connect to it.
+    The resource at a path: the content of an HTTP response, and a handler of WebSocket clients.
 
     The connection is that of the `websockets` library, in the thread of the page.
     """
@@ -38,14 +38,14 @@ class Routes:
         Parameters
         ----------
         path
-            The path, such as `/drive`, without a slash at its end.
+            The path, such as `/drive`, without a trailing slash.
         route
             What to serve there.
 
         Raises
         ------
         ValueError
-            There is a route at this path already.
+            There is already a route at this path.
 
         """
         if path in self._by_path:
@@ -54,7 +54,7 @@ class Routes:
 
     def remove(self, path: str) -> None:
         """
-        Stop serving the route at a path; connections that are open stay.
+        Stop serving the route at a path; open connections are kept.
 
         Parameters
         ----------
@@ -71,7 +71,7 @@ class Routes:
         Parameters
         ----------
         target
-            The target of the request: a path, perhaps with a query and a slash at its end.
+            The target of the request: a path, possibly with a query and a trailing slash.
 
         Returns
         -------

@@ -10,13 +10,13 @@ __all__ = ['FIRST_PORT', 'NO_TOKEN', 'PARAMETERS', 'PageSettings']
 
 FIRST_PORT = 8080
 NO_TOKEN = 'none'
-"""The token that means: admit whoever is on this machine."""
+"""The value of the token that disables it: all users of this machine are admitted."""
 PARAMETERS: dict[str, tuple[str | int, str]] = {
     'host': ('127.0.0.1', 'The address at which the page is served.'),
     'port': (0, 'The port of the page; 0: the first free one from 8080 on.'),
     'token': ('', 'What must be known to open the page; made up if empty, "none" for none.'),
 }
-"""What the parameters of a node with a page are called: their defaults, and what they mean."""
+"""The ROS parameters of a node with a page: names, defaults and descriptions."""
 
 
 @dataclass(frozen=True)
@@ -24,9 +24,9 @@ class PageSettings:
     """
     Where a page is served, and to whom.
 
-    Without a port the first free one from 8080 on is taken. The page is only shown to who knows
-    the token, as any user of this machine could open it otherwise, and any program; one is made
-    up if none is given. `NO_TOKEN` does without, on an address that only this machine reaches.
+    Without a port, the first free one from 8080 on is used. A token is required to open the page,
+    as any user or program on this machine could open it otherwise; one is generated if none is
+    given. `NO_TOKEN` disables the token, on a loopback address only.
     """
 
     host: str = '127.0.0.1'
@@ -34,7 +34,7 @@ class PageSettings:
     token: str = ''
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be an address or a port."""
+        """Validate the host and the port."""
         try:
             ipaddress.ip_address(self.host)
         except ValueError:
@@ -52,5 +52,5 @@ class PageSettings:
 
     @property
     def is_local(self) -> bool:
-        """Tell if only this machine can reach the page."""
+        """Whether only this machine can reach the page."""
         return ipaddress.ip_address(self.host).is_loopback

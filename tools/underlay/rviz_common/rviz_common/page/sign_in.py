@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What somebody sees who opens a page without its token: where it is, and a field for it."""
+"""The sign-in page shown to users without the token."""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ with <code>token:=none</code>.</p>
 
 def sign_in_page(title: str, host: str, heading: str) -> str:
     """
-    Return the text of the page that asks for a token.
+    Return the HTML of the page that asks for a token.
 
     Parameters
     ----------
     title
-        Of the page that it leads to.
+        The title of the page that it leads to.
     host
-        By what name the browser has come here, with the port.
+        The host name that the browser used, with the port.
     heading
         What is missing or wrong.
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Let only those messages of browsers pass that a page sends.
+Filter the messages of browsers: only those that the page itself sends are accepted.
 
-viser takes each message to be right: of a widget a browser could set whatever it likes, and one
-message would make the page known to the internet.
+viser trusts each message: a browser could set any attribute of a widget, and one message would
+expose the page to the internet.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ DECODERS = {kind.__name__: msgspec.msgpack.Decoder(kind, strict=False) for kind 
 FIELDS = {kind.__name__: {'type', *kind.__dataclass_fields__} for kind in SENT}
 LONGEST_NAME = 40
 OptionsOf = Callable[[str], Optional[Collection[str]]]
-"""Takes the id of a widget; returns what may be chosen, None if it is no widget of choices."""
+"""Accepts the id of a widget; returns its options, None if it is not a choice widget."""
 
 
 class Strained:
     """
     A connection whose `recv` returns only valid messages of the page; others are dropped.
 
-    All else is as the connection has it.
+    Everything else is delegated to the connection.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Strained:
     uploads
         Limits the files that it uploads.
     options_of
-        Finds the options of a widget, so that only values that it offers are accepted.
+        Returns the options of a widget, so that only values that it offers are accepted.
 
     """
 
@@ -63,11 +63,11 @@ class Strained:
         self._options_of = options_of
 
     def __getattr__(self, name: str) -> Any:
-        """Return what else the connection has."""
+        """Return any other attribute of the connection."""
         return getattr(self._connection, name)
 
     async def recv(self) -> bytes | str:
-        """Return the next message that a page sends."""
+        """Return the next valid message of the page."""
         while True:
             received = await self._connection.recv()
             message = decoded(received)
@@ -79,7 +79,7 @@ class Strained:
                 return received
 
     def _is_offered(self, message: _messages.Message) -> bool:
-        """Whether a widget of choices has the one that is made; it may be gone since lately."""
+        """Whether a choice widget offers the value; its options may just have changed."""
         if not isinstance(message, _messages.GuiUpdateMessage):
             return True
         options = self._options_of(message.uuid)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Give the browser's tab a title: that of viser is its own name."""
+"""Set the title of the browser's tab, in place of that of viser."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def entitle(response: Response, title: str) -> None:
     Parameters
     ----------
     response
-        The response of viser, perhaps compressed with gzip; it is changed in place.
+        The response of viser, possibly compressed with gzip; it is changed in place.
     title
         The title of the browser's tab, as plain text.
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Limit what browsers upload, which viser keeps in memory until a file is complete.
+Limit uploads of browsers, which viser keeps in memory until a file is complete.
 
 A browser announces a file with its size and the count of its parts, then sends the parts without
-waiting for an answer. Who may open the page may announce as many files as it likes, and of any
-size: parts of a file that was refused, or that was never announced, are dropped as they come.
+waiting for an answer. Any client of the page can announce any number of files, of any size: parts
+of a file that was rejected, or that was never announced, are dropped as they arrive.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from viser._messages import FileTransferPart, FileTransferStartUpload
 __all__ = ['LARGEST_UPLOAD_BYTES', 'Uploads']
 
 LARGEST_UPLOAD_BYTES = 10_000_000
-"""The largest file; a configuration has some thousand bytes."""
+"""The maximum size of a file; a configuration has a few thousand bytes."""
 MOST_PARTS = 200
 MOST_AT_ONCE = 4
 MEGA = 1_000_000
@@ -27,7 +27,7 @@ Refusal = Callable[[FileTransferStartUpload, str], None]
 
 @dataclass
 class _Upload:
-    """A file that is on its way: whose it is, and what is still to come."""
+    """An upload in progress: its owner, and the parts that are still missing."""
 
     owner: object
     bytes_left: int
@@ -40,18 +40,18 @@ class Uploads:
     def __init__(self) -> None:
         self._running: dict[str, _Upload] = {}
         self.on_refusal: Refusal = lambda start, sentence: None
-        """Called in the page's thread with the announcement of a refused file, and why."""
+        """Called in the page's thread with the announcement of a rejected file and the reason."""
 
     def admits(self, message: object, owner: object) -> bool:
         """
-        Return whether a message is to be handled; it is, if it is none of an upload.
+        Check whether to handle a message; messages that belong to no upload always are.
 
         Parameters
         ----------
         message
             A message of viser, decoded.
         owner
-            The connection that it came by; `leave` ends what belongs to it.
+            The connection that it arrived on; `leave` drops its uploads.
 
         """
         if isinstance(message, FileTransferStartUpload):
@@ -84,7 +84,7 @@ class Uploads:
         return True
 
     def _objection(self, start: FileTransferStartUpload, owner: object) -> str:
-        """Return why a file is refused, or ''."""
+        """Return the reason why a file is rejected, or ''."""
         if start.size_bytes > LARGEST_UPLOAD_BYTES:
             return (
                 f'The file has {start.size_bytes / MEGA:.1f} MB, and the largest that can be '
@@ -107,7 +107,7 @@ class Uploads:
         upload.parts_left.remove(part.part_index)
         upload.bytes_left -= len(part.content)
         if upload.bytes_left < 0:
-            return False  # what is missing from now on keeps the file from ever being complete
+            return False  # with parts missing from now on, the file is never completed
         if not upload.parts_left:
             del self._running[part.transfer_uuid]
         return True

@@ -38,7 +38,7 @@ class AddDisplay:
         context.on_click(button, self._add)
 
     def update(self) -> None:
-        """Offer the topics that there are now."""
+        """Update the list of topics."""
         if not hasattr(self, '_class'):
             return
         options = (NO_TOPIC, *topics_for(self._context, self._class.value))
@@ -51,7 +51,7 @@ class AddDisplay:
             topic = ''
         try:
             entry = self._context.visualizer.add(self._class.value, topic)
-        except Exception as error:  # a class of some other package
+        except Exception as error:  # a class of another package
             self._context.visualizer.notify('Not added', f'{type(error).__name__}: {error}')
             return
         if topic:
@@ -65,14 +65,14 @@ def topics_for(context: Context, class_name: str) -> list[str]:
     Parameters
     ----------
     context
-        Its node knows the topics.
+        The context, whose node lists the topics.
     class_name
         The class of the display, such as `rviz_default_plugins/Path`.
 
     Returns
     -------
     list[str]
-        The topics with a type of its messages; none for an unknown class.
+        The topics of a matching message type; none for an unknown class.
 
     """
     try:

@@ -39,7 +39,7 @@ class DisplaysPanel(Panel):
         self._revision = -1
 
     def update(self) -> None:
-        """Show what is new."""
+        """Update the widgets."""
         if self._revision != self._visualizer.revision:
             self._revision = self._visualizer.revision
             self._follow_tree()
@@ -60,7 +60,7 @@ class DisplaysPanel(Panel):
             folder.say()
 
     def _follow_tree(self) -> None:
-        """Add folders of new displays, and remove those of displays that are gone."""
+        """Add folders for new displays, and remove those of deleted displays."""
         entries = self._visualizer.displays.children
         for entry in [each for each in self._folders if each not in entries]:
             self._folders.pop(entry).folder.remove()

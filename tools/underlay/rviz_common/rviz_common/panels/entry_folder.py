@@ -21,14 +21,14 @@ NAME = Text('Name', '', 'What it is called here and in the file.')
 
 class EntryFolder:
     """
-    A folder with a box to enable a display, its status and its properties.
+    A folder with a checkbox to enable a display, its status and its properties.
 
     Parameters
     ----------
     context
         The page, and the visualizer from which the entry can be removed.
     entry
-        A display or a group; the folder of a group has those of its displays inside.
+        A display or a group; the folder of a group contains those of its displays.
 
     Attributes
     ----------
@@ -48,14 +48,14 @@ class EntryFolder:
             self._add()
 
     def update(self) -> None:
-        """Show what is new."""
+        """Update the widgets."""
         for editor in self._editors:
             editor.update()
         for below in self._below.values():
             below.update()
 
     def say(self) -> None:
-        """Show what the display has to say now."""
+        """Update the status that is shown."""
         label, text = self._wanted_label(), status_text(self._entry.status)
         if label != self._label:
             self._label = self.folder.label = label
@@ -68,7 +68,7 @@ class EntryFolder:
             below.say()
 
     def follow(self) -> None:
-        """Add folders of new displays of a group, and remove those of displays that are gone."""
+        """Add folders for new displays of a group, and remove those of deleted displays."""
         children = self._entry.children if isinstance(self._entry, Group) else []
         for entry in [each for each in self._below if each not in children]:
             self._below.pop(entry).folder.remove()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Widgets to save and to load files."""
+"""Widgets to save and load configuration files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LONGEST_NAME = 100
 
 class FileFolder:
     """
-    Widgets to save what is shown to a file, to download it, and to load another one.
+    Widgets to save the configuration to a file, to download it, and to load another one.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class FileFolder:
         self._visualizer = context.visualizer
         path = self._visualizer.path or os.path.join(os.getcwd(), 'saved.rviz')
         gui = context.gui
-        # It remains when a file is loaded: viser does not forgive the loss of the button.
+        # It is kept when a file is loaded: viser fails if the button is removed meanwhile.
         self._folder = gui.add_folder('File', order=FILE_ORDER, expand_by_default=False)
         with self._folder:
             self._path: Any = gui.add_text(
@@ -75,7 +75,7 @@ class FileFolder:
         self._context.queue.post(lambda: self._load(file.name, file.content))
 
     def _on_refusal(self, start: FileTransferStartUpload, sentence: str) -> None:
-        """Tell that a file is not taken; not often, as who floods the page with files is deaf."""
+        """Report a rejected file, at a limited rate, as a client may flood the page with files."""
         if self._pace.is_due():
             self._context.queue.post(lambda: self._refuse(start, sentence))
 

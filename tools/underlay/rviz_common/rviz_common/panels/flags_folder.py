@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Boxes for names that only turn up later."""
+"""Checkboxes for names that are only discovered at run time."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from rviz_common.properties import Flags, Values
 __all__ = ['FlagsFolder']
 
 MOST = 200
-"""How many names have a box."""
+"""The maximum number of names with a checkbox."""
 
 
 class FlagsFolder:
     """
-    A folder with a box for each name of a property.
+    A folder with a checkbox for each name of a property.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class FlagsFolder:
     values
         Holds its value.
     change
-        Called with the path of the property and the new flags by name, when a user clicks a box.
+        Called with the path of the property and the new flags by name when a user clicks one.
 
     """
 
@@ -46,7 +46,7 @@ class FlagsFolder:
         self.update()
 
     def update(self) -> None:
-        """Add boxes for new names, and show what a program has changed."""
+        """Add checkboxes for new names, and show values changed by a program."""
         for name, is_on in islice(self._values[self._path].items(), MOST):
             box = self._boxes.get(name)
             if box is None:

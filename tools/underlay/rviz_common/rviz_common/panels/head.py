@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is on top of the page: how things are, and the tools."""
+"""The head of the page: a status summary, and the tools."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Head:
     context
         The page.
     visualizer
-        Has the status, the displays and the tools.
+        Provides the status, the displays and the tools.
 
     """
 
@@ -52,7 +52,7 @@ class Head:
         self._shown: Any = _MISSING
 
     def update(self) -> None:
-        """Show what is new."""
+        """Update the widgets."""
         in_use = self._visualizer.tools.in_use
         if in_use is not self._shown:
             self._shown = in_use
@@ -82,7 +82,7 @@ class Head:
             self._hint.content = in_use.HINT
 
     def _summary(self) -> str:
-        """Say how things are: the worst first."""
+        """Summarise the status, the worst first."""
         visualizer = self._visualizer
         lines = [
             f'{MARKS[level]} **{subject}**: {escaped(sentence)}'

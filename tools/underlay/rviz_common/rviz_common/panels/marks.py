@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How levels and texts look in the page."""
+"""Formatting of status levels and texts for the page."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LONGEST = 500
 
 def printable(text: str) -> str:
     """
-    Replace what cannot be encoded as UTF-8: names of files may have bytes that are no letters.
+    Replace characters that cannot be encoded as UTF-8: file names may have undecodable bytes.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def escaped(text: str) -> str:
 
 def status_text(status: Statuses) -> str:
     """
-    Format the messages of a display as Markdown, a paragraph for each subject.
+    Format the status messages of a display as Markdown, with a paragraph for each subject.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is above what in the page; what is not listed has a number of its own from 0 on."""
+"""The vertical order of the widgets in the page; those not listed are numbered from 0."""
 
 __all__ = ['ALWAYS_ORDER', 'FILE_ORDER', 'STATUS_ORDER', 'TABS_ORDER', 'TOOLS_ORDER']
 

@@ -19,21 +19,21 @@ from rviz_common.plugins import load_plugin, PANELS, PANELS_ON_DEMAND, plugin_na
 __all__ = ['BUILT_IN', 'PanelTabs']
 
 BUILT_IN = ('rviz_common/Help', 'rviz_common/Selection', 'rviz_common/Transformation')
-"""Panels of RViz that mean nothing in a browser."""
+"""Panels of RViz that do not apply in a browser."""
 LOOK_S = 2.0
 
 
 class PanelTabs:
     """
-    The panels of a file, most in a tab each; other entries are kept for the file.
+    The panels of a file, most in a tab each; other entries are preserved for the file.
 
-    Panels on demand that the file does not list appear when there is something that they are
-    for, and stay; they are not written to the file.
+    Panels on demand that the file does not list appear once their subject is available, and
+    stay; they are not written to the file.
 
     Parameters
     ----------
     context
-        What the panels work with.
+        The context of the panels.
     entries
         The entries of the section `Panels` of the file.
 
@@ -53,17 +53,17 @@ class PanelTabs:
 
     @property
     def panels(self) -> list[Panel]:
-        """Return the panels that are known."""
+        """The panels of known classes."""
         return [each for each in self._entries if isinstance(each, Panel)]
 
     @property
     def unknown(self) -> list[str]:
-        """Return the classes of the entries that nobody knows."""
+        """The classes of the entries that are unknown."""
         classes = [entry['Class'] for entry in self._entries if not isinstance(entry, Panel)]
         return [each for each in classes if each not in BUILT_IN]
 
     def update(self) -> None:
-        """Show what is new."""
+        """Update the widgets."""
         if self._awaited and self._look.is_due():
             self._look_for_awaited()
         for panel in list(self._running):
@@ -71,26 +71,26 @@ class PanelTabs:
                 self._running.remove(panel)
 
     def to_file(self) -> list[dict[str, Any]]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         return [
             each.to_file() if isinstance(each, Panel) else copy.deepcopy(dict(each))
             for each in self._entries
         ]
 
     def close(self) -> None:
-        """End the panels, and remove them from the page."""
+        """Close the panels, and remove them from the page."""
         for panel in self._running:
             self._guarded(panel, panel.close)
         if self._tabs is not None:
             self._tabs.remove()
 
     def _look_for_awaited(self) -> None:
-        """Add the panels on demand that are wanted by now."""
+        """Add the panels on demand that have become wanted."""
         for name in list(self._awaited):
             try:
                 kind = load_plugin(PANELS_ON_DEMAND, name)
                 is_wanted = kind.is_wanted(self._context.node)
-            except Exception as error:  # whatever a panel does, the others go on
+            except Exception as error:  # a failing panel must not stop the others
                 self._awaited.remove(name)
                 self._logger.error(f"Panel '{name}' cannot be used: {described_error(error)}")
                 continue
@@ -117,20 +117,20 @@ class PanelTabs:
         try:
             with tab:
                 panel.start()
-        except ValueError as error:  # a sentence about what the file gives
+        except ValueError as error:  # a message about the contents of the file
             self._logger.error(f'{_named(panel)} is not shown: {error}')
             self._say(panel, str(error))
-        except Exception as error:  # whatever a panel does, the others go on
+        except Exception as error:  # a failing panel must not stop the others
             self._report(panel, error)
         else:
             return True
         return False
 
     def _guarded(self, panel: Panel, work: Callable[[], None]) -> bool:
-        """Have a panel do something; return whether it succeeded."""
+        """Run a callable of a panel and log a failure; return whether it succeeded."""
         try:
             work()
-        except Exception as error:  # whatever a panel does, the others go on
+        except Exception as error:  # a failing panel must not stop the others
             self._report(panel, error)
             return False
         return True
@@ -140,7 +140,7 @@ class PanelTabs:
         self._say(panel, 'It has been stopped by an error: see the log.')
 
     def _say(self, panel: Panel, sentence: str) -> None:
-        """Say in the tab of a panel why it is not there."""
+        """Show in the tab of a panel why it is missing."""
         if not panel.IS_ALWAYS_VISIBLE:
             with self._places[panel]:
                 self._context.gui.add_markdown(f'✖ {escaped(sentence)}')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Widgets for the properties of something."""
+"""Widgets to edit properties."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rviz_common.properties import Choice, Flag, Flags, Property, Values
 __all__ = ['PropertyEditor']
 
 QUIET_S = 0.6
-"""Who types is not interrupted: a value takes effect when it has rested so long."""
+"""Debounce time in s: a typed value takes effect once it has been stable for this long."""
 
 
 class PropertyEditor:
@@ -30,7 +30,7 @@ class PropertyEditor:
     values
         The properties and their values.
     change
-        Sets a property: called with its path and the value of a user; may raise ValueError.
+        Sets a property: called with its path and the user's value; may raise ValueError.
     without
         Paths of properties that get no widget.
 
@@ -56,7 +56,7 @@ class PropertyEditor:
         self._flags = [FlagsFolder(context, each, values, change) for each in flags]
 
     def update(self) -> None:
-        """Have what has been typed take effect, and show what a program has changed."""
+        """Apply typed values, and show values changed by a program."""
         now_s = time.monotonic()
         for path, (due_s, value) in list(self._waiting.items()):
             if now_s >= due_s:
@@ -90,7 +90,7 @@ class PropertyEditor:
         self._waiting[path] = time.monotonic() + delay_s, value
 
     def _set(self, path: str, value: Any) -> None:
-        """Set a property; what cannot be used is replaced by what is."""
+        """Set a property; an invalid value is replaced by the current one."""
         try:
             self._change(path, value)
         except ValueError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What time it is."""
+"""The ROS time and the wall time."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['TimePanel']
 
 
 class TimePanel(Panel):
-    """The time of ROS, that of the wall, and how long both have gone on."""
+    """The ROS time, the wall time, and the elapsed time of both."""
 
     CLASS = 'rviz_common/Time'
     UNUSED = ('Experimental', 'SyncMode', 'SyncSource')
@@ -28,7 +28,7 @@ class TimePanel(Panel):
         if not self._pace.is_due():
             return
         ros_s, wall_s = self._ros_s(), time.time()
-        if ros_s < self._first_ros_s:  # a simulator has begun anew
+        if ros_s < self._first_ros_s:  # a simulator has restarted
             self._first_ros_s = ros_s
         self._text.content = (
             '| | Time | Elapsed |\n|---|---|---|\n'

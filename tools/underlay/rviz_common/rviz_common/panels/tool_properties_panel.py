@@ -26,7 +26,7 @@ class ToolPropertiesPanel(Panel):
         ]
 
     def update(self) -> None:
-        """Take what has been entered."""
+        """Apply the values that were entered."""
         for editor in self._editors:
             editor.update()
 
@@ -36,7 +36,7 @@ class ToolPropertiesPanel(Panel):
 
 
 def _change(tool: Tool) -> Callable[[str, Any], None]:
-    """Return what sets a property of a tool."""
+    """Return a function that sets a property of a tool."""
 
     def change(path: str, value: Any) -> None:
         before = tool.values[path]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the page looks at the scene."""
+"""The panel of views."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TYPES = {kind.NAME: kind for kind in KINDS.values()}
 
 
 class ViewsPanel(Panel):
-    """The kind of the view, its properties, and views that have been saved."""
+    """The kind of the view, its properties, and the saved views."""
 
     CLASS = 'rviz_common/Views'
     UNUSED = ('Expanded', 'Splitter Ratio')
@@ -46,7 +46,7 @@ class ViewsPanel(Panel):
         self._list()
 
     def update(self) -> None:
-        """Show what is new."""
+        """Update the widgets."""
         view = self._cameras.view
         if view is not self._shown:
             self._shown = view
@@ -96,7 +96,7 @@ class ViewsPanel(Panel):
         self._list()
 
     def _list(self) -> None:
-        """Show a button for each view that has been saved."""
+        """Show a button for each saved view."""
         for button in self._listed:
             button.remove()
         with self._saved:

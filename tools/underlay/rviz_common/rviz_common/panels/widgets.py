@@ -21,7 +21,7 @@ def add_widget(gui: GuiApi, of: Property, value: Any) -> Any:
     gui
         Where to add it.
     of
-        The property, whose type decides on the kind of widget.
+        The property, whose type determines the kind of widget.
     value
         Its value.
 

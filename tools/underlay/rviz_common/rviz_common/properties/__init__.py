@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What can be set of a display, a tool or a view, and what it is set to."""
+"""The properties of displays, tools and views, and their values."""
 
 from rviz_common.properties.property import (
     Choice,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What can be set of a display, a tool or a view, as data."""
+"""The properties of displays, tools and views, as data."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Property:
-    """Something that can be set; a `/` in its path leads below another one, as in the file."""
+    """A property; a `/` in its path nests it below another one, as in the file."""
 
     path: str
     default: Any
@@ -37,12 +37,12 @@ class Property:
         Parameters
         ----------
         value
-            The value: as YAML has it, or as a widget of the page does.
+            The value, as read from YAML or from a widget of the page.
 
         Raises
         ------
         ValueError
-            The value cannot be used. The message goes on after the name of the property, such as
+            The value is invalid. The message continues after the name of the property, such as
             "must be a number, and not 'x'".
 
         """
@@ -63,16 +63,16 @@ class Property:
 
 @dataclass(frozen=True)
 class Flag(Property):
-    """Yes or no."""
+    """A boolean property."""
 
     def read(self, value: Any) -> bool:
         """
-        Validate a truth value.
+        Validate a boolean.
 
         Parameters
         ----------
         value
-            True or False; no other value stands for them.
+            True or False; no other value is accepted.
 
         Raises
         ------
@@ -87,11 +87,11 @@ class Flag(Property):
 
 @dataclass(frozen=True)
 class Flags(Property):
-    """Yes or no for each of some names that only turn up later, such as those of namespaces."""
+    """A boolean for each of some names discovered at run time, such as namespaces."""
 
     def read(self, value: Any) -> dict[str, bool]:
         """
-        Validate truth values by name.
+        Validate booleans by name.
 
         Parameters
         ----------
@@ -182,7 +182,7 @@ class Text(Property):
 
     def read(self, value: Any) -> str:
         """
-        Convert a value to text, as YAML may have taken it for a number, a truth value or null.
+        Convert a value to text, as YAML may have parsed it as a number, a boolean or null.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The properties of a topic that is shown: its name, and the quality of service."""
+"""The properties of a topic that is shown: its name and QoS profile."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def topic_properties(
     durability: str = VOLATILE,
 ) -> tuple[Property, ...]:
     """
-    Define the properties of a topic: its name, and the quality of service.
+    Define the properties of a topic: its name and QoS profile.
 
     Parameters
     ----------
@@ -39,9 +39,9 @@ def topic_properties(
     path
         The path in the file below which the properties are.
     depth
-        The default depth of the queue, in messages.
+        The default queue depth, in messages.
     durability
-        The default durability, as files name it: `Volatile` or `Transient Local`.
+        The default durability, as named in files: `Volatile` or `Transient Local`.
 
     """
     return (
@@ -88,14 +88,14 @@ def topic_path(properties: Iterable[Property]) -> str:
 
 def qos_of(values: Values, path: str = 'Topic') -> QoSProfile:
     """
-    Make the QoS profile that the properties of a topic ask for.
+    Make the QoS profile from the properties of a topic.
 
     Parameters
     ----------
     values
         The values of the properties.
     path
-        Where those of the topic are, as for `topic_properties`.
+        The path of those of the topic, as for `topic_properties`.
 
     """
     from rclpy import qos

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the properties of a display, a tool or a view are set to."""
+"""The values of the properties of a display, a tool or a view."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ __all__ = ['Values']
 
 class Values:
     """
-    Values of properties, by path; those that a file does not give have their defaults.
+    Values of properties, by path; those missing in the file have their defaults.
 
-    What a file has besides is kept, so that a file is written back without losses: of what a file
-    gives, only what has been changed since is written anew.
+    Other content of the file is preserved, so that it is written back without losses: only
+    values that have been changed since are overwritten.
 
     Parameters
     ----------
     properties
-        The properties that there are.
+        The supported properties.
     given
         The section of the file. With None, all properties are written to the file; otherwise
-        what it had, with those that have been changed.
+        its content, with the changed values.
 
     Attributes
     ----------
     properties
         The properties by path.
     refusals
-        A message for each value of the file that cannot be used.
+        A message for each invalid value in the file.
 
     """
 
@@ -59,7 +59,7 @@ class Values:
             self._changed.add(path)
 
     def to_file(self) -> dict[str, Any]:
-        """Return what a file is to have: what it had, with the values that have been changed."""
+        """Return the section for the file: its original content, with the changed values."""
         written = copy.deepcopy(self._given)
         for path in self._values:
             if path in self._changed:
@@ -93,7 +93,7 @@ _MISSING = object()
 
 
 def _get(tree: Any, path: str) -> Any:
-    """Return what is at a path of nested mappings."""
+    """Return the value at a path of nested mappings."""
     for name in path.split('/'):
         if not isinstance(tree, Mapping) or name not in tree:
             return _MISSING
@@ -102,7 +102,7 @@ def _get(tree: Any, path: str) -> Any:
 
 
 def _put(tree: dict[str, Any], path: str, value: Any) -> None:
-    """Set what is at a path of nested mappings."""
+    """Set the value at a path of nested mappings."""
     *above, last = path.split('/')
     for name in above:
         below = tree.get(name)

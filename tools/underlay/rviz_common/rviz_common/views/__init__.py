@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the page looks at the scene, and how files say it."""
+"""Views of the scene, and their form in files."""
 
 from rviz_common.views.camera_pose import CameraPose
 from rviz_common.views.view import KINDS, View

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From where the page looks at what."""
+"""The pose of the camera."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Point = tuple[float, float, float]
 
 
 class CameraPose(NamedTuple):
-    """From where the page looks at what, in metres; the field of view is an angle in radians."""
+    """The position of the camera and its target in metres, and its field of view in radians."""
 
     position: Point
     look_at: Point

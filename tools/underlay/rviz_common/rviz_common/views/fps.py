@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look around from a point."""
+"""The first-person view."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STEEPEST = math.pi / 2 - 0.001
 
 
 class Fps(ViewKind):
-    """Look around from a point, as a person does; a positive pitch looks down."""
+    """First-person view, which looks around from a point; a positive pitch looks down."""
 
     CLASS = 'rviz_default_plugins/FPS'
     NAME = 'FPS'
@@ -47,7 +47,7 @@ class Fps(ViewKind):
 
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
         """
-        Find position, yaw and pitch for a camera.
+        Compute position, yaw and pitch for a camera.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look at a point from around it."""
+"""The orbit views."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from rviz_common.views.view_kind import COMMON, ViewKind
 __all__ = ['Orbit', 'ThirdPersonFollower', 'XYOrbit']
 
 STEEPEST = math.pi / 2 - 0.001
-"""Straight from above, the direction up would not be known."""
+"""The pitch limit in rad: straight from above, the up direction would be undefined."""
 
 
 class Orbit(ViewKind):
-    """Look at a point from around it."""
+    """Orbit view, which looks at a focal point from any direction."""
 
     CLASS = 'rviz_default_plugins/Orbit'
     NAME = 'Orbit'
@@ -53,7 +53,7 @@ class Orbit(ViewKind):
 
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
         """
-        Find the focal point, distance, yaw and pitch for a camera.
+        Compute the focal point, distance, yaw and pitch for a camera.
 
         Parameters
         ----------
@@ -83,7 +83,7 @@ class Orbit(ViewKind):
         Parameters
         ----------
         point
-            The focal point as it has been set, in m from the origin of the target frame.
+            The focal point as set, in m from the origin of the target frame.
 
         Returns
         -------
@@ -95,7 +95,7 @@ class Orbit(ViewKind):
 
     def seen(self, camera: CameraPose) -> Point:
         """
-        Find the focal point of a camera.
+        Compute the focal point of a camera.
 
         Parameters
         ----------
@@ -112,7 +112,7 @@ class Orbit(ViewKind):
 
 
 class XYOrbit(Orbit):
-    """Look at a point of the ground from around it."""
+    """Orbit view around a point on the ground."""
 
     CLASS = 'rviz_default_plugins/XYOrbit'
     NAME = 'XYOrbit'
@@ -153,7 +153,7 @@ class XYOrbit(Orbit):
 
 
 class ThirdPersonFollower(XYOrbit):
-    """Look at a point of the ground, from behind what moves."""
+    """Orbit view around a point on the ground, which follows the target frame from behind."""
 
     CLASS = 'rviz_default_plugins/ThirdPersonFollower'
     NAME = 'ThirdPersonFollower'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Look down at the ground, as on a map."""
+"""The top-down view."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from rviz_common.views.view_kind import COMMON, ViewKind
 __all__ = ['TopDown']
 
 PIXELS = 800.0
-"""The height of the scene that the scale is for; that of a browser's window differs."""
+"""The assumed height of the scene for the scale; that of a browser's window differs."""
 NARROW = math.radians(10.0)
-"""A camera far away with a narrow view comes close to one without perspective."""
+"""A narrow field of view in rad: from far away it approximates an orthographic camera."""
 
 
 class TopDown(ViewKind):
-    """Look down at the ground, as on a map; the scale is in pixels a metre."""
+    """Top-down view of the ground, as on a map; the scale is in pixels per metre."""
 
     CLASS = 'rviz_default_plugins/TopDownOrtho'
     NAME = 'TopDownOrtho'
@@ -51,7 +51,7 @@ class TopDown(ViewKind):
 
     def properties(self, camera: CameraPose) -> Mapping[str, Any]:
         """
-        Find scale, angle and centre of the map for a camera.
+        Compute scale, angle and centre of the map for a camera.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the page looks at the scene."""
+"""The current view of the scene."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ KINDS: dict[str, ViewKind] = {
 
 class View:
     """
-    How the page looks at the scene: a kind of view, such as an orbit, and its properties.
+    A view of the scene: its kind, such as an orbit, and its properties.
 
     Parameters
     ----------
     given
-        Its entry of the .rviz file, None or empty for the default. A class that is not known
-        is taken for an orbit.
+        Its entry in the .rviz file, None or empty for the default. An unknown class is replaced
+        by an orbit.
 
     Attributes
     ----------
     kind, is_known
-        The kind of view, and whether it is that of the file.
+        The kind of view, and whether it is the one in the file.
     name
-        What it is called in the file.
+        Its name in the file.
     values
         The properties.
 
@@ -52,7 +52,7 @@ class View:
 
     @property
     def target(self) -> str:
-        """Return the frame that the camera follows."""
+        """The frame that the camera follows."""
         return str(self.values['Target Frame'])
 
     def camera(self) -> CameraPose:
@@ -61,15 +61,15 @@ class View:
 
     def like(self, kind: ViewKind, camera: CameraPose | None = None) -> View:
         """
-        Make a view of another kind that shows about the same.
+        Make a view of another kind that shows approximately the same.
 
         Parameters
         ----------
         kind
             The kind of the new view.
         camera
-            What it is to show, relative to the origin of the target frame; by default what this
-            view shows.
+            The camera to match, relative to the origin of the target frame; by default that of
+            this view.
 
         """
         given = {
@@ -84,7 +84,7 @@ class View:
 
     def take(self, camera: CameraPose) -> None:
         """
-        Set the properties so that the view shows what a camera does.
+        Set the properties so that the view matches a camera.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class View:
         Raises
         ------
         ValueError
-            The value cannot be used; the message is that of `Property.read`.
+            The value is invalid; the message is that of `Property.read`.
 
         """
         self.values[path] = value
@@ -127,7 +127,7 @@ class View:
         return View({**self.to_file(), 'Name': name})
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have: nothing if it had nothing."""
+        """Return the entry for the .rviz file: empty if it had none."""
         if self._is_default:
             return {}
         written = self.values.to_file()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A way to look at things, such as from around a point."""
+"""The kinds of view, such as an orbit around a point."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COMMON: tuple[Property, ...] = (
 
 
 class ViewKind(ABC):
-    """A way to look at things: from properties to a camera, and back."""
+    """A kind of view: converts its properties to a camera, and back."""
 
     CLASS: ClassVar[str]
     NAME: ClassVar[str]
@@ -58,6 +58,6 @@ class ViewKind(ABC):
         Returns
         -------
         Mapping[str, Any]
-            Values by path, for those of `PROPERTIES` that the camera decides.
+            Values by path, for those of `PROPERTIES` that the camera determines.
 
         """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is shown: displays, tools, views and panels, as a file says."""
+"""The visualizer: the displays, tools, views and panels of a file."""
 
 from rviz_common.visualizer.entry import Entry
 from rviz_common.visualizer.group import Group

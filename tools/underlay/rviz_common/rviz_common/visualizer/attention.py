@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether anybody looks at the page, and what is left undone while nobody does."""
+"""Saving CPU time while no page is open."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from rviz_common.polled_topic import rest_all, resume_all
 __all__ = ['REST_HZ', 'Attention']
 
 REST_HZ = 4.0
-"""How often panels look around while the page is closed: a page beside it may be open."""
+"""The update rate of panels while the page is closed: one of their own pages may be open."""
 PATIENCE_S = 5.0
-"""A page that is loaded again, or was interrupted, is back sooner."""
+"""The delay in s before resting; a page that is reloaded or interrupted is back sooner."""
 
 
 class Attention:
     """
-    Hears what moves, such as `/tf`, only while somebody looks.
+    Subscribes to streams of data, such as `/tf`, only while a page is open.
 
-    What is heard all the time is what a page that is opened later must show at once: latched
+    Topics that a page must show immediately when it is opened later stay subscribed: latched
     topics, the log, diagnostics, and whether the robot holds still.
 
     Parameters
     ----------
     node, listener
-        The node whose polled topics rest, and the listener to transforms.
+        The node whose polled topics rest, and the transform listener.
     is_watched
-        Whether somebody looks now.
+        Returns whether a page is open now.
     may_rest
         False for a page that is to work all the time.
     clock
-        Tells the time in seconds.
+        Returns the time in seconds.
 
     """
 
@@ -52,7 +52,7 @@ class Attention:
         self.rests = False
 
     def look(self) -> bool:
-        """Begin or end to rest; return whether that has changed."""
+        """Start or stop resting; return whether that has changed."""
         now_s = self._clock()
         if self._is_watched():
             self._watched_s = now_s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is behind all."""
+"""The background of the scene."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Background:
     """
     A background of one color.
 
-    It is a picture, for which viser loads a library of 15 MB: that waits until somebody looks.
+    It is an image, for which viser loads a library of 15 MB: that waits until a page is open.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class Background:
         self._color = color
 
     def update(self) -> None:
-        """Paint what was chosen, if it is not there yet."""
+        """Paint the chosen colour, unless it is already painted."""
         if self._color is None or self._color == self._painted:
             return
         import numpy as np

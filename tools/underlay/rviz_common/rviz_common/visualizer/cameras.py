@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Have browsers look at the scene as a view says."""
+"""The cameras of the browsers."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from rviz_common.views.camera_pose import Point
 __all__ = ['WORLD', 'Cameras']
 
 WORLD = '/world'
-"""The path of the scene below which all is drawn that is in the fixed frame."""
+"""The path of the scene below which everything in the fixed frame is drawn."""
 
 
 class Cameras:
     """
-    Set the cameras of all browsers as a view says.
+    Set the cameras of all browsers to a view.
 
-    A camera that follows a frame rests, and the world moves the other way: so whoever turns the
-    scene meanwhile is not disturbed.
+    To follow a frame, the world is moved instead of the camera, so that users can turn the scene
+    meanwhile without interference.
 
     Parameters
     ----------
     context
         The page, and the transforms.
     view
-        The first view; browsers that come later begin with the latest one.
+        The first view; browsers that connect later start with the latest one.
 
     Attributes
     ----------
@@ -48,12 +48,12 @@ class Cameras:
 
     @property
     def origin(self) -> Point:
-        """Return the place, in the fixed frame, of what the camera follows."""
+        """Return the position of the target frame in the fixed frame."""
         return self._at
 
     def show(self, view: View) -> None:
         """
-        Set the cameras of all browsers, and of those that come later, as a view says.
+        Set the cameras of all browsers, and of those that connect later, to a view.
 
         Parameters
         ----------
@@ -105,14 +105,14 @@ class Cameras:
 
 
 def _apply(camera: Any, pose: CameraPose) -> None:
-    """Set the camera of a browser, or the one that browsers begin with."""
+    """Set the camera of a browser, or the initial camera of new browsers."""
     camera.position = pose.position
     camera.look_at = pose.look_at
     camera.fov, camera.near, camera.far = pose.fov, pose.near, pose.far
 
 
 def _pose(camera: Any) -> CameraPose:
-    """Return how a browser looks at the scene."""
+    """Return the camera pose of a browser."""
     return CameraPose(
         _point(camera.position),
         _point(camera.look_at),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A display that can be shown, and whose failures harm nothing else."""
+"""A display in the tree, with its failures isolated."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ['DisplayEntry']
 
 class DisplayEntry(Entry):
     """
-    A display, which is started and stopped as it is enabled; one that fails is stopped.
+    A display that is started and stopped as it is enabled; one that fails is stopped.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class DisplayEntry(Entry):
 
     @property
     def name(self) -> str:
-        """Return the name that a person has given."""
+        """The name given by the user."""
         return self.display.name
 
     @name.setter
@@ -52,17 +52,17 @@ class DisplayEntry(Entry):
 
     @property
     def is_enabled(self) -> bool:
-        """Tell if it is to be shown."""
+        """Whether it is enabled."""
         return bool(self.display.values['Enabled'])
 
     @property
     def is_running(self) -> bool:
-        """Tell if it is shown."""
+        """Whether the display is running."""
         return self._is_running
 
     @property
     def status(self) -> Statuses:
-        """Return what the display has to say."""
+        """The status of the display."""
         return self.display.status
 
     def enable(self, is_enabled: bool) -> None:
@@ -110,7 +110,7 @@ class DisplayEntry(Entry):
         Raises
         ------
         ValueError
-            The value cannot be used; the message is that of `Property.read`.
+            The value is invalid; the message is that of `Property.read`.
 
         """
         before = self.display.values[path]
@@ -124,19 +124,19 @@ class DisplayEntry(Entry):
             self._guarded(self.display.update)
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         return self.display.to_file()
 
     def _guarded(self, work: Callable[[], None]) -> None:
-        """Have the display do something; stop it if it fails."""
+        """Run a callable of the display; stop the display if it fails."""
         try:
             work()
-        except Exception as error:  # whatever a display does, the others go on
+        except Exception as error:  # a failing display must not stop the others
             self._fail(error)
 
     def _fail(self, error: Exception) -> None:
         self._is_running = False
-        with suppress(Exception):  # what has failed may not be able to stop either
+        with suppress(Exception):  # a failed display may fail to stop, too
             self.display.stop()
         self.display.context.scene.remove_by_name(self.display.root)
         reason = f'{type(error).__name__}: {error}'

@@ -12,7 +12,7 @@ __all__ = ['Entry']
 
 
 class Entry(ABC):
-    """An entry of the tree of displays: a display, a group, or what nobody knows."""
+    """An entry of the tree of displays: a display, a group, or an unknown entry."""
 
     name: str
     class_name: str
@@ -20,16 +20,16 @@ class Entry(ABC):
     @property
     @abstractmethod
     def is_enabled(self) -> bool:
-        """Tell if it is to be shown."""
+        """Whether it is enabled."""
 
     @property
     @abstractmethod
     def status(self) -> Statuses:
-        """Return what it has to say."""
+        """The status of the entry."""
 
     @property
     def level(self) -> Level:
-        """Return how bad it is, with all that is below it."""
+        """The worst level of the entry and all entries below it."""
         return self.status.level
 
     @abstractmethod
@@ -62,4 +62,4 @@ class Entry(ABC):
 
     @abstractmethod
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Do something for each frame, in the thread of a node."""
+"""The frame timer, in the thread of a node."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ FASTEST_HZ = 60.0
 
 class FrameLoop:
     """
-    Timer that calls a function for each frame, in the thread in which the node works.
+    Timer that calls a function for each frame, in the node's thread.
 
-    The clock is a steady one, so that frames go on while a simulator rests.
+    The clock is steady, so that frames continue while a simulator is paused.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class FrameLoop:
             self._timer.reset()
 
     def close(self) -> None:
-        """Draw no more frames."""
+        """Stop drawing frames."""
         self._node.destroy_timer(self._timer)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether frames are known, and what is missing if they are not."""
+"""The global status: availability of the fixed frame and its transforms."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ class FrameWatch:
         self._status = status
 
     def update(self) -> None:
-        """Look at the frames again."""
+        """Update the status from the current transforms."""
         level, sentence = self._judge()
         self._status.say(SUBJECT, level, sentence)
 
     def names(self) -> list[str]:
-        """Return the names of all frames that are known."""
+        """Return the names of all known frames."""
         return sorted(self._frames.buffer._getFrameStrings())
 
     def _judge(self) -> tuple[Level, str]:
@@ -63,7 +63,7 @@ class FrameWatch:
         return self._of_trees(fixed, names)
 
     def _of_silence(self) -> tuple[Level, str]:
-        """Say why there are no frames at all."""
+        """Explain why there are no frames at all."""
         talking = [topic for topic in TOPICS if self._node.count_publishers(topic)]
         fixed = self._frames.fixed_frame
         if not talking:
@@ -76,7 +76,7 @@ class FrameWatch:
         )
 
     def _of_trees(self, fixed: str, names: list[str]) -> tuple[Level, str]:
-        """Say which frames no transform connects with the fixed one."""
+        """Report the frames that no transform connects to the fixed frame."""
         parents = dict(PARENT.findall(self._frames.buffer.all_frames_as_string()))
         tops = _tops(names, parents)
         roots = Counter(tops[name] for name in names)
@@ -96,13 +96,13 @@ class FrameWatch:
 
 def _tops(names: Iterable[str], parents: Mapping[str, str]) -> dict[str, str]:
     """
-    Return the topmost frame above each one, in a time that is linear in the number of frames.
+    Return the root of each frame, in time linear in the number of frames.
 
-    Of frames that go round in a circle it is the one at which the way up comes to its beginning.
+    For frames in a loop it is the frame at which the way up would close the loop.
     """
     tops: dict[str, str] = {}
     for name in names:
-        way = {name: None}  # in the order in which they are met
+        way = {name: None}  # in the order of traversal
         while name not in tops:
             above = parents.get(name, NO_PARENT)
             if above == NO_PARENT or above in way:
@@ -115,7 +115,7 @@ def _tops(names: Iterable[str], parents: Mapping[str, str]) -> dict[str, str]:
 
 
 def _unknown(fixed: str, names: list[str]) -> str:
-    """Say that there is no such frame, and which there are."""
+    """Report an unknown fixed frame, and list the known frames."""
     from launch._did_you_mean import did_you_mean
 
     meant = did_you_mean(fixed, names)

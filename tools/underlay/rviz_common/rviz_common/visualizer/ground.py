@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the pointer is on the ground."""
+"""Picking points on the ground with the pointer."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ FARTHEST_M = 1e5
 
 class Ground:
     """
-    An invisible plane below the scene, which says where it is clicked and dragged.
+    An invisible plane below the scene, which reports clicks and drags.
 
-    It is there only while somebody wants to know; else a drag turns the scene.
+    It is only present while a tool is active; otherwise a drag turns the scene.
 
     Parameters
     ----------
     context
-        The page, and the queue by which calls get into the thread of the node.
+        The page, and the queue that transfers calls to the node's thread.
     origin
-        Returns where the target frame of the camera is, in m in the fixed frame.
+        Returns the position of the camera's target frame, in m in the fixed frame.
     click
         Called with the point of a click, in m in the fixed frame.
     drag
-        Called for each movement of a drag with its start, where it is now, and whether it is over.
+        Called for each movement of a drag with its start, current point, and whether it is over.
 
     """
 
@@ -52,7 +52,7 @@ class Ground:
 
     def watch(self, is_wanted: bool) -> None:
         """
-        Add or remove the plane, and with it the reports of clicks and drags.
+        Add or remove the plane, which enables or disables reports of clicks and drags.
 
         Parameters
         ----------
@@ -62,7 +62,7 @@ class Ground:
         """
         if is_wanted and self._plane is None:
             self._plane = self._add()
-            # Not of the plane: what can be clicked is painted over where the pointer is.
+            # Not of the plane: viser highlights clickable nodes under the pointer.
             self._scene.on_click()(self._on_click)
         elif not is_wanted and self._plane is not None:
             self._scene.remove_click_callback(self._on_click)
@@ -98,7 +98,7 @@ class Ground:
             self._context.queue.post(lambda: self._drag(start, end or start, is_over))
 
     def _point(self, origin: Sequence[float], direction: Sequence[float]) -> Point | None:
-        """Return where a ray of the scene meets the ground, in the fixed frame."""
+        """Return the intersection of a ray of the scene with the ground, in the fixed frame."""
         moved = [part + offset for part, offset in zip(origin, self._origin())]
         return ground_point(moved, direction)
 
@@ -110,14 +110,14 @@ def ground_point(origin: Sequence[float], direction: Sequence[float]) -> Point |
     Parameters
     ----------
     origin
-        Where the ray starts, in m.
+        The start of the ray, in m.
     direction
         Its direction, of any length.
 
     Returns
     -------
     Point | None
-        None if the ray does not meet the plane, or only beyond 100 km in x or y.
+        None if the ray does not intersect the plane, or only beyond 100 km in x or y.
 
     """
     if abs(direction[2]) < 1e-9:

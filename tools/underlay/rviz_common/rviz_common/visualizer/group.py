@@ -20,7 +20,7 @@ class Group(Entry):
     Parameters
     ----------
     given
-        Its entry of the .rviz file, empty for the group at the top.
+        Its entry in the .rviz file, empty for the root group.
     children
         The displays and groups in it.
 
@@ -41,22 +41,22 @@ class Group(Entry):
 
     @property
     def is_enabled(self) -> bool:
-        """Tell if it is to be shown."""
+        """Whether it is enabled."""
         return self._is_enabled
 
     @property
     def status(self) -> Statuses:
-        """Return what the group itself has to say: nothing."""
+        """The status of the group itself, which is always empty."""
         return self._status
 
     @property
     def level(self) -> Level:
-        """Return the worst level of what is shown below."""
+        """The worst level of the enabled children."""
         return max((each.level for each in self.children if each.is_enabled), default=Level.OK)
 
     def enable(self, is_enabled: bool) -> None:
         """
-        Enable or disable the group, and so show or hide the displays in it.
+        Enable or disable the group, and show or hide its displays accordingly.
 
         Parameters
         ----------
@@ -69,7 +69,7 @@ class Group(Entry):
 
     def appear(self, is_shown_above: bool) -> None:
         """
-        Show the displays if the group is enabled and so is all above it.
+        Show the displays if the group and all groups above it are enabled.
 
         Parameters
         ----------
@@ -101,7 +101,7 @@ class Group(Entry):
 
     def remove(self, entry: Entry) -> bool:
         """
-        Remove an entry that is anywhere below the group, and hide it.
+        Remove an entry anywhere below the group, and hide it.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class Group(Entry):
         Returns
         -------
         bool
-            Whether it was there.
+            Whether it was found.
 
         """
         if entry in self.children:
@@ -121,14 +121,14 @@ class Group(Entry):
         return any(each.remove(entry) for each in self.children if isinstance(each, Group))
 
     def walk(self) -> Iterator[Entry]:
-        """Return all entries below, those of groups after the group."""
+        """Return all entries below the group, each group before its children."""
         for child in self.children:
             yield child
             if isinstance(child, Group):
                 yield from child.walk()
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         written = {name: copy.deepcopy(self._given.get(name)) for name in self._places}
         # RViz writes `~` for no displays.
         written['Displays'] = [child.to_file() for child in self.children] or self._nothing

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make the displays that a file lists."""
+"""The factory of displays."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ __all__ = ['Maker']
 
 class Maker:
     """
-    Factory of entries; each display gets a path of the scene for itself.
+    Factory of entries; each display gets its own path of the scene.
 
     Parameters
     ----------
     context
-        What the displays draw with.
+        The context of the displays.
     root
         The path of the scene below which they draw.
 
@@ -37,7 +37,7 @@ class Maker:
 
     def entry(self, given: Mapping[str, Any]) -> Entry:
         """
-        Make an entry, with all below it, from a .rviz file; it is not shown yet.
+        Make an entry with all its children from a .rviz file; it is not shown yet.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class Maker:
             return UnknownEntry(given, f"'{given['Class']}' cannot be used: {error}")
         try:
             return DisplayEntry(kind(self._context, self._path(), given))
-        except Exception as error:  # whatever a display does, the others go on
+        except Exception as error:  # a failing display must not stop the others
             return UnknownEntry(
                 given, f"'{given['Class']}' cannot be made: {type(error).__name__}: {error}"
             )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is set for all displays."""
+"""The global options."""
 
 from rviz_common.properties import ColorOf, Number, Text
 

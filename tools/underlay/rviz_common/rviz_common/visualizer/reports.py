@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say what of a file is not known."""
+"""Reports on unknown or invalid content of a file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ['surprises']
 
 def surprises(shown: Visualizer) -> Iterator[str]:
     """
-    Format a warning for all of a file that is not known, or cannot be used.
+    Format a warning for each part of a file that is unknown or invalid.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def surprises(shown: Visualizer) -> Iterator[str]:
 
 
 def _about_displays(configuration: Configuration, entries: list[Entry]) -> Iterator[str]:
-    """Return a sentence for each class, and for each display, of which something is not known."""
+    """Yield a message for each unknown class, and for each display with unknown content."""
     classes: dict[str, list[str]] = {}
     document = configuration.document
     for place, entry in _placed(entries, DISPLAYS):
@@ -71,7 +71,7 @@ def _about_displays(configuration: Configuration, entries: list[Entry]) -> Itera
 
 
 def _about_classes(what: str, source: str, classes: Iterable[str]) -> Iterator[str]:
-    """Return a sentence for each class of other entries that is not known."""
+    """Yield a message for each unknown class of other entries."""
     for name in dict.fromkeys(classes):
         yield f"{source}: No package offers {what} of the class '{name}'. The file keeps it."
 

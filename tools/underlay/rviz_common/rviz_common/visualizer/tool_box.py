@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tools of a file, one of which may be in use."""
+"""The tools of a file, one of which may be active."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ BUILT_IN = tuple(
     f'rviz_default_plugins/{name}'
     for name in ('Interact', 'MoveCamera', 'Select', 'FocusCamera', 'ZoomTool', 'FPSMotion')
 )
-"""Tools of RViz that a browser has by itself, or that mean nothing there."""
+"""Tools of RViz that a browser has built in, or that do not apply there."""
 
 
 class ToolBox:
     """
-    The tools of a file, one of which may be in use; other entries are kept for the file.
+    The tools of a file, one of which may be active; other entries are preserved for the file.
 
     Parameters
     ----------
     context
-        What the tools work with.
+        The context of the tools.
     origin
-        Returns where the target frame of the camera is, in m in the fixed frame.
+        Returns the position of the camera's target frame, in m in the fixed frame.
     entries
         The entries of the section `Tools` of the file.
 
     Attributes
     ----------
     in_use
-        The tool that the pointer works with, if any.
+        The active tool, if any.
 
     """
 
@@ -61,18 +61,18 @@ class ToolBox:
 
     @property
     def tools(self) -> list[Tool]:
-        """Return the tools that can be used."""
+        """The tools of known classes."""
         return [each for each in self._entries if isinstance(each, Tool)]
 
     @property
     def unknown(self) -> list[str]:
-        """Return the classes of the entries that nobody knows."""
+        """The classes of the entries that are unknown."""
         classes = [entry['Class'] for entry in self._entries if not isinstance(entry, Tool)]
         return [each for each in classes if each not in BUILT_IN]
 
     def use(self, tool: Tool | None) -> None:
         """
-        Activate a tool, and deactivate the one before.
+        Activate a tool, and deactivate the previous one.
 
         Parameters
         ----------
@@ -88,14 +88,14 @@ class ToolBox:
         self._ground.watch(tool is not None)
 
     def to_file(self) -> list[dict[str, Any]]:
-        """Return what the file is to have."""
+        """Return the entry for the .rviz file."""
         return [
             each.to_file() if isinstance(each, Tool) else copy.deepcopy(dict(each))
             for each in self._entries
         ]
 
     def close(self) -> None:
-        """End what the tools have begun."""
+        """Close all tools."""
         self.use(None)
         for tool in self.tools:
             tool.close()
@@ -116,13 +116,13 @@ class ToolBox:
         self._pass_on(lambda tool: tool.drag(start, end, is_over))
 
     def _pass_on(self, work: Callable[[Tool], bool]) -> None:
-        """Have the tool do something; lay it down when it is done, or fails."""
+        """Run a callable of the active tool; deactivate the tool when it is done or fails."""
         tool = self.in_use
         if tool is None:
             return
         try:
             is_done = work(tool)
-        except Exception as error:  # whatever a tool does, all else goes on
+        except Exception as error:  # a failing tool must not stop anything else
             self._logger.error(f"Tool '{tool.NAME}' failed: {described_error(error)}")
             is_done = True
         if is_done:

@@ -15,12 +15,12 @@ __all__ = ['UnknownEntry']
 
 class UnknownEntry(Entry):
     """
-    A display that cannot be made, as that of an unknown class: it is kept for the file.
+    A display that cannot be made, such as one of an unknown class; it is preserved for the file.
 
     Parameters
     ----------
     given
-        Its entry of the .rviz file.
+        Its entry in the .rviz file.
     reason
         Why it cannot be shown, for the status.
 
@@ -35,17 +35,17 @@ class UnknownEntry(Entry):
 
     @property
     def is_enabled(self) -> bool:
-        """Tell what the file says."""
+        """Whether the file enables the display."""
         return bool(self._given.get('Enabled', True))
 
     @property
     def status(self) -> Statuses:
-        """Return why it is not shown."""
+        """The reason why it is not shown."""
         return self._status
 
     def enable(self, is_enabled: bool) -> None:
         """
-        Set what the file says of the display.
+        Set whether the file enables the display.
 
         Parameters
         ----------
@@ -70,7 +70,7 @@ class UnknownEntry(Entry):
         """Draw nothing."""
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file said."""
+        """Return the original entry of the file."""
         written = copy.deepcopy(self._given)
         if self.name != self._first_name:
             written['Name'] = self.name

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is shown: displays, tools, views and panels, as a file says."""
+"""The visualizer: the displays, tools, views and panels of a file."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Visualizer:
     """
     Shows the displays, tools, views and panels of a .rviz file in a page.
 
-    All is done in the thread in which the node works, from the moment when it does.
+    Everything is done in the node's thread, once the node spins.
 
     Parameters
     ----------
@@ -69,26 +69,26 @@ class Visualizer:
     page
         The page, without any widgets yet.
     configuration
-        What to show.
+        The configuration to show.
     path
         The file that it is from, '' for none.
     may_rest
-        Whether it draws nothing, and hears nothing that moves, while no page is open.
+        Whether drawing and subscriptions to streams of data are suspended while no page is open.
 
     Attributes
     ----------
     context
-        What displays, tools and panels work with.
+        The context of displays, tools and panels.
     status
-        The global status, which says whether the fixed frame is known.
+        The global status, which reports whether the fixed frame is known.
     options
         The global options.
     displays, tools, panels
-        What is shown.
+        The displays, tools and panels that are shown.
     cameras, saved_views
-        The cameras of browsers, which show the current view; and views to choose from.
+        The cameras of browsers, which show the current view; and the saved views.
     revision
-        A number that grows whenever a display is added or removed.
+        A counter that is incremented whenever a display is added or removed.
 
     """
 
@@ -122,12 +122,12 @@ class Visualizer:
 
     def load(self, configuration: Configuration, path: str = '') -> None:
         """
-        Show another configuration, in place of the present one.
+        Replace the current configuration by another one.
 
         Parameters
         ----------
         configuration
-            What to show.
+            The configuration to show.
         path
             The file that it is from, '' for none.
 
@@ -138,7 +138,7 @@ class Visualizer:
 
     def save(self, path: str) -> None:
         """
-        Write what is shown to a .rviz file.
+        Write the current configuration to a .rviz file.
 
         Parameters
         ----------
@@ -158,7 +158,7 @@ class Visualizer:
         self.path = path
 
     def text(self) -> str:
-        """Return what a file of what is shown would have."""
+        """Return the current configuration as the text of a .rviz file."""
         return self.configuration.text(self._sections())
 
     def set_option(self, path: str, value: Any) -> None:
@@ -173,7 +173,7 @@ class Visualizer:
         Raises
         ------
         ValueError
-            The value cannot be used; the message is that of `Property.read`.
+            The value is invalid; the message is that of `Property.read`.
 
         """
         self.options[path] = value
@@ -225,7 +225,7 @@ class Visualizer:
             self.revision += 1
 
     def frame(self) -> None:
-        """Draw the next frame; while nobody looks, do what must go on all the same."""
+        """Draw the next frame; while no page is open, run only the essential work."""
         self._attend()
         if self._attention.rests and not self._slow.is_due():
             self.panels.update()
@@ -256,7 +256,7 @@ class Visualizer:
             client.add_notification(title, printable(text), auto_close_seconds=10.0)
 
     def close(self) -> None:
-        """Show nothing any longer."""
+        """Close all displays, tools and panels."""
         self._is_closed = True
         self._loop.close()
         self._close()
@@ -288,7 +288,7 @@ class Visualizer:
         self.context.scene.remove_by_name(WORLD)
 
     def _apply(self, option: str) -> None:
-        """Make an option take effect."""
+        """Apply a global option."""
         value = self.options[option]
         if option == FIXED_FRAME:
             self.context.frames.fixed_frame = value.strip().lstrip('/')
@@ -299,17 +299,17 @@ class Visualizer:
             self._background.choose(value)
 
     def _attend(self) -> None:
-        """Rest while nobody looks, and be there again for who comes."""
+        """Rest while no page is open, and resume when one is opened."""
         if self._attention.look():
             self._set_rate()
 
     def _set_rate(self) -> None:
-        """Draw as often as is chosen, or look around now and then."""
+        """Set the timer to the configured frame rate, or to the resting rate."""
         rests = self._attention.rests
         self._loop.set_rate(REST_HZ if rests else self.options[FRAME_RATE])
 
     def _sections(self) -> dict[Place, Any]:
-        """Return the sections of the file that may have been changed."""
+        """Return the sections of the file that may have changed."""
         return {
             DISPLAYS: [each.to_file() for each in self.displays.children],
             OPTIONS_PLACE: self.options.to_file(),
@@ -320,16 +320,16 @@ class Visualizer:
         }
 
     def _work(self) -> None:
-        """Do what widgets have posted."""
+        """Run the work that widgets have posted."""
         try:
             self._attend()
             self.context.queue.run()
-        except Exception as error:  # whatever a widget does, all else goes on
+        except Exception as error:  # a failing widget must not stop anything else
             self._logger.error(f'What was entered failed: {described_error(error)}')
-            self._rouse()  # for what still waits
+            self._rouse()  # for the remaining work
 
     def _rouse(self) -> None:
-        """Have posted work done soon; a browser may post some until the page is closed."""
+        """Schedule posted work to run soon; a browser may post until the page is closed."""
         executor = self.context.node.executor
         if executor is not None and not self._is_closed:
             executor.create_task(self._work)

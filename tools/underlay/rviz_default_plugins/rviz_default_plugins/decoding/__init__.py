@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What messages hold, as arrays; nothing here knows the page."""
+"""Decoding of messages to arrays, independent of the page."""

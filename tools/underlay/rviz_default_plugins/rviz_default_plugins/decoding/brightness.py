@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is black and what is white in pictures of depths and the like."""
+"""Normalisation of depth and other single-channel images to greys."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ __all__ = ['Brightness']
 
 class Brightness:
     """
-    Maps numbers to greys between limits, which may be those of the last images.
+    Maps values to greys between limits, which may be determined from the last images.
 
     Parameters
     ----------
     limits
-        The values that are black and white; None to find them in the images.
+        The values mapped to black and white; None to determine them from the images.
     window
         The number of images over whose minima and maxima the medians are taken as limits.
 
@@ -37,13 +37,13 @@ class Brightness:
         Parameters
         ----------
         values
-            Numbers in an array of any shape. Without fixed limits, theirs go into the medians.
+            An array of any shape. Without fixed limits, its minimum and maximum enter the medians.
 
         Returns
         -------
         NDArray[np.uint8]
-            Greys of the same shape. What is not finite is black, and so is all if the limits are
-            equal.
+            Greys of the same shape. Non-finite values are black, and all values are if the limits
+            are equal.
 
         """
         numbers = values.astype(np.float32)

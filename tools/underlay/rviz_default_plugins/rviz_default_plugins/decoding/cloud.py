@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Points with what was measured at each of them."""
+"""Point clouds with channels."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ['Cloud']
 
 @dataclass(frozen=True)
 class Cloud:
-    """Points as rows x, y and z in metres; each channel has a value for each of them."""
+    """Points as rows x, y and z in metres; each channel has one value per point."""
 
     points: Points
     channels: dict[str, NDArray[Any]] = field(default_factory=dict)
@@ -25,23 +25,23 @@ class Cloud:
         return len(self.points)
 
     def __getitem__(self, chosen: Any) -> Cloud:
-        """Return some of the points."""
+        """Return a subset of the points."""
         channels = {name: values[chosen] for name, values in self.channels.items()}
         return Cloud(self.points[chosen], channels)
 
     def finite(self) -> Cloud:
-        """Return the points that are somewhere."""
+        """Return the points with finite coordinates within `FARTHEST`."""
         somewhere = (np.abs(self.points) <= FARTHEST).all(axis=1)
         return self if somewhere.all() else self[somewhere]
 
     def thinned(self, most: int) -> Cloud:
         """
-        Downsample the cloud: keep each n-th point.
+        Downsample the cloud: keep every n-th point.
 
         Parameters
         ----------
         most
-            The largest number of points to keep.
+            The maximum number of points to keep.
 
         """
         step = -(-len(self) // most)

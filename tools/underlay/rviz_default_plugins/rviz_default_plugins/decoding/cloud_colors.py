@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Colours of points, by what was measured at them."""
+"""Colours of points, from their channels."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BLUE = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Scale:
-    """Gives values colours between two ends; without limits those of the values themselves."""
+    """Colour map of values between two limits; by default their minimum and maximum."""
 
     minimum: float | None = None
     maximum: float | None = None
@@ -55,7 +55,7 @@ class Scale:
         return colors
 
     def _parts(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return where from 0 to 1 the values are between the limits."""
+        """Normalise the values between the limits to the range from 0 to 1."""
         known = values[np.isfinite(values)]
         low = self._limit(self.minimum, known, np.min)
         high = self._limit(self.maximum, known, np.max)
@@ -95,7 +95,7 @@ def rainbow(parts: NDArray[np.float64]) -> Colors:
 
 def colors_rgb8(cloud: Cloud) -> Colors | None:
     """
-    Unpack the colours of the field `rgb` or `rgba`, which has them as bytes of a number.
+    Unpack the colours of the field `rgb` or `rgba`, which packs them as bytes of a number.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of `sensor_msgs/msg/CompressedImage`."""
+"""Decoding of `sensor_msgs/msg/CompressedImage`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rviz_default_plugins.decoding.images import Picture, step_for
 __all__ = ['decode_compressed_image']
 
 MOST_COMPRESSED = 100_000_000
-"""Of greater pictures not even the beginning is unpacked; they may be made to fill the memory."""
+"""The maximum number of pixels; larger images may be decompression bombs."""
 
 
 def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
@@ -53,12 +53,12 @@ def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
 
 
 def _small(opened: Any, brightness: Brightness) -> Picture:
-    """Return what is in an opened picture, made small enough."""
+    """Decode an opened image, downsampled for the page."""
     width, height = opened.size
     if width * height > MOST_COMPRESSED:
         raise ValueError(f'it is too great with {width} x {height} pixels.')
     step = step_for(width, height)
-    opened.draft(None, (width // step, height // step))  # JPEG may be unpacked smaller at once
+    opened.draft(None, (width // step, height // step))  # JPEG can be decoded at a reduced size
     left = max(1, round(step * opened.size[0] / width))
     if opened.mode in ('I', 'I;16', 'I;16B', 'F'):
         gray = brightness.apply(np.asarray(opened)[::left, ::left])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How uncertain a position is, as an ellipsoid."""
+"""The covariance of a position as an ellipsoid."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['Ellipsoid', 'ellipsoid_of']
 
 
 class Ellipsoid(NamedTuple):
-    """Half axes in metres, and how they are turned."""
+    """The semi-axes of an ellipsoid in metres, and its rotation."""
 
     radii: Triple
     wxyz: Quaternion
@@ -25,12 +25,12 @@ def ellipsoid_of(covariance: Any) -> Ellipsoid:
     Parameters
     ----------
     covariance
-        The covariance of a pose: 36 numbers, row by row, of which those of x, y and z (m^2) count.
+        The covariance of a pose: 36 numbers, row-major; those of x, y and z (m^2) are used.
 
     Raises
     ------
     ValueError
-        The numbers are not finite, far too large, or no covariance.
+        The numbers are not finite, far too large, or not a valid covariance.
 
     """
     block = np.asarray(covariance, dtype=float).reshape(6, 6)[:3, :3]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Positions and rotations of messages, checked."""
+"""Validation and conversion of positions and rotations in messages."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 FARTHEST = 1e9
-"""Metres beyond which nothing is drawn; a browser reckons with 32 bits."""
+"""The distance in m beyond which nothing is drawn; browsers compute in 32 bits."""
 
 Points = NDArray[np.float32]
 Quaternion = tuple[float, float, float, float]
@@ -44,7 +44,7 @@ def position(vector: Any, what: str = 'position') -> Triple:
     vector
         A message with `x`, `y` and `z`, in m or in the unit of the vector.
     what
-        What it is called in the error message.
+        Its name in the error message.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
     quaternion
         A message with `x`, `y`, `z` and `w`.
     what
-        What it is called in the error message.
+        Its name in the error message.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
     Raises
     ------
     ValueError
-        The quaternion is not finite, or has a length of zero.
+        The quaternion is not finite, or has zero length.
 
     """
     parts = (quaternion.w, quaternion.x, quaternion.y, quaternion.z)
@@ -152,7 +152,7 @@ def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]
     Returns
     -------
     tuple[Points, NDArray[np.bool_]]
-        Rows w, x, y and z (N, 4), no rotation for invalid ones; and which are valid (N,).
+        Rows w, x, y and z (N, 4), the identity for invalid ones; and which are valid (N,).
 
     """
     flat = [part for each in quaternions for part in (each.w, each.x, each.y, each.z)]
@@ -279,7 +279,7 @@ def from_axes(axes: NDArray[Any]) -> Quaternion:
         w, x, y and z, of length 1.
 
     """
-    # The quaternion is the eigenvector of the greatest eigenvalue of this symmetric matrix.
+    # The quaternion is the eigenvector of the largest eigenvalue of this symmetric matrix.
     (a, b, c), (d, e, f), (g, h, i) = np.asarray(axes, dtype=float)
     symmetric = np.array(
         [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of `sensor_msgs/msg/Image`, as red, green and blue, small enough for a page."""
+"""Decoding of `sensor_msgs/msg/Image` to RGB, downsampled for the page."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ __all__ = ['MOST_PIXELS', 'Picture', 'decode_image', 'step_for']
 Bytes = NDArray[np.uint8]
 
 MOST_PIXELS = 1_300_000
-"""How many pixels of a picture are shown; greater ones are made smaller."""
+"""The maximum number of pixels that are shown; larger images are downsampled."""
 
 
 class Picture(NamedTuple):
-    """Rows of pixels of red, green and blue; each stands for `step` in both directions."""
+    """Rows of RGB pixels; each stands for `step` pixels in both directions."""
 
     pixels: Bytes
     step: int = 1
@@ -38,7 +38,7 @@ def step_for(width: int, height: int) -> int:
     Returns
     -------
     int
-        n to keep each n-th row and column; 1 to keep all.
+        n to keep every n-th row and column; 1 to keep all.
 
     """
     return max(1, math.ceil(math.sqrt(width * height / MOST_PIXELS)))
@@ -74,7 +74,7 @@ def decode_image(message: Any, brightness: Brightness) -> Picture:
 def _from_colors(raw: NDArray[Any], layout: Layout, brightness: Brightness) -> Bytes:
     if layout.order == 'mono':
         gray = raw[:, :, 0]
-        # What has eight bits is bright as it is; depths and the like have no such range.
+        # Eight-bit values are displayed as they are; depths and the like have no fixed range.
         shown = gray if layout.kind == np.uint8 else brightness.apply(gray)
         return np.repeat(shown[:, :, None], 3, axis=2)
     colors = _eight_bits(raw)
@@ -82,7 +82,7 @@ def _from_colors(raw: NDArray[Any], layout: Layout, brightness: Brightness) -> B
 
 
 def _eight_bits(raw: NDArray[Any]) -> Bytes:
-    """Return numbers of any type as bytes."""
+    """Convert numbers of any type to bytes."""
     if raw.dtype.kind == 'f':
         shown = np.clip(np.nan_to_num(raw), 0.0, 1.0) * 255.0
     else:
@@ -92,7 +92,7 @@ def _eight_bits(raw: NDArray[Any]) -> Bytes:
 
 
 def _from_bayer(raw: NDArray[Any], layout: Layout, step: int) -> Picture:
-    """Return a pixel for each square of four, which have one colour each."""
+    """Return one RGB pixel per 2 x 2 block of the Bayer pattern."""
     height, width = (length // 2 * 2 for length in raw.shape)
     if not height or not width:
         raise ValueError('it is too small for a Bayer pattern, which has squares of 2 x 2 pixels.')
@@ -107,7 +107,7 @@ def _from_bayer(raw: NDArray[Any], layout: Layout, step: int) -> Picture:
 
 
 def _from_yuv(raw: Bytes, order: str) -> Bytes:
-    """Return colours of pixels that share theirs by twos (BT.601, as cameras have it)."""
+    """Convert YUV 4:2:2 pixels to RGB (BT.601, as used by cameras)."""
     width = raw.shape[1] // 2 * 2
     if not width:
         raise ValueError('it is one pixel wide, but its encoding has pixels in twos.')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Maps of `nav_msgs/msg/OccupancyGrid`: their cells, and the colours that show them."""
+"""Decoding of `nav_msgs/msg/OccupancyGrid`: cells and colour schemes."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def cells_of(message: Any) -> Cells:
     Raises
     ------
     ValueError
-        There are no cells, more or fewer than width and height say, or their size is invalid.
+        The map has no cells, the cell count does not match the size, or the resolution is invalid.
 
     """
     width, height = message.info.width, message.info.height
@@ -57,14 +57,14 @@ def apply_update(cells: Cells, update: Any) -> None:
     Parameters
     ----------
     cells
-        The cells of the map (height, width), which are changed.
+        The cells of the map (height, width), modified in place.
     update
         The message.
 
     Raises
     ------
     ValueError
-        The rectangle is not inside the map, or has more or fewer cells than its size says.
+        The rectangle is not inside the map, or its cell count does not match its size.
 
     """
     height, width = cells.shape
@@ -80,14 +80,14 @@ def apply_update(cells: Cells, update: Any) -> None:
 
 def thinned(cells: Cells, most: int) -> tuple[Cells, int]:
     """
-    Downsample a map; of the cells that become one, the largest value remains.
+    Downsample a map to the maximum of each block of cells.
 
     Parameters
     ----------
     cells
         The cells of the map (height, width).
     most
-        The largest number of cells along a side of the result.
+        The maximum number of cells along a side of the result.
 
     Returns
     -------
@@ -102,19 +102,19 @@ def thinned(cells: Cells, most: int) -> tuple[Cells, int]:
     padded = np.full((height, width), -1, dtype=np.int8)
     padded[: cells.shape[0], : cells.shape[1]] = cells
     blocks = padded.reshape(height // step, step, width // step, step)
-    return blocks.max(axis=(1, 3)), step  # what is occupied must not vanish
+    return blocks.max(axis=(1, 3)), step  # occupied cells must not vanish
 
 
 def binary(cells: Cells, threshold: int) -> Cells:
     """
-    Reduce a map to free (0) and occupied (100) cells; negative values remain.
+    Reduce a map to free (0) and occupied (100) cells; negative values are kept.
 
     Parameters
     ----------
     cells
         The cells of the map (height, width).
     threshold
-        The least value of an occupied cell.
+        The minimum value of an occupied cell.
 
     """
     return np.where(cells < 0, cells, np.where(cells >= threshold, 100, 0)).astype(np.int8)
@@ -122,7 +122,7 @@ def binary(cells: Cells, threshold: int) -> Cells:
 
 def png_of(cells: Cells, scheme: str, alpha: float) -> bytes:
     """
-    Encode a map as a PNG file, with the row of the smallest y on top, as the scene has it.
+    Encode a map as a PNG file, with the row of the smallest y on top, as the scene expects it.
 
     Parameters
     ----------
@@ -160,7 +160,7 @@ def _rows(data: Any, width: int, height: int) -> Cells:
 
 @cache
 def _palette(scheme: str) -> Palette:
-    """Return the colour for each value of a cell as unsigned byte."""
+    """Return the colour of each cell value, as an unsigned byte."""
     palette = np.zeros((256, 4), dtype=np.uint8)
     palette[:, 3] = 255
     values = np.arange(256)

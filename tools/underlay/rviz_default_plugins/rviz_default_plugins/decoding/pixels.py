@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pixels of `sensor_msgs/msg/Image`, as the encoding arranges them."""
+"""The pixels of `sensor_msgs/msg/Image`, by encoding."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _YUV = {
 
 
 class Layout(NamedTuple):
-    """What a pixel is: the order of its colours, how many numbers it has, and their type."""
+    """The layout of a pixel: the order of its colours, its channel count and data type."""
 
     order: str
     channels: int
@@ -38,7 +38,7 @@ def layout_of(encoding: str, is_bigendian: bool = False) -> Layout:
     encoding
         The encoding, as in `sensor_msgs/image_encodings`.
     is_bigendian
-        Whether numbers of several bytes have the most significant one first.
+        Whether multi-byte values are big-endian.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def raw_pixels(message: Any, layout: Layout) -> NDArray[Any]:
     message
         The message, of the type `sensor_msgs/msg/Image`.
     layout
-        What its pixels consist of.
+        The layout of its pixels.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def raw_pixels(message: Any, layout: Layout) -> NDArray[Any]:
     Raises
     ------
     ValueError
-        There are no pixels, the rows are too short, or the data is.
+        There are no pixels, or the rows or the data are too short.
 
     """
     width, height, step = message.width, message.height, message.step

@@ -11,7 +11,7 @@ from rviz_default_plugins.decoding.cloud import Cloud
 
 __all__ = ['decode_cloud']
 
-# What the numbers in PointField.datatype stand for.
+# The types for the constants in PointField.datatype.
 KINDS = {1: 'i1', 2: 'u1', 3: 'i2', 4: 'u2', 5: 'i4', 6: 'u4', 7: 'f4', 8: 'f8'}
 
 
@@ -19,7 +19,7 @@ def decode_cloud(message: Any) -> Cloud:
     """
     Convert `sensor_msgs/msg/PointCloud2` to points with channels.
 
-    A field of several values per point is a channel of the first of them.
+    A field of several values per point becomes a channel with the first of them.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def decode_cloud(message: Any) -> Cloud:
     Returns
     -------
     Cloud
-        The points in the frame of the message, in m; each field but x, y and z is a channel.
+        The points in the frame of the message, in m; all fields except x, y, z are channels.
 
     Raises
     ------
@@ -44,14 +44,14 @@ def decode_cloud(message: Any) -> Cloud:
             f'it has no field {missing[0]}; its fields are '
             f'{", ".join(data.dtype.names or ()) or "none"}.'
         )
-    with np.errstate(over='ignore', invalid='ignore'):  # what 32 bits cannot hold is nowhere
+    with np.errstate(over='ignore', invalid='ignore'):  # overflows: dropped later
         points = np.stack([data[axis].astype(np.float32) for axis in 'xyz'], axis=1)
     names = [name for name in data.dtype.names or () if name not in 'xyz']
     return Cloud(points, {name: data[name] for name in names})
 
 
 def _records(message: Any) -> NDArray[Any]:
-    """Return one record per point."""
+    """View the data as one record per point."""
     kind = _record_type(message)
     width, height, row = message.width, message.height, message.row_step
     data = np.frombuffer(message.data, dtype=np.uint8)
@@ -59,7 +59,7 @@ def _records(message: Any) -> NDArray[Any]:
     if width * height == 0:
         return np.empty(0, dtype=kind)
     if height == 1 and row < used:
-        row = used  # many who publish one row do not say how long it is
+        row = used  # many publishers of a single row do not set its length
     if row < used:
         raise ValueError(
             f'its rows of {row} bytes are too short for {width} points of '
@@ -77,7 +77,7 @@ def _records(message: Any) -> NDArray[Any]:
 
 
 def _record_type(message: Any) -> np.dtype[Any]:
-    """Return the layout of a point."""
+    """Return the structured data type of a point."""
     order = '>' if message.is_bigendian else '<'
     names, formats, offsets = [], [], []
     for each in message.fields:

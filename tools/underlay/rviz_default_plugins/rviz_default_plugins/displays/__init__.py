@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Displays: what RViz draws."""
+"""The displays of RViz."""

@@ -37,5 +37,5 @@ class Axes(Display):
         self.status.clear()
 
     def update(self) -> None:
-        """Move the axes to where their frame is."""
+        """Move the axes to their frame."""
         follow(self, self._axes, self.values['Reference Frame'])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a camera sees, in the scene."""
+"""The display of a camera image with its frustum."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Camera(ImageTopicDisplay):
     UNUSED = ('Image Rendering', 'Overlay Alpha', 'Visibility', 'Zoom Factor')
 
     def start(self) -> None:
-        """Subscribe the picture and what is known of the camera."""
+        """Subscribe to the image and the CameraInfo."""
         self._canvas = Canvas(self.context.scene, self.root)
         self._info: Any = None
         super().start()
@@ -45,7 +45,7 @@ class Camera(ImageTopicDisplay):
                 self._say_no_info()
 
     def update(self) -> None:
-        """Show the newest picture, and follow the camera."""
+        """Show the newest image, and follow the camera."""
         super().update()
         if self._shown is not None:
             self._follow(self._shown.header)
@@ -123,7 +123,7 @@ def info_topic(topic: str) -> str:
 
 def view_numbers(info: Any) -> tuple[float, ...]:
     """
-    Select what decides on the field of view of a camera.
+    Select the parameters that determine the field of view of a camera.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def view_of(info: Any) -> tuple[float, float]:
     Raises
     ------
     ValueError
-        The camera is not calibrated, or its images have no size.
+        The camera is not calibrated, or its image size is zero.
 
     """
     width, height, across, along = view_numbers(info)

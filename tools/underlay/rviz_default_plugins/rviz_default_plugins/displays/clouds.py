@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Points, in colours for what was measured at them."""
+"""The base class of displays of point clouds, coloured by their channels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STYLES = ('Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles')
 INTENSITY, AXIS, FLAT, RGB8, RGBF32 = 'Intensity', 'AxisColor', 'FlatColor', 'RGB8', 'RGBF32'
 BOUNDS = 'Autocompute Value Bounds'
 PIXEL = 0.004
-"""Metres that stand for a pixel, since the browser has points of metres only."""
+"""The size of a pixel in m, since viser supports point sizes in metres only."""
 
 CLOUD: tuple[Property, ...] = (
     Choice('Style', 'Flat Squares', 'What shows a point.', STYLES),
@@ -77,18 +77,18 @@ class CloudDisplay(HistoryDisplay):
         Raises
         ------
         ValueError
-            The message is invalid; the reason goes into the status.
+            The message is invalid; the reason is shown in the status.
 
         """
         raise NotImplementedError
 
     def decay_s(self) -> float:
-        """Return how long points stay."""
+        """Return the decay time of points in seconds."""
         return float(self.values['Decay Time'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """
-        Draw the points, downsampled to as many as a browser can show.
+        Draw the points, downsampled to the number that a browser can show.
 
         Parameters
         ----------
@@ -122,7 +122,7 @@ class CloudDisplay(HistoryDisplay):
         )
 
     def _colors(self, cloud: Cloud, pose: Pose) -> Any:
-        """Return the colours that are asked for, or those that there are."""
+        """Return the selected colours, or the best available ones."""
         asked = self.values['Color Transformer']
         kinds = [asked] if asked else []
         kinds += [kind for kind in (RGB8, RGBF32, INTENSITY, FLAT) if kind != asked]
@@ -139,7 +139,7 @@ class CloudDisplay(HistoryDisplay):
         return colors
 
     def _transformed(self, kind: str, cloud: Cloud, pose: Pose) -> Any:
-        """Return colours of a kind, or None if the points do not have what it needs."""
+        """Return the colours of a transformer, or None if the cloud lacks the channels."""
         if kind == RGB8:
             return colors_rgb8(cloud)
         if kind == RGBF32:
@@ -152,7 +152,7 @@ class CloudDisplay(HistoryDisplay):
         return None if values is None else self._intensity_scale().paint(values)
 
     def _heights(self, cloud: Cloud, pose: Pose) -> NDArray[np.float32]:
-        """Return where the points are along the axis."""
+        """Return the coordinates of the points along the axis."""
         axis = 'XYZ'.index(self.values['Axis'])
         if not self.values['Use Fixed Frame']:
             return cloud.points[:, axis]

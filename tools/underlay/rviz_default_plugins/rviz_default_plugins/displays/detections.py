@@ -70,7 +70,7 @@ class BoundingBox3DArray(Markers):
     )  # fmt: skip
 
     def start(self) -> None:
-        """Subscribe the topic, if its type is there."""
+        """Subscribe to the topic, if its type is available."""
         self._newest: Any = None
         try:
             super().start()
@@ -84,7 +84,7 @@ class BoundingBox3DArray(Markers):
         Parameters
         ----------
         topic
-            The topic; the class is the same for all.
+            The topic; the class is the same for all topics.
 
         Raises
         ------
@@ -97,7 +97,7 @@ class BoundingBox3DArray(Markers):
 
     def take(self, message: Any) -> None:
         """
-        Keep a message for `redraw`, and queue its markers for the next frames.
+        Store a message for `redraw`, and queue its markers for the next frames.
 
         Parameters
         ----------
@@ -109,13 +109,13 @@ class BoundingBox3DArray(Markers):
         super().take(message)
 
     def redraw(self) -> None:
-        """Draw the newest message anew, with other properties."""
+        """Redraw the newest message, with the changed properties."""
         if self._newest is not None:
             super().take(self._newest)
 
     def markers_of(self, message: Any) -> Iterable[Any]:
         """
-        Make a marker for each box, after one that deletes those of the message before.
+        Make a marker for each box, after one that deletes those of the previous message.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class BoundingBox3DArray(Markers):
         return boxes
 
     def _box(self, header: Header, number: int, box: Any, color: tuple[int, ...]) -> MarkerMessage:
-        """Return the marker of a box: solid, or its edges."""
+        """Make the marker of a box: solid, or its edges only."""
         marker = MarkerMessage(header=header, ns='boxes', id=number, type=MarkerMessage.CUBE)
         marker.pose = box.center
         red, green, blue = (value / 255.0 for value in color)
@@ -216,7 +216,7 @@ class Detection3DArray(BoundingBox3DArray):
 
     def markers_of(self, message: Any) -> Iterator[Any]:
         """
-        Make a box and a label for each detection, after a marker that deletes those before.
+        Make a box and a label for each detection, after a marker that deletes the previous ones.
 
         Parameters
         ----------
@@ -232,7 +232,7 @@ class Detection3DArray(BoundingBox3DArray):
                 yield _label(header, number, detection.bbox, text)
 
     def _color(self, detection: Any) -> tuple[int, ...]:
-        """Return the colour of a detection: the one that it is said to have, else of its class."""
+        """Return the colour of a detection: its own, if it has one, else that of its class."""
         flat: tuple[int, ...] = self.values['Color']
         if self.values['Color Style'] == FLAT or not detection.results:
             return flat
@@ -244,7 +244,7 @@ class Detection3DArray(BoundingBox3DArray):
         return _PALETTE[zlib.crc32(name.encode()) % len(_PALETTE)] if name else flat
 
     def _text(self, detection: Any) -> str:
-        """Return what is written above a detection."""
+        """Format the label of a detection."""
         words = []
         if self.values['Show Label']:
             names = [result.hypothesis.class_id for result in detection.results]
@@ -278,12 +278,12 @@ class Detection3D(Detection3DArray):
 
 
 def _size(value: float) -> float:
-    """Return the length of an edge; one that is nothing is drawn as thin as can be seen."""
+    """Return the edge length, with a visible minimum; non-finite values are kept."""
     return max(value, _LEAST_M) if math.isfinite(value) else value
 
 
 def _label(header: Header, number: int, box: Any, text: str) -> MarkerMessage:
-    """Return the marker of a label above a box."""
+    """Make the marker of a label above a box."""
     marker = MarkerMessage(header=header, ns='labels', id=number, text=text)
     marker.type = MarkerMessage.TEXT_VIEW_FACING
     at = box.center.position

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A grid, which shows how large everything is."""
+"""The display of a grid, as a size reference."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rviz_default_plugins.grid_lines import AXES, GridSize, in_pieces, lines
 __all__ = ['Grid']
 
 MAX_LINES = 20000
-BACKGROUND = 48  # RViz's grey, which translucent lines are mixed with
+BACKGROUND = 48  # RViz's grey, which translucent lines are blended with
 LINES, BILLBOARDS = 'Lines', 'Billboards'
 
 
@@ -60,7 +60,7 @@ class Grid(Display):
         self.status.clear()
 
     def update(self) -> None:
-        """Move the grid to where its frame is."""
+        """Move the grid to its frame."""
         follow(self, self._frame, self.values['Reference Frame'])
 
     def _size(self) -> GridSize:

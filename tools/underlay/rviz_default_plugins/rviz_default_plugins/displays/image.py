@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A picture in a window of the page."""
+"""The display of an image in a window of the page."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ class Image(ImageTopicDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._window: ImageWindow | None = None
         super().start()
 
     def stop(self) -> None:
-        """Subscribe no longer, and close the window."""
+        """Unsubscribe, and close the window."""
         super().stop()
         if self._window is not None:
             self._window.close()
@@ -53,7 +53,7 @@ class Image(ImageTopicDisplay):
         self._window.show(picture.pixels)
 
     def brightness(self) -> Brightness:
-        """Return what is black and what is white in pictures that do not say it."""
+        """Return the normalisation of images without a fixed value range."""
         if self.values['Normalize Range']:
             return Brightness(window=self.values['Median window'])
         return Brightness((self.values['Min Value'], self.values['Max Value']))

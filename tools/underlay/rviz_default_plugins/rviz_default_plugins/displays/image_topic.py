@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures that come on a topic."""
+"""The base class of displays of image topics."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ImageTopicDisplay(TopicDisplay):
     """
     The newest picture of a topic.
 
-    It is shown not more often than 10 times a second, and only while somebody has the page open.
+    It is shown at most 10 times a second, and only while a page is open.
     A topic whose name ends with `/compressed` has compressed images.
     """
 
@@ -32,7 +32,7 @@ class ImageTopicDisplay(TopicDisplay):
     QUALITY: ClassVar[int] = 75
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._newest: Any = None
         self._shown: Any = None
         self._shown_s = -PERIOD_S
@@ -40,7 +40,7 @@ class ImageTopicDisplay(TopicDisplay):
         super().start()
 
     def update(self) -> None:
-        """Show the newest picture."""
+        """Show the newest image."""
         super().update()
         message = self._newest
         if message is None or message is self._shown or not self.is_looked_at():
@@ -71,13 +71,13 @@ class ImageTopicDisplay(TopicDisplay):
         Raises
         ------
         ValueError
-            The image cannot be shown; the reason goes into the status.
+            The image cannot be shown; the reason is shown in the status.
 
         """
         raise NotImplementedError
 
     def brightness(self) -> Brightness:
-        """Return what is black and what is white in pictures that do not say it."""
+        """Return the normalisation of images without a fixed value range."""
         return Brightness()
 
     def message_type(self, topic: str) -> type:
@@ -95,7 +95,7 @@ class ImageTopicDisplay(TopicDisplay):
 
     def take(self, message: Any) -> None:
         """
-        Keep the newest image; it is only decoded when it is shown.
+        Store the newest image; it is only decoded when it is shown.
 
         Parameters
         ----------
@@ -106,16 +106,16 @@ class ImageTopicDisplay(TopicDisplay):
         self._newest = message
 
     def redraw(self) -> None:
-        """Show the newest picture again."""
+        """Show the newest image again."""
         self._brightness = self.brightness()
         self._shown, self._shown_s = None, -PERIOD_S
 
     def is_looked_at(self) -> bool:
-        """Tell if somebody has the page open."""
+        """Whether a page is open."""
         return bool(self.context.server.get_clients())
 
     def now_s(self) -> float:
-        """Return the time by which pictures are shown."""
+        """Return the monotonic time used to limit the rate of images."""
         return time.monotonic()
 
     def _decoded(self, message: Any) -> Picture:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How an inertial measurement unit is turned, and how it is accelerated."""
+"""The display of the orientation and linear acceleration of an IMU."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Imu(MessageDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
@@ -82,7 +82,7 @@ class Imu(MessageDisplay):
 
     def placed(self, pose: Pose) -> Pose:
         """
-        Drop the rotation of the IMU's frame if the orientation is that in the fixed frame.
+        Drop the rotation of the IMU's frame if the orientation is relative to the fixed frame.
 
         Parameters
         ----------

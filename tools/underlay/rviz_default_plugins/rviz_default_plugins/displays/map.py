@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A map of cells that are free or occupied."""
+"""The display of an occupancy grid."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from rviz_default_plugins.drawing.flat_picture import FlatPicture
 __all__ = ['Map']
 
 MOST = 1500
-"""Cells along a side; a picture of more takes too long to be packed."""
+"""The maximum number of cells along a side; larger images take too long to encode."""
 BEHIND, LOWEST, STEP = -0.04, -0.032, 0.008
-"""Metres: maps lie a little below what else is on the ground, one above the other."""
+"""Heights in m: maps are stacked slightly below everything else on the ground."""
 LOOK = ('Alpha', 'Color Scheme', 'Binary representation', 'Binary threshold')
 MOST_WAITING = 1000
 MOST_WAITING_CELLS = 100_000_000
-"""Cells, of a byte each, of the updates that wait for the next frame, or for their map."""
+"""The maximum number of cells, of a byte each, in the queued updates."""
 
 
 class Map(MessageDisplay):
@@ -52,10 +52,10 @@ class Map(MessageDisplay):
     )
     UNUSED = ('Use Timestamp',)
     _layers: ClassVar[WeakKeyDictionary[Any, set[int]]] = WeakKeyDictionary()
-    """Layers that are taken, by page: where maps overlap, the later one is above."""
+    """The layers in use, by page: where maps overlap, the later one is on top."""
 
     def start(self) -> None:
-        """Subscribe the map and its updates."""
+        """Subscribe to the map and its updates."""
         taken = self._layers.setdefault(self.context.scene, set())
         self._layer = next(layer for layer in range(len(taken) + 1) if layer not in taken)
         taken.add(self._layer)
@@ -71,14 +71,14 @@ class Map(MessageDisplay):
             self.subscribe(OccupancyGridUpdate, topic, self._take_update, 'Update Topic')
 
     def stop(self) -> None:
-        """Subscribe no longer, and remove what was drawn."""
+        """Unsubscribe, and remove everything that was drawn."""
         self._picture.remove()
         self._layers[self.context.scene].discard(self._layer)
         super().stop()
 
     def take(self, message: Any) -> None:
         """
-        Keep the newest map, and drop the updates that wait: they are for the one before.
+        Store the newest map, and drop the queued updates, which belong to the previous one.
 
         Parameters
         ----------
@@ -90,7 +90,7 @@ class Map(MessageDisplay):
         self._updates.clear()
 
     def update(self) -> None:
-        """Show the newest map, changed as the updates say, and follow its frame."""
+        """Show the newest map with its updates applied, and follow its frame."""
         if self._updates and self._of is self._newest and self._cells is not None:
             self._apply(self._cells)
             self.redraw()
@@ -120,7 +120,7 @@ class Map(MessageDisplay):
         self._draw(cells, step, message.info)
 
     def _draw(self, cells: Cells, step: int, info: Any) -> None:
-        """Draw cells, unless they are drawn already: many costmaps come again as they were."""
+        """Draw cells, unless they are already drawn: many costmaps arrive unchanged."""
         at, turn = position(info.origin.position, 'origin'), rotation(info.origin.orientation)
         height, width = (length * step * info.resolution for length in cells.shape)
         height_m = min(LOWEST + STEP * self._layer, -STEP / 2.0)
@@ -136,7 +136,7 @@ class Map(MessageDisplay):
         self._picture.show(png, (width, height), (float(x), float(y), float(z)), turn)
 
     def _look(self) -> tuple[Any, ...]:
-        """Return the properties that decide what cells look like."""
+        """Return the properties that determine the look of cells."""
         return tuple(self.values[path] for path in LOOK)
 
     def _take_update(self, message: Any) -> None:
@@ -155,17 +155,17 @@ class Map(MessageDisplay):
 
 
 class _Updates:
-    """The newest updates of a map that wait for it, of limited number and size."""
+    """A queue of map updates, limited in number and size; the oldest are dropped."""
 
     def __init__(self) -> None:
         self.clear()
 
     def __bool__(self) -> bool:
-        """Whether there are some, or were."""
+        """Whether updates are queued or were lost."""
         return bool(self._waiting or self.lost)
 
     def add(self, update: Any) -> None:
-        """Add an update; the oldest ones are lost for one too many."""
+        """Add an update; drop the oldest ones when the queue is full."""
         self._waiting.append(update)
         self._cells += len(update.data)
         while len(self._waiting) > MOST_WAITING or self._cells > MOST_WAITING_CELLS:
@@ -173,12 +173,12 @@ class _Updates:
             self.lost += 1
 
     def take(self) -> list[Any]:
-        """Return the updates in the order in which they came; none waits then."""
+        """Remove and return all updates, in the order of arrival."""
         updates = list(self._waiting)
         self.clear()
         return updates
 
     def clear(self) -> None:
-        """Forget all."""
+        """Clear the queue."""
         self._waiting: deque[Any] = deque()
         self._cells = self.lost = 0

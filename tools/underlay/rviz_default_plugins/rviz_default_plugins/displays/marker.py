@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Markers that come one by one."""
+"""The display of single markers."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class Markers(TopicDisplay):
     """A display that draws the messages of a topic as markers."""
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         context = self.context
         self._markers = MarkerScene(context.scene, context.frames, self.root, self.status)
         super().start()
 
     def update(self) -> None:
-        """Draw what has come."""
+        """Draw the queued markers."""
         super().update()
         enabled = self.values['Namespaces']
         self._markers.update(self._now_ns(), lambda namespace: enabled.get(namespace, True))
@@ -68,7 +68,7 @@ class Markers(TopicDisplay):
         raise NotImplementedError
 
     def redraw(self) -> None:
-        """Show and hide namespaces, as the next frame does."""
+        """Do nothing: the next frame shows and hides namespaces."""
 
     def _now_ns(self) -> int:
         return int(self.context.node.get_clock().now().nanoseconds)

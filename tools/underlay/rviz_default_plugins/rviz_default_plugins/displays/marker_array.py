@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Markers that come together."""
+"""The display of marker arrays."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a robot has been."""
+"""The display of odometry."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from rviz_default_plugins.drawing.pose_shape import (
 __all__ = ['Odometry']
 
 MOST = 1000
-"""How many poses are shown when the file has no limit."""
+"""The maximum number of poses when the file sets no limit."""
 
 
 class Odometry(HistoryDisplay):
@@ -56,17 +56,17 @@ class Odometry(HistoryDisplay):
         self._last: Any = None
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._last = None
         super().start()
 
     def keep(self) -> int:
-        """Return how many poses are shown at once."""
+        """Return the number of poses shown at once."""
         return min(int(self.values['Keep']) or MOST, MOST)
 
     def take(self, message: Any) -> None:
         """
-        Queue a message until its transform is known, unless the robot has hardly moved.
+        Queue a message until its transform is available, unless the robot has hardly moved.
 
         Parameters
         ----------

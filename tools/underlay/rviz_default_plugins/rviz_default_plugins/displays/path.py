@@ -47,7 +47,7 @@ class Path(HistoryDisplay):
     )
 
     def keep(self) -> int:
-        """Return how many paths are shown at once."""
+        """Return the number of paths shown at once."""
         return int(self.values['Buffer Length'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:

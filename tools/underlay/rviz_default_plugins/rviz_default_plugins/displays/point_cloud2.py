@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The points of a depth camera, a lidar and the like."""
+"""The display of point clouds from depth cameras, lidars and the like."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Spheres at points."""
+"""The display of points as spheres."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class PointStamped(HistoryDisplay):
     )
 
     def keep(self) -> int:
-        """Return how many points are shown at once."""
+        """Return the number of points shown at once."""
         return int(self.values['History Length'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:

@@ -30,7 +30,7 @@ class Polygon(MessageDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 

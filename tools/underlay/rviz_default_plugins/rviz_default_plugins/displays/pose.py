@@ -25,7 +25,7 @@ class Pose(MessageDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 

@@ -41,7 +41,7 @@ class PoseArray(MessageDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
@@ -71,7 +71,7 @@ class PoseArray(MessageDisplay):
             self.status.forget('Number')
 
     def _poses(self, poses: Any) -> tuple[Points, Points]:
-        """Return those that are poses, and say how many are not."""
+        """Return the valid poses, and report the number of invalid ones."""
         positions = points_of(each.position for each in poses)
         wxyzs, valid = rotations_of(each.orientation for each in poses)
         valid &= np.isfinite(positions).all(axis=1)
@@ -87,7 +87,7 @@ class PoseArray(MessageDisplay):
         return positions[valid], wxyzs[valid]
 
     def _add_flat(self, positions: Points, wxyzs: Points) -> None:
-        """Add arrows of lines: a shaft and two for the head."""
+        """Add arrows made of lines: one for the shaft and two for the head."""
         length = self.values['Arrow Length']
         tip, back, side = (length, 0, 0), 0.8 * length, 0.1 * length
         lines = [((0, 0, 0), tip), (tip, (back, side, 0)), (tip, (back, -side, 0))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An arrow or axes at a pose, and how uncertain it is."""
+"""An arrow or axes at a pose, with the covariance of its position."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class PoseWithCovariance(MessageDisplay):
     )
 
     def start(self) -> None:
-        """Subscribe the topic."""
+        """Subscribe to the topic."""
         self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 

@@ -31,12 +31,12 @@ class Range(HistoryDisplay):
     )
 
     def keep(self) -> int:
-        """Return how many ranges are shown at once."""
+        """Return the number of ranges shown at once."""
         return int(self.values['Buffer Length'])
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """
-        Draw the cone, which is as long as the range; none if nothing is in range.
+        Draw a cone as long as the range; none if nothing is in range.
 
         Parameters
         ----------
@@ -60,13 +60,13 @@ class Range(HistoryDisplay):
 
 
 def _length(message: Any) -> float:
-    """Return how long the cone is, 0 if nothing was hit, or raise ValueError."""
+    """Return the length of the cone, 0 if nothing was hit, or raise ValueError."""
     if not 0.0 <= message.field_of_view < math.pi:
         raise ValueError(
             f'its field of view is {message.field_of_view:g} rad, but must be from 0 to pi.'
         )
     if message.min_range == message.max_range and math.isinf(message.range):
-        # A sensor of fixed distance: something is there for -inf, nothing for +inf.
+        # A fixed-distance sensor: -inf for a detection, +inf for none.
         return float(message.min_range) if message.range < 0.0 else 0.0
     if math.isnan(message.range):
         raise ValueError('its range is no number.')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The robot that a URDF describes, as it stands now."""
+"""The display of the robot described by a URDF, in its current pose."""
 
 from __future__ import annotations
 
@@ -61,11 +61,11 @@ class RobotModel(Display):
         self._shelf = MeshShelf()
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have, with what it says of single links."""
+        """Return the entry for the .rviz file, with the settings of single links."""
         return self._links.put_into(super().to_file(), 'Links')
 
     def start(self) -> None:
-        """Ask for the description."""
+        """Subscribe to the robot description, or read it from a file."""
         self._model: Robot | None = None
         self._robot: RobotScene | None = None
         self._awaited: object = None
@@ -78,7 +78,7 @@ class RobotModel(Display):
             self._listen(self.topic_of('Description Topic'))
 
     def stop(self) -> None:
-        """Show the robot no longer."""
+        """Remove the robot."""
         if self._topic is not None:
             self._topic.close()
         self._awaited = None
@@ -86,7 +86,7 @@ class RobotModel(Display):
         self.status.clear()
 
     def update(self) -> None:
-        """Move the links to where they are."""
+        """Update the poses of the links."""
         now_s = time.monotonic()
         robot = self._robot
         if robot is None or now_s < self._next_s:
@@ -100,7 +100,7 @@ class RobotModel(Display):
 
     def on_change(self, path: str) -> None:
         """
-        Restart for another description; apply any other property to the robot that is shown.
+        Restart if the description changes; apply any other property to the robot that is shown.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class RobotModel(Display):
 
     def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
         """
-        Look up the pose of the root, and provide those of the joints.
+        Look up the pose of the root link, and provide those of the joints.
 
         Parameters
         ----------
@@ -130,7 +130,7 @@ class RobotModel(Display):
         -------
         tuple[Pose | None, PoseOf]
             The pose of the root link in the fixed frame; and a function that returns, for a joint,
-            that of its child link in its parent link. Each pose is None if it is not known.
+            that of its child link in its parent link. Each pose is None if it is unknown.
 
         """
         frames, prefix = self.context.frames, self.prefix
@@ -151,7 +151,7 @@ class RobotModel(Display):
 
     @property
     def prefix(self) -> str:
-        """Return what comes before links in names of frames."""
+        """The prefix of the links in the names of frames."""
         prefix: str = self.values['TF Prefix'].strip('/')
         return f'{prefix}/' if prefix else ''
 
@@ -176,7 +176,7 @@ class RobotModel(Display):
             self.status.say('URDF', Level.ERROR, str(error))
 
     def _take(self, text: str, source: str) -> None:
-        """Show the robot of a description; if it is broken, the one before stays."""
+        """Show the robot of a description; if it is invalid, keep the previous one."""
         if text == self._text:
             return
         self._text = text
@@ -191,7 +191,7 @@ class RobotModel(Display):
         self._prepare(model)
 
     def _prepare(self, model: Robot) -> None:
-        """Draw a robot, at once or as soon as its meshes have been read in the background."""
+        """Draw a robot, immediately or once its meshes have been read in the background."""
         self._awaited = awaited = object()
         self._model, look = model, self.look()
         shelf = MeshShelf(self._shelf)
@@ -229,7 +229,7 @@ class RobotModel(Display):
         self._robot = None
 
     def look(self) -> Look:
-        """Return what is shown of the robot, and how."""
+        """Return the look of the robot: the parts that are shown, and how."""
         return Look(
             visuals=self.values['Visual Enabled'],
             collisions=self.values['Collision Enabled'],
@@ -246,9 +246,9 @@ class RobotModel(Display):
         model
             The robot.
         root
-            The pose of the root link, None if it is not known.
+            The pose of the root link, None if it is unknown.
         unknown
-            The joints whose pose is not known.
+            The joints whose pose is unknown.
 
         """
         frames, frame = self.context.frames, self.prefix + model.root
@@ -267,7 +267,7 @@ class RobotModel(Display):
         sentence
             The message; '' removes it.
         level
-            How bad it is.
+            The severity.
 
         """
         if sentence:

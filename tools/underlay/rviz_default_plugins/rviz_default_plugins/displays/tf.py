@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The frames of tf."""
+"""The display of the frames of tf."""
 
 from __future__ import annotations
 
@@ -67,11 +67,11 @@ class TF(Display):
         self._ageing = Ageing()
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have, with what it says of single frames."""
+        """Return the entry for the .rviz file, with the settings of single frames."""
         return self._frames.put_into(super().to_file(), 'Frames')
 
     def start(self) -> None:
-        """Begin without frames."""
+        """Start without frames."""
         self._next_s = self._next_sentences_s = 0.0
         self._filter = self._new_filter()
         style = FrameStyle(
@@ -83,12 +83,12 @@ class TF(Display):
         self._scene = FramesScene(self.context.scene, self.root, style)
 
     def stop(self) -> None:
-        """Show the frames no longer."""
+        """Remove the frames."""
         self._scene.remove()
         self.status.clear()
 
     def update(self) -> None:
-        """Move the frames to where they are."""
+        """Update the poses of the frames."""
         now_s = time.monotonic()
         if now_s < self._next_s:
             return
@@ -109,7 +109,7 @@ class TF(Display):
 
     def on_change(self, path: str) -> None:
         """
-        Restart; a change for all frames also replaces what has been set for single ones.
+        Restart; a change for all frames also overrides the settings of single ones.
 
         Parameters
         ----------
@@ -181,7 +181,7 @@ class TF(Display):
 
 
 def _is_near(pose: Pose) -> bool:
-    """Tell whether a browser can draw something there."""
+    """Check whether a pose is within the range that a browser can draw."""
     return all(abs(part) <= FARTHEST for part in pose[:3])
 
 
@@ -191,7 +191,7 @@ def _listed(frames: list[str]) -> str:
 
 
 def _arrows(shown: Poses, poses: Poses, samples: Mapping[str, Sample]) -> Segments:
-    """Return an arrow from each frame to its parent, unless they are at the same place."""
+    """Return an arrow from each frame to its parent, unless their origins coincide."""
     ends = [
         (pose[:3], poses[samples[frame].parent][:3])
         for frame, pose in shown.items()

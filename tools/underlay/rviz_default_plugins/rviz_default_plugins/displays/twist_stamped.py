@@ -44,5 +44,5 @@ class TwistStamped(VectorsDisplay):
         self.draw_pair(canvas, message.twist.linear, message.twist.angular, ('Linear', 'Angular'))
 
     def smallest(self) -> float:
-        """Return how long a vector is that is not drawn."""
+        """Return the length up to which vectors are not drawn."""
         return 1e-5 if self.values['Hide Small Values'] else 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A straight and a turning vector, such as force and torque."""
+"""The base class of displays of a linear and an angular vector, such as force and torque."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ class VectorsDisplay(HistoryDisplay):
     """The last pairs of a straight vector, as arrow, and a turning one, as arrow and circle."""
 
     def keep(self) -> int:
-        """Return how many pairs are shown at once."""
+        """Return the number of pairs shown at once."""
         return int(self.values['History Length'])
 
     def draw_pair(
         self, canvas: Canvas, straight: Any, turning: Any, names: tuple[str, str]
     ) -> None:
         """
-        Draw a straight vector as an arrow, and a turning one as an arrow with a circle around it.
+        Draw a linear vector as an arrow, and an angular one as an arrow with a circle around it.
 
         Parameters
         ----------
@@ -57,7 +57,7 @@ class VectorsDisplay(HistoryDisplay):
                 self._add_circle(canvas, scaled, paint)
 
     def smallest(self) -> float:
-        """Return how long a vector is that is not drawn."""
+        """Return the length up to which vectors are not drawn."""
         return 0.0
 
     def _add_arrow(self, canvas: Canvas, name: str, vector: Triple, paint: Paint) -> None:
@@ -65,7 +65,7 @@ class VectorsDisplay(HistoryDisplay):
         add_arrow_to(canvas, name, vector, width, paint, ORIGIN)
 
     def _add_circle(self, canvas: Canvas, vector: Triple, paint: Paint) -> None:
-        """Draw most of a circle around the vector, with a hook at the end that it turns to."""
+        """Draw most of a circle around the vector, with a hook at the end of the rotation."""
         length = math.hypot(*vector)
         if length < 1e-9:
             return

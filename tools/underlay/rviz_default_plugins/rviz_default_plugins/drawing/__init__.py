@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What displays draw with."""
+"""Drawing helpers of the displays."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Add arrows and other bodies to a scene."""
+"""Drawing of arrows and other bodies."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ Paint = tuple[Sequence[int], float]
 
 def opacity_of(alpha: float) -> float | None:
     """
-    Convert alpha to the opacity of viser, in which None, for opaque, is drawn faster than 1.
+    Convert alpha to the opacity of viser, where None, for opaque, is drawn faster than 1.
 
     Parameters
     ----------
     alpha
-        From 0, transparent, to 1, opaque; it is limited to this range.
+        From 0, transparent, to 1, opaque; it is clamped to this range.
 
     """
     return None if alpha >= 1.0 else max(0.0, alpha)
@@ -95,9 +95,9 @@ def add_copies(
     paint
         The colour and alpha of all copies.
     positions
-        Where the copies are (N, 3), in m.
+        The positions of the copies (N, 3), in m.
     wxyzs
-        Their rotations as rows w, x, y and z (N, 4); by default none are rotated.
+        Their rotations as rows w, x, y and z (N, 4); by default none is rotated.
     **options
         Other arguments of `add_batched_meshes_simple` of viser, such as `batched_colors`.
 
@@ -124,7 +124,7 @@ def add_arrow_to(
     canvas: Canvas, name: str, vector: Triple, width: float, paint: Paint, start: Triple
 ) -> None:
     """
-    Draw an arrow that stands for a vector; none for a vector of zero.
+    Draw a vector as an arrow; nothing for the zero vector.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def add_arrow_to(
     paint
         The colour and alpha.
     start
-        Where the tail is, in m.
+        The position of the tail, in m.
 
     """
     length = math.hypot(*vector)
@@ -154,7 +154,7 @@ def add_ellipsoid(
     canvas: Canvas, name: str, ellipsoid: Ellipsoid, paint: Paint, position: Triple, scale: float
 ) -> None:
     """
-    Draw the ellipsoid of an uncertain position.
+    Draw the covariance ellipsoid of a position.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def add_ellipsoid(
     position
         The centre, in m.
     scale
-        How many standard deviations the half axes are; they are at least 1 mm long.
+        The length of the semi-axes in standard deviations; they are at least 1 mm long.
 
     """
     color, alpha = paint

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A picture in the scene that is changed often, such as a costmap."""
+"""An image in the scene that is updated often, such as a costmap."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ NOTHING = np.zeros((1, 1, 4), np.uint8)
 
 class FlatPicture:
     """
-    An image that lies in the scene, and is given as a PNG file.
+    A flat image in the scene, given as a PNG file.
 
-    The scene of viser takes pixels and packs them itself, with three bytes of colour each; a
-    palette of 256 colours is packed in a seventh of the time, and is a sixth as long.
+    The scene of viser accepts pixels and encodes them itself, with three bytes of colour each; a
+    palette of 256 colours is encoded in a seventh of the time, to a sixth of the size.
 
     Parameters
     ----------
     scene
         The scene of the viser server.
     path
-        The path of the scene where it will be; nothing is there before `show`.
+        The path of the image in the scene; no node exists before `show`.
 
     """
 
@@ -38,7 +38,7 @@ class FlatPicture:
         self, png: bytes, size_m: tuple[float, float], position: Triple, wxyz: Quaternion
     ) -> None:
         """
-        Show an image, in place of the one before.
+        Show an image, replacing the previous one.
 
         Parameters
         ----------
@@ -47,7 +47,7 @@ class FlatPicture:
         size_m
             Width and height, in m.
         position
-            The centre of the image, in m in the frame of the node above.
+            The centre of the image, in m in the frame of the parent node.
         wxyz
             Its rotation, as w, x, y and z.
 
@@ -65,7 +65,7 @@ class FlatPicture:
         self._handle._data = png
 
     def remove(self) -> None:
-        """Show it no longer."""
+        """Remove the image."""
         if self._handle is not None:
             self._handle.remove()
             self._handle = None

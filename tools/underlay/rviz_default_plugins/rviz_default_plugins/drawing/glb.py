@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Triangles in many colours, as a file of the kind GLB, which has them."""
+"""GLB files, for triangles with vertex colours."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ def glb_of(vertices: NDArray[np.float32], colors: NDArray[np.uint8]) -> bytes:
     """
     Encode triangles with a colour at each vertex as a GLB file.
 
-    Colours are those of a screen (sRGB), as in markers; in the file they are proportional to
-    light, as glTF 2.0 has it, in 16 bits, since 8 are too coarse for dark ones.
+    Colours are in sRGB, as in markers; in the file they are linear, as glTF 2.0 requires, in
+    16 bits, since 8 are too coarse for dark ones.
 
     Parameters
     ----------
     vertices
-        The vertices (N, 3) in m, of which each three are a triangle.
+        The vertices (N, 3) in m; each three form a triangle.
     colors
         Red, green, blue and alpha of each vertex (N, 4).
 
@@ -77,7 +77,7 @@ def glb_of(vertices: NDArray[np.float32], colors: NDArray[np.uint8]) -> bytes:
 
 
 def _linear(colors: NDArray[np.uint8]) -> NDArray[np.uint16]:
-    """Return the light of colours (n, 4) of a screen; the last column, alpha, is left as it is."""
+    """Convert colours (n, 4) from sRGB to linear; the last column, alpha, is unchanged."""
     parts = colors / 255.0
     light = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
     light[:, 3] = parts[:, 3]
@@ -89,7 +89,7 @@ def _view(offset: int, length: int) -> dict[str, int]:
 
 
 def _packed(text: bytes, data: bytes) -> bytes:
-    """Return the file: a header, and two chunks whose lengths are multiples of four."""
+    """Assemble the file: a header, and two chunks whose lengths are multiples of four."""
     text += b' ' * (-len(text) % 4)
     chunks = struct.pack('<I4s', len(text), b'JSON') + text
     chunks += struct.pack('<I4s', len(data), b'BIN\0') + data

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A window of the page that shows a picture."""
+"""A window of the page that shows an image."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WIDTH, GAP = 320, 15
 
 class ImageWindow:
     """
-    A window that can be moved; it opens below on the left, beside those that are open.
+    A movable window; it opens at the bottom left, beside the windows already open.
 
     Parameters
     ----------
@@ -22,12 +22,12 @@ class ImageWindow:
     title
         The title of the window.
     quality
-        The quality of the JPEG images that browsers get, from 0 to 100.
+        The quality of the JPEG images sent to browsers, from 0 to 100.
 
     """
 
     _taken: ClassVar[WeakKeyDictionary[Any, set[int]]] = WeakKeyDictionary()
-    """Places of open windows by page."""
+    """The places of open windows, by page."""
 
     def __init__(self, server: Any, title: str, quality: int) -> None:
         self._server = server
@@ -42,7 +42,7 @@ class ImageWindow:
 
     def show(self, pixels: Any) -> None:
         """
-        Show an image, in place of the one before.
+        Show an image, replacing the previous one.
 
         Parameters
         ----------

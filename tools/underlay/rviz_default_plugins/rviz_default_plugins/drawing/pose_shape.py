@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arrow or the axes that show a pose, with the properties that they have in files."""
+"""The arrow or the axes that show a pose, and their properties."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def pose_shape_properties(shape: str, below: str = '') -> tuple[Property, ...]:
     shape
         The path of the property that chooses between the two.
     below
-        The beginning of the paths of the others, such as `Shape/`.
+        The prefix of the paths of the others, such as `Shape/`.
 
     """
     return (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Surfaces of simple bodies, as triangles."""
+"""Triangle meshes of simple bodies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ['Surface', 'arrow', 'cone', 'cube', 'revolved', 'sphere']
 
 
 class Surface(NamedTuple):
-    """Corners in metres, and which three of them each triangle has."""
+    """Vertices in metres, and the indices of those of each triangle."""
 
     vertices: NDArray[Any]
     faces: NDArray[Any]
@@ -27,7 +27,7 @@ def revolved(profile: Sequence[tuple[float, float]], segments: int = 12) -> Surf
     Parameters
     ----------
     profile
-        Pairs of x and radius, in m, in the direction of growing x.
+        Pairs of x and radius, in m, in order of increasing x.
     segments
         The number of vertices around the axis for each pair.
 
@@ -79,14 +79,14 @@ def arrow(
 @lru_cache(maxsize=64)
 def cone(length: float, radius: float) -> Surface:
     """
-    Make a cone with its tip at the origin, which opens along the x axis.
+    Make a cone with its tip at the origin that opens along the x axis.
 
     Parameters
     ----------
     length
         From the tip to the base, in m.
     radius
-        That of the base, in m.
+        The radius of the base, in m.
 
     """
     return revolved(((0.0, 0.0), (length, radius), (length, 0.0)), 24)
@@ -109,7 +109,7 @@ def sphere(rings: int = 8) -> Surface:
 
 @lru_cache(maxsize=64)
 def cube() -> Surface:
-    """Return a cube with edges of length 1 around the origin."""
+    """Make a cube with edges of length 1 around the origin."""
     corners = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
     squares = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     faces = [face for a, b, c, d in squares for face in ((a, b, c), (a, c, d))]

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the markers of `visualization_msgs`."""
+"""Drawing of the markers of `visualization_msgs`."""

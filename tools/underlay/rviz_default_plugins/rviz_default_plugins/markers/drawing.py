@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw markers by their type."""
+"""Drawing of markers by type."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def draw_look(canvas: Canvas, look: Look) -> None:
     canvas
         Where to draw, below the node that has the pose of the marker.
     look
-        What the marker looks like.
+        The look of the marker.
 
     Raises
     ------
     ValueError
-        The type is unknown, or the marker has nothing to be seen, such as a scale of zero.
+        The type is unknown, or the marker is invisible, such as with a scale of zero.
     MeshIsBeingRead
-        Its mesh cannot be drawn yet. This is a ValueError, too.
+        Its mesh has not been read yet. This is also a ValueError.
 
     """
     draw = DRAWINGS.get(look.kind)
@@ -57,7 +57,7 @@ def draw_look(canvas: Canvas, look: Look) -> None:
 
 
 def _check_scale(look: Look) -> None:
-    """Refuse a scale that leaves nothing to be seen."""
+    """Reject a scale that makes the marker invisible."""
     names = SCALES.get(look.kind, 'xyz')
     if look.kind == Marker.ARROW and len(look.points):
         names = 'xy'
@@ -222,4 +222,4 @@ SCALES = {
     Marker.TEXT_VIEW_FACING: 'z',
     Marker.ARROW_STRIP: 'xy',
 }
-"""Which parts of the scale count; all of them for other types."""
+"""The components of the scale that are used, by marker type; all for other types."""

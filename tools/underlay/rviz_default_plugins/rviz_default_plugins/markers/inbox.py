@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The markers that have come since the last frame."""
+"""The queue of markers that arrived since the last frame."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from visualization_msgs.msg import Marker
 __all__ = ['Coming', 'Inbox', 'Key']
 
 Key = tuple[str, int]
-"""The namespace of a marker, and its number in that."""
+"""The namespace of a marker, and its id."""
 
 
 class Coming(NamedTuple):
-    """The newest message on a marker, and when it came in nanoseconds of the node's clock."""
+    """The newest message of a marker, and its reception time in ns of the node's clock."""
 
     marker: Any
     came_ns: int
 
 
 class Inbox:
-    """What is to be done with markers; of each only the newest counts, as it replaces others."""
+    """Queue of marker messages; a newer message replaces an older one of the same marker."""
 
     def __init__(self) -> None:
         self.deletes_all = False
@@ -30,21 +30,21 @@ class Inbox:
 
     def put(self, marker: Any, came_ns: int) -> None:
         """
-        Queue a marker, in place of an older one with the same namespace and id.
+        Queue a marker, replacing an older one with the same namespace and id.
 
         Parameters
         ----------
         marker
-            The message, of the type `visualization_msgs/msg/Marker`. One that deletes all also
-            drops those that wait.
+            The message, of the type `visualization_msgs/msg/Marker`. DELETEALL also drops
+            the queued ones.
         came_ns
-            When it came, in ns of the node's clock.
+            Its time of reception, in ns of the node's clock.
 
         """
         if marker.action == Marker.DELETEALL:
             self.deletes_all = True
             self.coming = {}
-        elif marker.action in (Marker.ADD, Marker.DELETE):  # MODIFY has the number of ADD
+        elif marker.action in (Marker.ADD, Marker.DELETE):  # MODIFY has the same value as ADD
             key = marker.ns, marker.id
             self.coming.pop(key, None)
             self.coming[key] = Coming(marker, came_ns)
@@ -56,12 +56,12 @@ class Inbox:
 
     def take_some(self, most: int) -> list[tuple[Key, Coming]]:
         """
-        Take the oldest markers out of the queue; the others stay for the next frame.
+        Remove and return the oldest markers in the queue; the rest wait for the next frame.
 
         Parameters
         ----------
         most
-            The largest number of markers to take.
+            The maximum number of markers to return.
 
         Returns
         -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a marker looks like, apart from where it is."""
+"""The look of a marker, independent of its pose."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from visualization_msgs.msg import Marker
 __all__ = ['Look', 'look_of']
 
 MOST = 200_000
-"""How many points of a marker are shown."""
+"""The maximum number of points of a marker that are shown."""
 
-# How many points belong together, so that none may be left out alone.
+# The number of points that belong together and are only dropped together.
 GROUPS = {Marker.LINE_LIST: 2, Marker.TRIANGLE_LIST: 3}
 
 Colors = NDArray[np.uint8]
@@ -26,10 +26,10 @@ Colors = NDArray[np.uint8]
 @dataclass(frozen=True)
 class Look:
     """
-    What a marker looks like, checked.
+    The validated look of a marker.
 
-    Colours are from 0 to 255; there is one for each point, or each triangle, or none. What is
-    worth knowing of it is said by `note`.
+    Colours are from 0 to 255; there is one for each point, or each triangle, or none. `note` is
+    a remark for the user, such as on points that were left out.
     """
 
     kind: int
@@ -45,12 +45,12 @@ class Look:
 
     def is_like(self, other: Look | None) -> bool:
         """
-        Whether nothing has to be drawn anew, in place of another look.
+        Whether another look is the same, so that nothing has to be redrawn.
 
         Parameters
         ----------
         other
-            What is drawn now, None for nothing.
+            The look that is drawn now, None for nothing.
 
         """
         return other is not None and self._parts() == other._parts() and self._same_points(other)
@@ -68,7 +68,7 @@ class Look:
 
 def look_of(marker: Any) -> Look:
     """
-    Validate a marker, and convert what it looks like.
+    Validate a marker, and extract its look.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def _color(color: Any) -> tuple[tuple[int, int, int], float]:
 
 
 def _points(marker: Any) -> tuple[Points, NDArray[np.float32] | None, str]:
-    """Return points and colours, whole groups of which may be left out, and a note on that."""
+    """Return points and colours, downsampled in whole groups, and a note on that."""
     count, colors = len(marker.points), len(marker.colors)
     group = GROUPS.get(marker.type, 1)
     if count % group:
@@ -125,7 +125,7 @@ def _points(marker: Any) -> tuple[Points, NDArray[np.float32] | None, str]:
 
 
 def _each(values: Any, group: int, step: int) -> Any:
-    """Return each n-th group of values."""
+    """Return every n-th group of values."""
     if step == 1:
         return values
     starts = range(0, len(values), group * step)

@@ -15,9 +15,9 @@ from visualization_msgs.msg import Marker
 __all__ = ['MarkerScene']
 
 MOST = 5000
-"""How many markers are shown."""
+"""The maximum number of markers that are shown."""
 MOST_PER_FRAME = 200
-"""How many are drawn in one frame; the others follow in the next ones."""
+"""The maximum number drawn in one frame; the others follow in the next frames."""
 
 
 class MarkerScene:
@@ -54,7 +54,7 @@ class MarkerScene:
         markers
             Messages of the type `visualization_msgs/msg/Marker`.
         now_ns
-            The time in ns of the node's clock, at which their lifetimes begin.
+            The time in ns of the node's clock, at which their lifetimes start.
 
         """
         for marker in markers:
@@ -90,7 +90,7 @@ class MarkerScene:
         self._say()
 
     def _take_inbox(self) -> None:
-        """Do what has come; a marker that is deleted and comes again stays, and changes."""
+        """Apply the queued messages; a marker that is deleted and added again is only updated."""
         inbox = self._inbox
         if inbox.deletes_all:
             inbox.deletes_all = False
@@ -126,7 +126,7 @@ class MarkerScene:
             self._remove(key)
 
     def _follow(self) -> None:
-        """Place markers where their frames are; each frame is asked for once."""
+        """Move the markers with their frames; each frame is looked up once."""
         poses: dict[tuple[str, int], Pose | FrameError] = {}
         for marker in self._shown.values():
             if not marker.needs_pose:
@@ -152,7 +152,7 @@ class MarkerScene:
             return error
 
     def _say(self) -> None:
-        """Say which markers are not shown, and why the first of them is not."""
+        """Report the markers that are not shown, and the reason for the first of them."""
         self._say_first('Markers', Level.ERROR, 'not shown', lambda shown: shown.problem)
         self._say_first('Notes', Level.WARN, 'not as meant', lambda shown: shown.note)
         if self._inbox.refusal:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the mesh that a marker names."""
+"""Drawing of mesh markers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ONE_AT_A_TIME = Lock()
 
 
 class MeshIsBeingRead(ValueError):
-    """A mesh that cannot be drawn yet."""
+    """The mesh has not been read yet."""
 
 
 def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
@@ -36,16 +36,16 @@ def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
     canvas
         Where to draw.
     name
-        The beginning of the names of the nodes, below the root of the canvas.
+        The prefix of the names of the nodes, below the root of the canvas.
     look
-        What the marker looks like.
+        The look of the marker.
 
     Raises
     ------
     ValueError
         The mesh cannot be found or read.
     MeshIsBeingRead
-        It cannot be drawn yet. This is a ValueError, too.
+        It has not been read yet. This is also a ValueError.
 
     """
     resource, has_own_colors = look.mesh
@@ -75,7 +75,7 @@ def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
 
 
 def _mesh(resource: str) -> DrawnMesh:
-    """Return a mesh, or raise ValueError; MeshError is one."""
+    """Return a mesh, or raise ValueError, of which MeshError is a subclass."""
     path = find_mesh(resource)
     try:
         changed_ns = path.stat().st_mtime_ns
@@ -89,7 +89,7 @@ def _mesh(resource: str) -> DrawnMesh:
 
 @lru_cache(maxsize=256)
 def _reading(path: Path, resource: str, changed_ns: int) -> Future[DrawnMesh]:
-    """Begin to read a mesh, which may take seconds, while all else goes on."""
+    """Start reading a mesh in the background, which may take seconds."""
     reading: Future[DrawnMesh] = Future()
 
     def read() -> None:
@@ -98,7 +98,7 @@ def _reading(path: Path, resource: str, changed_ns: int) -> Future[DrawnMesh]:
                 reading.set_result(load_mesh(path, resource))
         except OSError as error:
             reading.set_exception(ValueError(f"'{resource}' cannot be read: {error.strerror}."))
-        except Exception as error:  # who waits for the mesh is to have it
+        except Exception as error:  # the exception is passed on to those waiting for the mesh
             reading.set_exception(error)
 
     Thread(target=read, name='mesh', daemon=True).start()

@@ -27,23 +27,23 @@ NO_ROTATION: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 class ShownMarker:
     """
-    A marker in the scene, which may be changed by further messages.
+    A marker in the scene, which further messages may change.
 
     Parameters
     ----------
     scene
         The scene of the viser server.
     place
-        The path of the scene where it is drawn.
+        The path of the marker in the scene.
 
     Attributes
     ----------
     problem
         Why it is not shown, '' if it is.
     note
-        What else there is to know.
+        A remark for the user.
     frame_id, stamp_ns
-        The frame that it is in, and the time in ns at which that counts; 0 for the latest.
+        Its frame, and the time in ns of the transform; 0 for the latest.
     is_locked
         Whether it follows its frame.
 
@@ -66,12 +66,12 @@ class ShownMarker:
 
     def change(self, coming: Coming) -> None:
         """
-        Draw the marker as a message says; an invalid one leaves nothing to be seen.
+        Draw the marker from a message; an invalid one removes it from the scene.
 
         Parameters
         ----------
         coming
-            The message, of the action ADD, and when it came.
+            The message, with the action ADD, and its time of reception.
 
         """
         marker = coming.marker
@@ -89,12 +89,12 @@ class ShownMarker:
             self.remove()
 
     def finish(self) -> None:
-        """Draw what had to wait for a mesh."""
+        """Draw the marker if it was waiting for a mesh."""
         if self._unfinished is not None:
             self.change(self._unfinished)
 
     def remove(self) -> None:
-        """Remove it from the scene."""
+        """Remove the marker from the scene."""
         if self._node is not None:
             self._node.remove()
         self._node = self._look = None
@@ -114,12 +114,12 @@ class ShownMarker:
 
     @property
     def needs_pose(self) -> bool:
-        """Tell if it has to be known where its frame is."""
+        """Whether the pose of its frame is needed."""
         return self._node is not None and (self.is_locked or not self._is_placed)
 
     def place(self, frame: Pose) -> None:
         """
-        Move the marker to where its frame is.
+        Move the marker to the pose of its frame.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class ShownMarker:
         self._node.wxyz = joined(frame.wxyz, self._own.wxyz)
 
     def move_anew(self) -> None:
-        """Have its place found anew, since the fixed frame has changed."""
+        """Request a new placement, since the fixed frame has changed."""
         self._is_placed = False
 
     def show(self, is_shown: bool) -> None:
@@ -146,7 +146,7 @@ class ShownMarker:
         Parameters
         ----------
         is_shown
-            Whether it is to be seen.
+            Whether it is to be visible.
 
         """
         if self._node is not None and self._is_shown != is_shown:
@@ -154,7 +154,7 @@ class ShownMarker:
 
     @property
     def is_placed(self) -> bool:
-        """Tell if it is known where it is."""
+        """Whether it has been placed."""
         return self._is_placed
 
     def _set_place(self, marker: Any) -> None:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the robot that a URDF describes."""
+"""Drawing of the robot described by a URDF."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the description of a robot comes from: a topic, or a file."""
+"""The source of a robot description: a topic, or a file."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ Take = Callable[[str, str], None]
 
 class DescriptionTopic:
     """
-    Subscription of the robot descriptions that come on a topic.
+    Subscription to the robot descriptions on a topic.
 
-    It always asks for the one from before: that is how robot_state_publisher publishes, and files
-    of RViz say Volatile nevertheless. Who publishes without keeping is heard too.
+    It is always transient local, as robot_state_publisher is, although files of RViz set
+    Volatile. Volatile publishers are received, too.
 
     Parameters
     ----------
@@ -33,12 +33,12 @@ class DescriptionTopic:
     take
         Called with each description and the name of the topic.
     qos
-        The quality of service, whose durability does not count; by default a depth of 1.
+        The QoS profile, whose durability is ignored; by default a depth of 1.
 
     Raises
     ------
     ValueError
-        The name is empty, or no name of a topic.
+        The name is empty, or not a valid topic name.
 
     """
 
@@ -50,11 +50,11 @@ class DescriptionTopic:
         try:
             for durability in (DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE):
                 self._subscribe(durability, qos or QoSProfile(depth=1))
-        except Exception as error:  # rclpy has no one exception for bad names
+        except Exception as error:  # rclpy has no single exception for invalid names
             raise ValueError(f"'{name}' cannot be subscribed: {error}") from error
 
     def close(self) -> None:
-        """Subscribe no longer."""
+        """Unsubscribe."""
         for subscription in self._subscriptions:
             self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
@@ -83,7 +83,7 @@ def read_description(name: str) -> str:
     Parameters
     ----------
     name
-        An absolute path, or one that begins with `package://` or `file://`.
+        An absolute path, or a URL that starts with `package://` or `file://`.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make bodies a little larger, so that they are seen around others at the same place."""
+"""Inflation of bodies, so that they are visible around others at the same place."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from urdf import Box, Capsule, Cylinder, Geometry, Mesh, Shape, Sphere
 __all__ = ['inflated']
 
 MESH_SIZE_M = 0.3
-"""How large meshes are taken to be; how large they are is only known when they are read."""
+"""The assumed size of meshes, whose actual size is only known once they are read."""
 
 
 def inflated(shape: Shape, margin_m: float) -> Shape:
     """
-    Enlarge a body, so that its surface is everywhere farther out by a margin.
+    Enlarge a body, so that its whole surface moves outwards by a margin.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node of the scene that a link is drawn below."""
+"""The node of the scene for a link."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ __all__ = ['LinkNode']
 
 class LinkNode:
     """
-    A node of the scene that is sent to browsers only when it moves, and only what changes of it.
+    A node of the scene of which only changes are sent to browsers.
 
     Parameters
     ----------
     handle
-        The handle of viser for a node that is not visible, at the origin.
+        The handle of viser for an invisible node at the origin.
 
     """
 
@@ -27,12 +27,12 @@ class LinkNode:
 
     def place(self, pose: Pose | None) -> None:
         """
-        Move the node, and show it; hide it with all below it if its pose is not known.
+        Move the node, and show it; hide it and all nodes below it if its pose is unknown.
 
         Parameters
         ----------
         pose
-            The pose in the node above, None if it is not known.
+            The pose relative to the parent node, None if it is unknown.
 
         """
         if (pose is not None) != self._is_visible:

@@ -17,7 +17,7 @@ Faces = NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class Surface:
-    """Triangles of one colour, if the file has one; `glb` is the same with all its colours."""
+    """Triangles, with their colour if they have one; `glb` has all colours and textures."""
 
     vertices: Vertices
     faces: Faces
@@ -27,7 +27,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class DrawnMesh:
-    """What a file has, in metres; `warning` says if that is not all of it."""
+    """The contents of a mesh file, in metres; `warning` reports if they are incomplete."""
 
     surfaces: tuple[Surface, ...]
     is_flat: bool = False
@@ -35,5 +35,5 @@ class DrawnMesh:
 
     @property
     def triangle_count(self) -> int:
-        """Return how many triangles it has."""
+        """The number of triangles."""
         return sum(len(surface.faces) for surface in self.surfaces)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The error that refuses a mesh."""
+"""The error for a mesh that cannot be shown."""
 
 from __future__ import annotations
 

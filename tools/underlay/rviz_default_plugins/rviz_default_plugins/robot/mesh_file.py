@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the file that a URDF names."""
+"""Resolution of the file names in a URDF."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def find_mesh(name: str) -> Path:
     Raises
     ------
     MeshError
-        There is no such file, or it is of no kind that can be shown.
+        There is no such file, or its format is not supported.
 
     """
     path = find_file(name)
@@ -44,7 +44,7 @@ def find_mesh(name: str) -> Path:
 
 def folder_of(name: str) -> Path:
     """
-    Find the folder whose files a mesh may use: its package, or else the one that it is in.
+    Find the folder whose files a mesh may use: its package, or else its own folder.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def folder_of(name: str) -> Path:
     Raises
     ------
     MeshError
-        The name is not valid, or its package is not installed.
+        The name is invalid, or its package is not installed.
 
     """
     path = find_file(name)
@@ -72,7 +72,7 @@ def find_file(name: str) -> Path:
     Parameters
     ----------
     name
-        An absolute path, or one that begins with `package://` or `file://`.
+        An absolute path, or a URL that starts with `package://` or `file://`.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def find_file(name: str) -> Path:
     Raises
     ------
     MeshError
-        The name is not valid, or its package is not installed.
+        The name is invalid, or its package is not installed.
 
     """
     if os.path.isabs(name):
@@ -121,7 +121,7 @@ def _in_package(name: str, package: str, inside: str) -> Path:
 
 
 def _share(name: str, package: str) -> Path:
-    """Return where a package has its files."""
+    """Return the share folder of a package."""
     from ament_index_python.packages import (
         get_package_share_directory,
         get_packages_with_prefixes,
@@ -139,7 +139,7 @@ def _share(name: str, package: str) -> Path:
 
 
 def _meant(path: Path) -> str:
-    """Ask if the file beside it is meant whose name is close."""
+    """Suggest a file in the same folder with a similar name."""
     try:
         beside = [each.name for each in path.parent.iterdir() if each.name != path.name]
     except OSError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the files of meshes."""
+"""Loading of mesh files."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
     """
     Read a mesh; one with too many triangles is simplified.
 
-    What the file names besides, such as textures, must be in the folder, or beside the file.
+    Other files that it refers to, such as textures, must be in the folder.
 
     Parameters
     ----------
     path
         The file.
     name
-        What the file is called in error messages.
+        The name of the file in error messages.
     folder
-        The folder whose files the mesh may use; by default the one that it is in.
+        The folder whose files the mesh may use; by default its own folder.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
 
 
 def _bodies(path: Path, name: str, folder: Path) -> list[Any]:
-    """Return the bodies of a file, each where it is in the whole."""
+    """Return the bodies of a file, transformed to the frame of the whole mesh."""
     from rviz_default_plugins.robot.nearby_files import NearbyFiles
     import trimesh
 
@@ -77,10 +77,10 @@ def _bodies(path: Path, name: str, folder: Path) -> list[Any]:
                 file_type=path.suffix[1:].lower(),
                 resolver=NearbyFiles(path, folder),
             )
-        if path.suffix.lower() == '.dae':  # the only kind that says what its unit is
+        if path.suffix.lower() == '.dae':  # the only format that defines its unit
             scene = scene.convert_units('meters')
         return [body for body in scene.dump() if isinstance(body, trimesh.Trimesh)]
-    except Exception as error:  # each reader has errors of its own
+    except Exception as error:  # each reader raises its own exceptions
         raise MeshError(f"'{name}' cannot be read: {_first_line(error)}") from error
 
 
@@ -100,7 +100,7 @@ def _surface(body: Any) -> Surface:
 
 
 def _colors(body: Any) -> tuple[Color | None, bool]:
-    """Return the colour of a body, if it has one, and whether it has more than that."""
+    """Return the colour of a body, if any, and whether it has several or a texture."""
     visual = body.visual
     if not visual.defined:
         return None, False
@@ -119,7 +119,7 @@ def _color(given: Any) -> Color:
 
 
 def _thinned(bodies: list[Any], count: int, is_flat: bool, name: str) -> DrawnMesh:
-    """Return what is left of bodies with too many triangles; each keeps its share of them."""
+    """Simplify bodies with too many triangles; each keeps its share of the limit."""
     surfaces = []
     for body in bodies:
         share = max(1, len(body.faces) * MAX_TRIANGLES // count)

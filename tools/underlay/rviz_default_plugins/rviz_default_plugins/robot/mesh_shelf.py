@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The meshes of a robot."""
+"""The mesh cache of a robot."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class MeshShelf:
     Parameters
     ----------
     before
-        Another cache, whose meshes are used as long as their files stay as they are.
+        Another cache, whose meshes are reused as long as their files are unchanged.
 
     Attributes
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a mesh of fewer triangles."""
+"""Mesh simplification."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def thinned(vertices: Vertices, faces: Faces, limit: int) -> tuple[Vertices, Fac
     faces
         The indices of the vertices of each triangle (M, 3).
     limit
-        The largest number of triangles of the result.
+        The maximum number of triangles of the result.
 
     Returns
     -------
     tuple[Vertices, Faces]
-        Fewer vertices and triangles, of the same form.
+        Fewer vertices and triangles, in the same format.
 
     """
     lowest = vertices.min(axis=0)
@@ -43,7 +43,7 @@ def thinned(vertices: Vertices, faces: Faces, limit: int) -> tuple[Vertices, Fac
 
 
 def _weights(cells: int) -> tuple[int, int, int]:
-    """Return what gives each cell a number of its own."""
+    """Return the index strides that give each cell a unique number."""
     return 1, cells + 1, (cells + 1) ** 2
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say why links of a robot are not shown, and who could help."""
+"""Reports on links without a transform, with hints on the cause."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ def say_missing(
     prefix: str,
 ) -> None:
     """
-    Report in the status which links of a robot have no transform, in place of those before.
+    Report the links of a robot without a transform in the status, replacing earlier reports.
 
     Parameters
     ----------
     status
         The status of the display.
     unknown
-        The joints whose pose is not known.
+        The joints whose pose is unknown.
     model
         The robot.
     frames
-        The names of the frames that are known, among which a wrong prefix is recognised.
+        The names of the known frames, used to detect a wrong prefix.
     prefix
-        What comes before the links in the names of frames, with a slash at the end, or ''.
+        The prefix of the links in the names of frames, with a trailing slash, or ''.
 
     """
     for subject, _, _ in status.items():
@@ -72,7 +72,7 @@ def _reason(joint: Joint) -> str:
 
 
 def _nobody(joint: Joint, frames: Iterable[str], prefix: str) -> str:
-    """Say what to do if there is no transform at all: to start who publishes, or another name."""
+    """Suggest a remedy if there is no transform at all: a publisher, or another prefix."""
     what = f'{_no_transform(joint, prefix)}, nor of any other link: nobody publishes them.'
     for name in sorted(frames):
         if name.endswith(f'/{joint.child}') and name != prefix + joint.child:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files that the file of a mesh names: materials and pictures."""
+"""The files that a mesh file refers to: materials and textures."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ __all__ = ['NearbyFiles']
 
 class NearbyFiles(FilePathResolver):
     """
-    Resolver of files by their paths from a mesh, as long as these stay in a folder.
+    Resolver of file paths relative to a mesh, restricted to a folder.
 
-    Only the paths count: the files themselves may be symbolic links out of the folder, as colcon
-    installs them with --symlink-install.
+    Only the paths are checked: the files themselves may be symbolic links out of the folder, as
+    colcon installs them with --symlink-install.
 
     Parameters
     ----------
     mesh
         The file of the mesh.
     folder
-        The folder, which is above it.
+        The folder, which contains it.
 
     """
 
@@ -38,7 +38,7 @@ class NearbyFiles(FilePathResolver):
         Parameters
         ----------
         name
-            Its path from the folder of the mesh.
+            Its path relative to the folder of the mesh.
 
         Raises
         ------

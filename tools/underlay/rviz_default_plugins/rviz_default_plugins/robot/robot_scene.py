@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes of the scene that a robot consists of."""
+"""The nodes of the scene for a robot."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ AXES_M = 0.1
 
 @dataclass(frozen=True)
 class Look:
-    """What of a robot is shown, and how."""
+    """The look of a robot: the parts that are shown, and how."""
 
     visuals: bool = True
     collisions: bool = False
     alpha: float = 1.0
     color: Color | None = None
-    """A colour for all, or None for the colours of the description."""
+    """A colour for all bodies, or None for the colours of the description."""
     margin_m: float = 0.0
-    """How much larger all is than it should be, on each side."""
+    """The inflation of all bodies, on each side."""
     links: Parts = field(default_factory=lambda: Parts(None))
 
     def shapes(self, link: Link) -> list[tuple[str, Shape]]:
@@ -69,8 +69,8 @@ class RobotScene:
     """
     The links of a robot as nodes of the scene, each below the node of its parent link.
 
-    So a joint that turns is one rotation that is sent, however much hangs from it. A link without
-    a place is not seen, and neither is what hangs from it. Nothing is seen before `place`.
+    So the motion of a joint is sent as a single pose, however many links are below it. A link
+    whose pose is unknown is hidden with all links below it. Nothing is visible before `place`.
 
     Parameters
     ----------
@@ -81,14 +81,14 @@ class RobotScene:
     model
         The robot.
     look
-        What of it is shown, and how.
+        The parts that are shown, and how.
     meshes
         The meshes, by the names in the URDF.
 
     Attributes
     ----------
     left_out
-        How many bodies are not drawn, since there are more than `MAX_SHAPES`.
+        The number of bodies that are not drawn, since there are more than `MAX_SHAPES`.
 
     """
 
@@ -115,19 +115,19 @@ class RobotScene:
 
     def place(self, root: Pose | None, pose_of: PoseOf) -> list[Joint]:
         """
-        Move the links; those whose pose is not known are hidden, with all that hangs from them.
+        Move the links; hide those whose pose is unknown, with all links below them.
 
         Parameters
         ----------
         root
-            The pose of the root link in the fixed frame, None if it is not known.
+            The pose of the root link in the fixed frame, None if it is unknown.
         pose_of
             Returns for a joint the pose of its child link in its parent link, or None.
 
         Returns
         -------
         list[Joint]
-            The joints whose pose is not known.
+            The joints whose pose is unknown.
 
         """
         self._root.place(root)
@@ -165,7 +165,7 @@ class RobotScene:
 
 def downwards(model: RobotModel) -> Iterator[Joint]:
     """
-    Iterate over the joints of a robot from the root on, each after the one that it hangs from.
+    Iterate over the joints of a robot from the root, each after its parent joint.
 
     Parameters
     ----------
@@ -189,5 +189,5 @@ def downwards(model: RobotModel) -> Iterator[Joint]:
 
 
 def _named(link: str) -> str:
-    """Return the name of a link as part of a path, which has a meaning for slashes."""
+    """Escape the name of a link for a path of the scene, in which slashes are separators."""
     return quote(link, safe='')

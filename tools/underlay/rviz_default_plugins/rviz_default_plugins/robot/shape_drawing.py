@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the bodies of links."""
+"""Drawing of the bodies of links."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def draw_shape(
     tint: Color | None = None,
 ) -> None:
     """
-    Draw a body of a link, in its own colours or in one for all.
+    Draw a body of a link, in its own colours or in a tint.
 
     A mesh that has not been read is left out.
 
@@ -37,7 +37,7 @@ def draw_shape(
     scene
         The scene of the viser server.
     path
-        The path of the scene for the body; its origin is relative to the node above.
+        The path of the scene for the body; its origin is relative to the parent node.
     shape
         The body.
     alpha
@@ -45,7 +45,7 @@ def draw_shape(
     meshes
         The meshes that have been read, by the names in the URDF.
     tint
-        The colour in place of its own, None to keep those.
+        The colour that replaces its own colours, None to keep those.
 
     """
     x, y, z, w = rotation_of(shape.origin.rpy)
@@ -68,7 +68,7 @@ def draw_shape(
 
 
 def _look(color: Color, alpha: float) -> dict[str, Any]:
-    """Return colour and opacity; what is opaque is drawn faster if it says so."""
+    """Return colour and opacity, None if opaque, which is drawn faster."""
     opacity = color[3] * alpha
     return {
         'color': tuple(round(255 * part) for part in color[:3]),

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the frames of tf."""
+"""Drawing of the frames of tf."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long nothing has been heard of frames."""
+"""The age of frames: the time since their last update."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['Age', 'Ageing']
 
 
 class Age(Enum):
-    """How fresh a frame is: shown, shown grey, or not shown."""
+    """The freshness of a frame: shown, shown grey, or not shown."""
 
     FRESH = 'fresh'
     OLD = 'old'
@@ -21,9 +21,9 @@ class Age(Enum):
 
 class Ageing:
     """
-    Watches when frames are heard of; those that do not move never grow old.
+    Tracks the last update of each frame; static frames never become old.
 
-    A frame is old after a third of the time-out. What has the same stamp as before is not new.
+    A frame is old after a third of the time-out. A sample with an unchanged stamp is no update.
     """
 
     def __init__(self) -> None:
@@ -31,7 +31,7 @@ class Ageing:
 
     def hear(self, samples: Mapping[str, Sample], now_s: float) -> None:
         """
-        Note which frames have been heard of since the last call.
+        Record the frames that were updated since the last call.
 
         Parameters
         ----------
@@ -50,7 +50,7 @@ class Ageing:
 
     def age(self, frame: str, now_s: float, timeout_s: float) -> Age:
         """
-        Compute how fresh a frame is; one that is only known as a parent is fresh.
+        Compute the freshness of a frame; one that is only known as a parent is fresh.
 
         Parameters
         ----------
@@ -59,7 +59,7 @@ class Ageing:
         now_s
             The time in s, of the clock that `hear` uses.
         timeout_s
-            After how long without news the frame is gone; it is old after a third of it.
+            The time without updates after which the frame is gone; it is old after a third of it.
 
         """
         stamp_ns, heard_s = self._heard.get(frame, (0, now_s))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which frames are shown."""
+"""The filter of frames by name."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ __all__ = ['FrameFilter']
 
 class FrameFilter:
     """
-    Filter of frames by two regular expressions, which are searched for in their names.
+    Filter of frames by two regular expressions, matched anywhere in their names.
 
     Parameters
     ----------
     shown
-        Must be found in the names of frames that are shown; '' for any name.
+        Must match the names of frames that are shown; '' for any name.
     hidden
-        Must not be found in them; '' to hide none.
+        Must not match them; '' to hide none.
 
     Raises
     ------
     ValueError
-        One of them is no regular expression.
+        One of them is not a valid regular expression.
 
     """
 

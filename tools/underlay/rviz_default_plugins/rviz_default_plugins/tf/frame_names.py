@@ -24,9 +24,9 @@ Place = tuple[float, float, float]
 
 class FrameNames:
     """
-    A label at each frame, which moves when its frame has moved so far that one sees it.
+    Labels at the frames, each of which is updated when its frame has moved visibly.
 
-    Each label is a message of its own. If many move, they take turns.
+    Each label is a separate message. If many move, they are updated in turn.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class FrameNames:
     def __init__(self, scene: SceneApi, path: str, scale: float) -> None:
         self._scene, self._path, self._scale = scene, path, scale
         self._labels: dict[str, LabelHandle] = {}
-        # The label that has not moved for the longest time is first.
+        # The label that was updated least recently comes first.
         self._places: dict[str, Place] = {}
 
     def show(self, poses: Mapping[str, Pose]) -> None:

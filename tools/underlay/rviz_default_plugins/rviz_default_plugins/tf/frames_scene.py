@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes of the scene that show frames: few, however many frames there are."""
+"""The nodes of the scene for frames: few, however many frames there are."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ RADIUS_M = 0.02
 GREY = (110, 110, 110)
 ARROW = (204, 204, 77)
 Segments = NDArray[np.float32]
-"""Beginnings and ends, N x 2 x 3."""
+"""Start and end points, N x 2 x 3."""
 
 
 @dataclass(frozen=True)
 class FrameStyle:
-    """What is shown of frames, and how large."""
+    """The parts of frames that are shown, and their size."""
 
     axes: bool = True
     names: bool = False
@@ -37,7 +37,7 @@ class FrameStyle:
 
 class FramesScene:
     """
-    Axes, arrows and names of frames: a node for all of a kind, and one for each name.
+    Axes, arrows and names of frames: one node for all axes or arrows, and one for each name.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class FramesScene:
     path
         The path of the scene below which the nodes are.
     style
-        What of the frames is shown, and how large.
+        The parts of frames that are shown, and their size.
 
     """
 
@@ -60,7 +60,7 @@ class FramesScene:
 
     def show(self, fresh: Mapping[str, Pose], old: Mapping[str, Pose], arrows: Segments) -> None:
         """
-        Show frames as far as the style wants it, in place of those before.
+        Show frames according to the style, replacing the previous ones.
 
         Parameters
         ----------
@@ -130,7 +130,7 @@ class FramesScene:
 
 
 def _keeps(node: Any, segments: Segments) -> bool:
-    """Tell if a node has as many segments; browsers do not like to change that."""
+    """Whether a node has the same number of segments; browsers cannot change that well."""
     return node is not None and len(node.points) == len(segments)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where all frames are in one of them."""
+"""The poses of all frames in a fixed frame."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MAX_LINKS = 1000
 
 def roots(samples: Mapping[str, Sample]) -> dict[str, tuple[str, Pose]]:
     """
-    Find the root above each frame, and the pose of the frame in it.
+    Find the root of each frame, and the pose of the frame in it.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def placed(
 
 
 def _climb(frame: str, samples: Mapping[str, Sample], found: dict[str, tuple[str, Pose]]) -> None:
-    """Find the root above a frame, and of all frames on the way."""
+    """Find the root of a frame, and of all frames on the way to it."""
     way: list[str] = []
     top = frame
     while top not in found:

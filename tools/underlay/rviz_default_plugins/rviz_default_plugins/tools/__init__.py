@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tools: what the pointer does in the scene."""
+"""The tools for the pointer in the scene."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say how far two points are from each other."""
+"""The tool that measures distances."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from rviz_common.tool import Point, Tool
 __all__ = ['Measure']
 
 ABOVE_M = 0.02
-"""The line is a little above the ground, so that it is seen."""
+"""The height of the line in m: slightly above the ground, to be visible."""
 
 
 class Measure(Tool):
     """
-    Shows how far two points of the ground are from each other.
+    Tool that measures the distance between two points on the ground.
 
     Parameters
     ----------
@@ -41,13 +41,13 @@ class Measure(Tool):
         self._drawn: list[Any] = []
 
     def lay_down(self) -> None:
-        """Be in use no longer."""
+        """Deactivate the tool."""
         self._first = None
         self._clear()
 
     def click(self, point: Point) -> bool:
         """
-        Handle the click at the first point, or at the second one.
+        Handle the click on the first or the second point.
 
         Parameters
         ----------

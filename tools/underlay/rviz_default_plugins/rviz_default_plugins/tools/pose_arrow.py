@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An arrow on the ground, which a person draws."""
+"""The arrow on the ground that a user draws."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class PoseArrow:
     Parameters
     ----------
     context
-        Has the scene.
+        The context, with the scene.
     root
-        The path of the scene where it is drawn; nothing is there before `show`.
+        The path of the arrow in the scene; no node exists before `show`.
 
     """
 
@@ -53,12 +53,12 @@ class PoseArrow:
 
     def show(self, start: Point, yaw: float) -> None:
         """
-        Draw the arrow, in place of the one before.
+        Draw the arrow, replacing the previous one.
 
         Parameters
         ----------
         start
-            Where its tail is, in m in the fixed frame.
+            The position of its tail, in m in the fixed frame.
         yaw
             Its direction, in rad from the x axis.
 
@@ -75,6 +75,6 @@ class PoseArrow:
         self._arrow.visible = True
 
     def hide(self) -> None:
-        """Draw it no longer."""
+        """Hide the arrow."""
         if self._arrow is not None:
             self._arrow.visible = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tools have in common that publish a pose on the ground."""
+"""The base class of tools that publish a pose on the ground."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ['PoseTool']
 
 class PoseTool(Publishing):
     """
-    Publishes a pose: press where, drag to where it looks, and release.
+    Tool that publishes a pose: press at its position, drag to its heading, and release.
 
     Parameters
     ----------
@@ -36,12 +36,12 @@ class PoseTool(Publishing):
         self._arrow = PoseArrow(context, root)
 
     def lay_down(self) -> None:
-        """Be in use no longer."""
+        """Deactivate the tool."""
         self._arrow.hide()
 
     def click(self, point: Point) -> bool:
         """
-        Publish a pose that looks along the x axis.
+        Publish a pose that faces along the x axis.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class PoseTool(Publishing):
         Parameters
         ----------
         pose
-            The pose to change, without a rotation so far.
+            The pose to set, with the identity rotation.
         point, yaw
             As for `message`.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where a point is."""
+"""The tool that publishes a clicked point."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['PublishPoint']
 
 
 class PublishPoint(Publishing):
-    """Publishes the point of the ground that is clicked."""
+    """Tool that publishes the clicked point on the ground."""
 
     CLASS = 'rviz_default_plugins/PublishPoint'
     NAME = 'Publish Point'

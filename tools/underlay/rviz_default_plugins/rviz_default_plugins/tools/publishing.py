@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tools have in common that publish messages."""
+"""The base class of tools that publish messages."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ __all__ = ['Publishing']
 
 
 class Publishing(Tool):
-    """Publishes messages to the topic of its properties."""
+    """Tool that publishes messages to the topic of its properties."""
 
     MESSAGE: ClassVar[type]
     _publisher: Any = None
 
     def begin(self) -> None:
-        """Advertise the topic early, so that those who listen are found before the first use."""
+        """Advertise the topic early, so that subscribers are discovered before the first use."""
         topic = self.values['Topic/Value']
         try:
             self._publisher = self.context.node.create_publisher(
                 self.MESSAGE, topic, qos_of(self.values)
             )
-        except Exception as error:  # rclpy has no one exception for bad names
+        except Exception as error:  # rclpy has no single exception for invalid names
             self.context.node.get_logger().error(
                 f"Tool '{self.NAME}' cannot publish to '{topic}': {error}"
             )
 
     def close(self) -> None:
-        """Publish no longer."""
+        """Destroy the publisher."""
         if self._publisher is not None:
             self.context.node.destroy_publisher(self._publisher)
             self._publisher = None
 
     def stamped(self) -> Any:
-        """Return a message of now in the fixed frame."""
+        """Return a message stamped with the current time, in the fixed frame."""
         message = self.MESSAGE()
         message.header.stamp = self.context.node.get_clock().now().to_msg()
         message.header.frame_id = self.context.frames.fixed_frame
@@ -44,7 +44,7 @@ class Publishing(Tool):
 
     def publish(self, message: Any) -> None:
         """
-        Publish a message, and log how many subscribers there are.
+        Publish a message, and log the number of subscribers.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where the robot is to go."""
+"""The tool that publishes a goal pose."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ['SetGoal']
 
 
 class SetGoal(PoseTool):
-    """Publishes where the robot is to go."""
+    """Tool that publishes a goal pose for the robot."""
 
     CLASS = 'rviz_default_plugins/SetGoal'
     NAME = '2D Goal Pose'
@@ -21,7 +21,7 @@ class SetGoal(PoseTool):
 
     def message(self, point: Point, yaw: float) -> PoseStamped:
         """
-        Make the goal.
+        Make the goal pose.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Say where the robot is."""
+"""The tool that publishes an initial pose estimate."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from rviz_default_plugins.tools.pose_tool import PoseTool
 __all__ = ['SetInitialPose']
 
 COVARIANCES = {'Covariance x': 0, 'Covariance y': 7, 'Covariance yaw': 35}
-"""Where each is in the six by six matrix."""
+"""The index of each in the 6 x 6 covariance matrix."""
 
 
 class SetInitialPose(PoseTool):
-    """Publishes where the robot is, and how sure that is."""
+    """Tool that publishes an initial pose estimate of the robot, with its covariance."""
 
     CLASS = 'rviz_default_plugins/SetInitialPose'
     NAME = '2D Pose Estimate'
@@ -29,7 +29,7 @@ class SetInitialPose(PoseTool):
 
     def message(self, point: Point, yaw: float) -> PoseWithCovarianceStamped:
         """
-        Make the estimate, with the covariance of the properties.
+        Make the pose estimate, with the covariance of the properties.
 
         Parameters
         ----------

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Fork Python programs from a template process that has imported what they need.
+Fork Python programs from a template process that has already imported their modules.
 
-In the launch: `prefork` decides, `eligibility` tells which programs can be forked, and
-`template_handle` starts the template and asks it for processes. In the template: `template` is
-its main program, and `cloning`, `starting_point`, `standard_streams` and `title` turn a copy of it
-into what the program would have been if it had been executed.
+In the launch: `prefork` decides what to fork, `eligibility` determines which programs can be
+forked, and `template_handle` starts the template and requests processes from it. In the template:
+`template` is its main program, and `cloning`, `starting_point`, `standard_streams` and `title` set
+up a copy of it as if the program had been executed.
 """

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Make a copy of this process whose parent is the parent of this process.
+Clone this process as a sibling, with the same parent (CLONE_PARENT).
 
-The system can do that, but no function of the C library asks for it. What the C library would
-do around a fork is little as long as there is only one thread, and is done here.
+The kernel supports this, but no function of the C library does. The work of the C library around
+a fork is small as long as there is only one thread, and is done here.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ _CLONE_CHILD_CLEARTID = 0x00200000
 _CLONE_CHILD_SETTID = 0x01000000
 _FLAGS = _CLONE_PARENT | _CLONE_CHILD_CLEARTID | _CLONE_CHILD_SETTID
 
-# Numbers of the calls clone, get_robust_list and set_robust_list; and where, behind the flags,
-# clone expects the address at which the C library keeps the id of the thread.
+# System call numbers of clone, get_robust_list and set_robust_list; and the position after the
+# flags at which clone expects the address where the C library stores the thread id.
 _CALLS = {'x86_64': (56, 274, 273, 2), 'aarch64': (220, 100, 99, 3)}
 
 
 class Cloning:
-    """Makes siblings of this process, which must have one thread only."""
+    """Factory of siblings of this process, which must be single-threaded."""
 
     def __init__(self) -> None:
-        """Find out what is needed; an OSError says that the system does not tell."""
+        """Query the thread state of the C library; raise an OSError if it is unavailable."""
         if platform.machine() not in _CALLS:
             raise OSError(f'processes cannot be cloned on {platform.machine()}')
         self._clone, self._get_list, self._set_list, position = _CALLS[platform.machine()]
@@ -39,13 +39,13 @@ class Cloning:
         self._robust_list = self._find_robust_list()
 
     def _find_robust_list(self) -> tuple[int, int]:
-        """Return address and size of the list of locks that the C library keeps for a thread."""
+        """Return address and size of the robust futex list of the C library for this thread."""
         address, size = ctypes.c_ulong(), ctypes.c_size_t()
         syscall(self._get_list, 0, ctypes.addressof(address), ctypes.addressof(size))
         return address.value, size.value
 
     def make_sibling(self) -> int:
-        """Copy this process; return the id of the copy, and 0 in the copy."""
+        """Clone this process; return the process id of the clone, or 0 in the clone."""
         threads = len(os.listdir('/proc/self/task'))
         if threads != 1:
             raise OSError(f'a process with {threads} threads cannot be cloned')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tell which programs can be forked from a template, and which of them from the same."""
+"""Determine which programs can be forked from a template, and which can share one."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from typing import Optional
 
 from launch._supervision.program import Program
 
-# What is read before a program begins, by the loader, by Python, or by libraries as they load.
+# Variables read before a program starts, by the loader, by Python, or by libraries as they load.
 _EARLY_NAMES = frozenset(('HOME', 'LANG', 'LANGUAGE', 'SETUPTOOLS_USE_DISTUTILS', 'TZ'))
 _EARLY_PREFIXES = (
     *('GFORTRAN_', 'GLIBC_', 'GOTO_', 'LC_', 'LD_', 'LTTNG_', 'MALLOC_', 'NPY_', 'NUMPY_'),
     *('OMP_', 'OPENBLAS_', 'OPENSSL_', 'PYTHON', '_'),
 )
-# What makes a process do something of its own from its first instant to its last.
+# Variables that affect a process over its whole lifetime.
 _EXECUTED_ONLY = frozenset(
     ('COVERAGE_PROCESS_CONFIG', 'COVERAGE_PROCESS_START', 'LD_AUDIT', 'LD_DEBUG', 'LD_PRELOAD')
     + ('PYTHONDUMPREFS', 'PYTHONINSPECT', 'PYTHONPERFSUPPORT', 'PYTHONPROFILEIMPORTTIME')
@@ -28,7 +28,7 @@ _MOST_BYTES = 100_000  # of command line and environment, which must fit into a 
 
 @dataclass(frozen=True)
 class Kind:
-    """Programs of the same kind can be forked from the same template."""
+    """Key of a program; programs with equal keys can be forked from the same template."""
 
     interpreter: str
     preloader: str
@@ -42,9 +42,9 @@ def kind_of(program: Program, environment: Mapping[str, str]) -> Optional[Kind]:
     Parameters
     ----------
     program
-        What is to be started.
+        The program to start.
     environment
-        The variables that its process gets.
+        The environment variables of its process.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def _size(program: Program, environment: Mapping[str, str]) -> int:
 
 
 def _interpreter(script: str) -> Optional[str]:
-    """Return the interpreter that the first line of a script names, if it is the one running."""
+    """Return the interpreter in the shebang of a script, if it is the one running."""
     if not os.path.isabs(script) or not os.access(script, os.X_OK):
         return None
     try:

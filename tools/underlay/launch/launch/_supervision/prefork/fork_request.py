@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ask the template for one process."""
+"""Request to the template for one process."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _LAST_WORDS_S = 2.0
 
 class ForkRequest:
     """
-    The launch's end of the connection to a process that is being made.
+    Launch side of the connection to a process that is being forked.
 
-    The template writes the id of the process, the process itself `+` when it is complete. It does
-    not begin before the launch says so, and ends if the launch gives up.
+    The template sends the process id, and the process itself `+` when it is set up. It waits for
+    the launch before it runs the program, and exits if the launch gives up.
 
     Parameters
     ----------
     interpreter
-        The Python interpreter that its command line is to name.
+        The Python interpreter to show in its command line.
     program
-        What the process is to become.
+        The program to run in the process.
 
     Raises
     ------
@@ -57,14 +57,14 @@ class ForkRequest:
 
     def send(self, control: socket.socket, stdout: int, stderr: int) -> None:
         """
-        Hand the other end to the template, with the standard streams.
+        Send the other end to the template, with the standard streams.
 
         Parameters
         ----------
         control
             The connection to the template.
         stdout, stderr
-            The descriptors that the output of the process goes to.
+            The file descriptors for the output of the process.
 
         """
         streams = [self._stdin_read, stdout, stderr]
@@ -74,7 +74,7 @@ class ForkRequest:
         self._stdin_read = -1
 
     async def process(self) -> ForkedChild:
-        """Return the process as soon as it is complete, and let it begin."""
+        """Wait until the process is set up, start it and return it."""
         loop = asyncio.get_running_loop()
         while not re.fullmatch(r'\+?\d+\n\+?', self._answer) or '+' not in self._answer:
             data = await loop.sock_recv(self._ours, 1100)
@@ -90,7 +90,7 @@ class ForkRequest:
         return None if found is None else int(found[1])
 
     def give_up(self) -> None:
-        """End the process if there is one; it has not begun."""
+        """Kill the process if there is one; it has not started its program."""
         if self._stdin_read >= 0:
             os.close(self._stdin_read)
         os.close(self._stdin_write)
@@ -101,7 +101,7 @@ class ForkRequest:
             _kill_and_reap(pid)
 
     def _read_last_words(self) -> None:
-        """Read until nobody is left at the other end."""
+        """Read until the other end is closed."""
         with self._ours as connection:
             connection.settimeout(_LAST_WORDS_S)
             try:
@@ -118,4 +118,4 @@ def _kill_and_reap(pid: int) -> None:
             os.kill(pid, signal.SIGKILL)
             os.waitpid(pid, 0)
     except ChildProcessError:
-        pass  # it has ended together with the template
+        pass  # it has exited together with the template

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A child process that was not executed, but forked from the template."""
+"""Child process that was forked from the template rather than executed."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import IO, Optional
 
 class ForkedChild:
     """
-    A child process that was forked from the template, to be used as a `subprocess.Popen`.
+    Child process forked from the template, with the interface of `subprocess.Popen`.
 
     Parameters
     ----------
     pid
         The id of the process.
     stdin
-        The end to write to of its standard input.
+        The write end of its standard input pipe.
 
     """
 
@@ -26,7 +26,7 @@ class ForkedChild:
         self._code: Optional[int] = None
 
     def wait(self) -> int:
-        """Wait for the end; return the exit status, negative for a signal."""
+        """Wait for the process to exit; return the exit status, negative for a signal."""
         if self._code is None:
             self._code = os.waitstatus_to_exitcode(os.waitpid(self.pid, 0)[1])
         return self._code

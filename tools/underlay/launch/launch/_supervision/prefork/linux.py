@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Calls of Linux that the `os` module does not offer."""
+"""Linux system calls that the `os` module does not provide."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PR_SET_CHILD_SUBREAPER = 36
 PR_GET_CHILD_SUBREAPER = 37
 PR_GET_TID_ADDRESS = 40
 
-# The interpreter stays locked during a call, so that no thread can come in between.
+# PyDLL holds the GIL during a call, so that no other thread can run in between.
 _libc = ctypes.PyDLL(None, use_errno=True)
 _libc.syscall.restype = ctypes.c_long
 
@@ -29,12 +29,12 @@ def prctl(operation: int, second: object = 0, third: object = 0, fourth: object 
     operation
         The number of the operation, such as `PR_SET_NAME`.
     second, third, fourth
-        Its other arguments: numbers, or pointers of ctypes.
+        Its other arguments: numbers, or ctypes pointers.
 
     Raises
     ------
     OSError
-        The system refuses.
+        The system call has failed.
 
     """
     arguments = [_argument(value) for value in (second, third, fourth, 0)]
@@ -43,19 +43,19 @@ def prctl(operation: int, second: object = 0, third: object = 0, fourth: object 
 
 def syscall(number: int, *arguments: int) -> int:
     """
-    Call the kernel with plain numbers.
+    Make a system call with integer arguments.
 
     Parameters
     ----------
     number
-        The number of the call on this architecture.
+        The system call number on this architecture.
     *arguments
         The arguments, each of which is passed as an unsigned long.
 
     Returns
     -------
     int
-        What the call returns.
+        The return value of the call.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def syscall(number: int, *arguments: int) -> int:
 
 
 def is_subreaper() -> bool:
-    """Return whether orphans of the processes below this one become its children."""
+    """Check whether this process is a subreaper, which adopts orphaned descendants."""
     value = ctypes.c_int()
     prctl(PR_GET_CHILD_SUBREAPER, ctypes.byref(value))
     return bool(value.value)
@@ -75,7 +75,7 @@ def is_subreaper() -> bool:
 
 @contextmanager
 def adopting_orphans() -> Iterator[None]:
-    """Become the parent of orphans for a moment."""
+    """Act as a subreaper, which adopts orphaned descendants, within a context."""
     before = is_subreaper()
     prctl(PR_SET_CHILD_SUBREAPER, 1)
     try:

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from launch._supervision.prefork.template_handle import TemplateHandle
 
 WORTHWHILE = 3
-"""A template costs as much as a program that is executed, and then some memory."""
+"""Minimum number of programs: a template costs as much as executing one, plus memory."""
 
 
 @dataclass
 class _Waiting:
-    """A program that waits for the decision."""
+    """Program that waits for the decision whether to fork it."""
 
     program: Program
     kind: Kind
@@ -32,12 +32,12 @@ class _Waiting:
 
 class Prefork:
     """
-    Starts programs; of many that are alike, each is forked from a template.
+    Starter of programs that forks programs of the same kind from a template.
 
     Parameters
     ----------
     guard
-        Sees to it that no template is left behind.
+        The guard that kills the template if it is left behind.
 
     """
 
@@ -50,14 +50,14 @@ class Prefork:
 
     async def spawn(self, program: Program, stdout: int, stderr: int) -> Child:
         """
-        Start a program; if it cannot be forked, it is executed.
+        Start a program by forking it, or by executing it if it cannot be forked.
 
         Parameters
         ----------
         program
-            What is started.
+            The program to start.
         stdout, stderr
-            The descriptors that its output goes to.
+            The file descriptors for its output.
 
         Raises
         ------
@@ -89,14 +89,14 @@ class Prefork:
             return None
 
     async def _take_turn(self, program: Program, kind: Optional[Kind]) -> None:
-        """Wait for the decision about those before this one, so that they are executed first."""
+        """Wait for the decision on earlier programs, so that they are executed first."""
         if kind is not None and self._template is None:
             self._ask(program, kind)
         if self._decision is not None:
             await asyncio.shield(self._decision)
 
     def _ask(self, program: Program, kind: Kind) -> None:
-        """Have it decided, when all that starts at the same time is known, for all of it."""
+        """Queue a program for the decision, made once for all programs that start together."""
         loop = asyncio.get_running_loop()
         self._waiting.append(_Waiting(program, kind))
         if self._decision is None:
@@ -127,10 +127,10 @@ class Prefork:
         self._kind = kind
 
     def groups(self) -> set[int]:
-        """Return the group of the template, if there is one."""
+        """Return the process group of the template, if there is one."""
         return {self._template.group} if self._template is not None else set()
 
     def close(self) -> None:
-        """End the template."""
+        """Terminate the template."""
         if self._template is not None:
             self._template.close()

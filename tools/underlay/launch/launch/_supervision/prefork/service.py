@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the template does until it is a program itself."""
+"""Request loop of the template process."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _ADOPTION_S = 5.0
 
 def serve(descriptor: int, preloader: str, scripts: Sequence[str]) -> Become:
     """
-    Import what programs need, and copy this process at each request; returns in copies only.
+    Import the modules of programs, and clone this process on request; return in clones only.
 
     Parameters
     ----------
     descriptor
         The descriptor of the connection to the launch.
     preloader
-        The name of the module that knows what the programs import.
+        The name of the module that imports what the programs need.
     scripts
         The paths of the programs.
 
@@ -68,9 +68,9 @@ def _serve(control: socket.socket, preloader: str, scripts: Sequence[str]) -> Be
 
 def _settle(control: socket.socket, library: Any) -> None:
     """
-    Go on in a copy that has one thread only, and that the launch has adopted.
+    Continue in a single-threaded copy that the launch has adopted.
 
-    A fork rids the process of the threads that libraries have started when they were loaded.
+    The fork removes the threads that libraries have started at import.
     """
     words = control.recv(32).split()
     if not words:
@@ -87,28 +87,28 @@ def _settle(control: socket.socket, library: Any) -> None:
 
 
 def _refuse_threads() -> None:
-    """Raise if threads, which end in a fork, belong to whatever Python runs at its start."""
+    """Raise an error if Python itself has started threads, which a fork would lose."""
     count = len(os.listdir('/proc/self/task'))
     if count != 1:
         raise OSError(f'Python itself has started with {count} threads')
 
 
 def _clone(cloning: Cloning, descriptors: list[int]) -> bool:
-    """Make a copy and tell the launch its id; return whether this is the copy."""
+    """Clone this process and send its id to the launch; return whether this is the clone."""
     pid = cloning.make_sibling()
     if pid == 0:
         return True
     try:
         os.write(descriptors[-1], b'%d\n' % pid)
     except OSError:
-        pass  # the launch waits no longer
+        pass  # the launch is no longer waiting
     for descriptor in descriptors:
         os.close(descriptor)
     return False
 
 
 def _begin(descriptors: list[int], library: Any) -> Become:
-    """Get ready to be a program, and wait for the launch to say that it may begin."""
+    """Set up the process for a program, and wait for the launch to start it."""
     stdin, stdout, stderr, starter = descriptors
     with socket.socket(fileno=starter) as connection:
         try:
@@ -125,13 +125,13 @@ def _begin(descriptors: list[int], library: Any) -> Become:
 
 
 def _receive(connection: socket.socket) -> bytes:
-    """Return a message that begins with its length."""
+    """Receive a length-prefixed message."""
     with connection.makefile('rb') as file:
         return file.read(int(file.readline()))
 
 
 def _give_up(connection: socket.socket, reason: str) -> NoReturn:
-    """End; the launch then executes programs as usual."""
+    """Report the reason and exit; the launch then executes programs as usual."""
     try:
         connection.send(reason.encode('utf-8', 'replace')[:1000])
     except OSError:

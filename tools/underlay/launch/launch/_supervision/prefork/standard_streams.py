@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make sys.stdin, sys.stdout and sys.stderr as Python does when it starts."""
+"""Set up sys.stdin, sys.stdout and sys.stderr as Python does at startup."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def take_over(descriptors: tuple[int, int, int]) -> None:
 
 
 def _renew(number: int, name: str) -> None:
-    """Replace a stream by one that suits what its descriptor is now."""
+    """Replace a standard stream by one for its new file descriptor."""
     stream = _open(number, name, getattr(sys, name))
     setattr(sys, name, stream)
     setattr(sys, f'__{name}__', stream)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turn a copy of the template into what a program is when it starts."""
+"""Set up a clone of the template as a program that has just started."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from launch._supervision.prefork.title import set_title
 
 def enter(program: Mapping[str, Any], descriptors: tuple[int, int, int]) -> None:
     """
-    Turn this process into what a program is when it starts.
+    Set up this process as a program that has just started.
 
-    It leads a session of its own, and gets the streams, the folder, the environment, the arguments
-    and the title of the program.
+    It leads a session of its own, and gets the streams, the working directory, the environment,
+    the arguments and the title of the program.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def main_module(script: str) -> tuple[types.CodeType, dict[str, Any]]:
     Returns
     -------
     tuple
-        The compiled code, and the names of the module, in which it is to be executed.
+        The compiled code, and the namespace of the module in which to execute it.
 
     """
     module = types.ModuleType('__main__')
@@ -77,7 +77,7 @@ def main_module(script: str) -> tuple[types.CodeType, dict[str, Any]]:
 
 def forget_packages(names: Iterable[str]) -> None:
     """
-    Remove packages that only the template has needed from `sys.modules`.
+    Remove packages that only the template needs from `sys.modules`.
 
     Parameters
     ----------
@@ -91,5 +91,5 @@ def forget_packages(names: Iterable[str]) -> None:
 
 
 def _number_main_thread() -> None:
-    """Correct the system's number of the main thread, which a fork leaves as it was."""
+    """Update the native id of the main thread, which is outdated after a fork."""
     threading.main_thread()._set_native_id()  # type: ignore[attr-defined]

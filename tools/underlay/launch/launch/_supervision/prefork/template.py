@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The main program of the template: import what programs need, then become each of them in a copy.
+Main program of the template: import the modules of programs, then run each of them in a clone.
 
 It is run by its path, so that it finds the `launch` that has started it:
-`template.py DESCRIPTOR PRELOADER SCRIPT...`. What is at the bottom of this file is executed with
-nothing below it on the stack but this module, in a copy that leaves `serve`.
+`template.py DESCRIPTOR PRELOADER SCRIPT...`. The code at the bottom of this file is executed with
+only this module below it on the stack, in a clone that has returned from `serve`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 
 
 def _serve() -> Callable[[], tuple[Any, ...]]:
-    """Wait for requests; return, in a copy, what tells `exec` how to run the program."""
+    """Wait for requests; in a clone, return a function that provides the arguments of `exec`."""
     folder = os.path.dirname(os.path.abspath(__file__))
     if not getattr(sys.flags, 'safe_path', False):
         del sys.path[0]
@@ -31,7 +31,7 @@ def _serve() -> Callable[[], tuple[Any, ...]]:
 
 
 def _without_template(display: Any) -> Any:
-    """Return an excepthook that shows no line of the template, and is used once."""
+    """Create an excepthook for one use that hides the frames of the template."""
     own = os.path.dirname(os.path.abspath(__file__))
 
     def show(kind: Any, error: Any, traceback: Any) -> None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A template that does not do its work."""
+"""Error of the template process."""
 
 
 class TemplateFailure(Exception):
-    """The template cannot make a process; the text says why."""
+    """The template cannot fork a process; the message states why."""

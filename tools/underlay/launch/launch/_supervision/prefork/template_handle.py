@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start the template, and have it make processes."""
+"""Start the template, and request processes from it."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from launch._supervision.program import Program
 
 _PATIENCE_S = 20.0
 IDLE_S = 10.0
-"""When nothing was forked for so long, all has started that starts together."""
+"""Time in s without a fork after which the template is terminated: all programs have started."""
 
 
 class TemplateHandle:
     """
-    Starts a template in a process group of its own, and has it fork programs.
+    Handle of a template, in a process group of its own, that forks programs on request.
 
     Parameters
     ----------
@@ -34,14 +34,14 @@ class TemplateHandle:
     environment
         The variables of the template.
     scripts
-        The paths of the programs; the template imports what they need.
+        The paths of the programs; the template imports their modules.
     guard
-        Sees to it that the template is not left behind.
+        The guard that kills the template if it is left behind.
 
     Attributes
     ----------
     is_open
-        Whether the template can fork programs, or is getting ready for it.
+        Whether the template can fork programs, or is still starting.
 
     Raises
     ------
@@ -72,11 +72,11 @@ class TemplateHandle:
 
     @property
     def group(self) -> int:
-        """Return the id of the group of processes that the template leads."""
+        """Return the process group id of the template."""
         return self._origin.pid
 
     async def _live(self) -> None:
-        """Get ready, and wait for the end."""
+        """Prepare the template, and wait until it exits."""
         reason = 'the template has ended'
         try:
             await self._prepare()
@@ -87,7 +87,7 @@ class TemplateHandle:
         self.close(reason)
 
     async def _prepare(self) -> None:
-        """Adopt the copy in which the template goes on once it has imported everything."""
+        """Adopt the copy in which the template continues after its imports."""
         from launch._supervision.prefork.linux import adopting_orphans
 
         await self._expect('loaded')
@@ -97,7 +97,7 @@ class TemplateHandle:
         self._origin.wait()
 
     async def _expect(self, word: str) -> None:
-        """Wait for a message; another one than the expected tells of a failure."""
+        """Wait for a message; raise a TemplateFailure if it is not the expected one."""
         loop = asyncio.get_running_loop()
         message = (await loop.sock_recv(self._control, 1100)).decode('utf-8', 'replace')
         if message != word:
@@ -110,9 +110,9 @@ class TemplateHandle:
         Parameters
         ----------
         program
-            What the process is to become.
+            The program to run in the process.
         stdout, stderr
-            The descriptors that its output goes to.
+            The file descriptors for its output.
 
         Raises
         ------
@@ -135,13 +135,13 @@ class TemplateHandle:
                 self._retire_later()
 
     def _stay(self) -> None:
-        """Do not end the template for now."""
+        """Cancel the scheduled termination of the template."""
         if self._retirement is not None:
             self._retirement.cancel()
             self._retirement = None
 
     def _retire_later(self) -> None:
-        """End the template when nobody asks any longer: its memory is then of no use."""
+        """Schedule the termination of the idle template, to free its memory."""
         loop = asyncio.get_running_loop()
         self._retirement = loop.call_later(IDLE_S, self.close, 'nothing was forked for a while')
 
@@ -156,12 +156,12 @@ class TemplateHandle:
 
     def close(self, reason: str = 'the template was ended') -> None:
         """
-        End the template; the programs that were forked from it go on.
+        Terminate the template; the programs that were forked from it continue to run.
 
         Parameters
         ----------
         reason
-            Why, for those who wait until it is ready.
+            The reason, for callers that wait until it is ready.
 
         """
         if not self.is_open:
@@ -199,7 +199,7 @@ def _start(
 
 
 def _reap(group: int) -> None:
-    """Take note of the end of all children in a group."""
+    """Reap all children in a process group."""
     try:
         while True:
             os.waitpid(-group, 0)

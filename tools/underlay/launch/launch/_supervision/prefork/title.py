@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Let `ps` and /proc show the command line and the environment of a program."""
+"""Set the command line and the environment that `ps` and /proc show."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import os
 
 from launch._supervision.prefork.linux import PR_SET_MM, PR_SET_MM_MAP, PR_SET_NAME, prctl
 
-# The fields of /proc/self/stat that the system wants to hear again, counted behind the name.
+# The fields of /proc/self/stat that the system call requires, counted after the name.
 _STAT = {
     'start_code': 23,
     'end_code': 24,
@@ -21,7 +21,7 @@ _STAT = {
 
 
 class _MemoryMap(ctypes.Structure):
-    """Where the parts of a process lie (prctl_mm_map)."""
+    """Memory layout of a process (struct prctl_mm_map)."""
 
     _fields_ = [
         *((name, ctypes.c_uint64) for name in ('start_code', 'end_code', 'start_data')),
@@ -40,7 +40,7 @@ def set_title(name: str, arguments: Sequence[str], environment: Mapping[str, str
     Parameters
     ----------
     name
-        The name of the process, of which the system keeps 15 bytes.
+        The name of the process, which is truncated to 15 bytes.
     arguments : Sequence[str]
         The words of the command line.
     environment
@@ -49,7 +49,7 @@ def set_title(name: str, arguments: Sequence[str], environment: Mapping[str, str
     Raises
     ------
     OSError
-        The system refuses.
+        The system call has failed.
 
     """
     prctl(PR_SET_NAME, ctypes.c_char_p(os.fsencode(name)[:15]))
@@ -73,7 +73,7 @@ def _block(texts: Iterable[str]) -> bytes:
 
 
 def _keep(data: bytes) -> int:
-    """Return the address of a copy that lives as long as the process."""
+    """Copy data to memory that lives as long as the process; return its address."""
     buffer = ctypes.create_string_buffer(data, len(data))
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(buffer))
     return ctypes.addressof(buffer)

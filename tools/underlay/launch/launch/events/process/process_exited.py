@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event of a process that has ended."""
+"""The event of a process that has exited."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from launch.events.process.running_process_event import RunningProcessEvent
 
 class ProcessExited(RunningProcessEvent):
     """
-    Event of a process that has ended.
+    Event of a process that has exited.
 
     Parameters
     ----------
     returncode
-        The exit status, or minus the number of the signal that ended the process.
+        The exit status, or the negative number of the signal that terminated the process.
     **kwargs
-        The facts about the process, as for `RunningProcessEvent`.
+        The details of the process, as for `RunningProcessEvent`.
 
     """
 
@@ -29,5 +29,5 @@ class ProcessExited(RunningProcessEvent):
 
     @property
     def returncode(self) -> int:
-        """Return the exit status, or minus the number of the signal."""
+        """Return the exit status, or the negative number of the signal."""
         return self.__returncode

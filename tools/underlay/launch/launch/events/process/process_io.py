@@ -10,16 +10,16 @@ from launch.events.process.running_process_event import RunningProcessEvent
 
 class ProcessIO(RunningProcessEvent):
     """
-    Event of bytes that a process wrote or is to read.
+    Event of bytes that a process wrote, or that are written to it.
 
     Parameters
     ----------
     text
-        The bytes as they came, not cut into lines.
+        The bytes as received, not split into lines.
     fd
         The number of the stream: 0, 1 or 2.
     **kwargs
-        The facts about the process, as for `RunningProcessEvent`.
+        The details of the process, as for `RunningProcessEvent`.
 
     """
 
@@ -32,20 +32,20 @@ class ProcessIO(RunningProcessEvent):
 
     @property
     def text(self) -> bytes:
-        """Return the bytes as they came, not cut into lines."""
+        """Return the bytes as received, not split into lines."""
         return self.__text
 
     @property
     def from_stdin(self) -> bool:
-        """Return whether the bytes are input."""
+        """Whether the bytes are for the standard input."""
         return self.__fd == 0
 
     @property
     def from_stdout(self) -> bool:
-        """Return whether the bytes come from the standard output."""
+        """Whether the bytes come from the standard output."""
         return self.__fd == 1
 
     @property
     def from_stderr(self) -> bool:
-        """Return whether the bytes come from the standard error output."""
+        """Whether the bytes come from the standard error output."""
         return self.__fd == 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that tell whether an event belongs to a process."""
+"""Matchers of processes."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ if TYPE_CHECKING:
 
 def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
     """
-    Create a matcher of the process that has an id.
+    Create a matcher of a process by its id.
 
     Parameters
     ----------
     pid
-        The id that the operating system gave the process.
+        The process id.
 
     Returns
     -------
     callable
-        Takes an action, and returns whether it has started that process.
+        Predicate that accepts an action, and returns whether it has started that process.
 
     """
     return lambda action: bool((action.process_details or {}).get('pid') == pid)
@@ -31,7 +31,7 @@ def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
 
 def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
     """
-    Create a matcher of the processes that have a label.
+    Create a matcher of processes by label.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
     Returns
     -------
     callable
-        Takes an action, and returns whether its process has the label.
+        Predicate that accepts an action, and returns whether its process has the label.
 
     """
     return lambda action: bool(action.name == name)
@@ -49,17 +49,17 @@ def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
 
 def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
     """
-    Create a matcher of the processes that run a program.
+    Create a matcher of processes by the program that they run.
 
     Parameters
     ----------
     executable
-        The file name of the program, without its folder.
+        The file name of the program, without its directory.
 
     Returns
     -------
     callable
-        Takes an action, and returns whether its command begins with the program.
+        Predicate that accepts an action, and returns whether its command starts with the program.
 
     """
 

@@ -7,6 +7,6 @@ from launch.events.process.running_process_event import RunningProcessEvent
 
 
 class ProcessStarted(RunningProcessEvent):
-    """A process was started."""
+    """Event of a process that was started."""
 
     name = 'launch.events.process.ProcessStarted'

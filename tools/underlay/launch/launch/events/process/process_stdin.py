@@ -17,7 +17,7 @@ class ProcessStdin(ProcessIO):
     text
         The bytes that are written to it.
     **kwargs
-        The facts about the process, as for `RunningProcessEvent`.
+        The details of the process, as for `RunningProcessEvent`.
 
     """
 

@@ -15,9 +15,9 @@ class ProcessStdout(ProcessIO):
     Parameters
     ----------
     text
-        The bytes as they came, not cut into lines.
+        The bytes as received, not split into lines.
     **kwargs
-        The facts about the process, as for `RunningProcessEvent`.
+        The details of the process, as for `RunningProcessEvent`.
 
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of the events that are meant for certain processes."""
+"""The base class of events that target certain processes."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 class ProcessTargetedEvent(Event):
     """
-    Base class of events that ask for something to be done to certain processes.
+    Base class of events that target certain processes.
 
     Parameters
     ----------
     process_matcher
-        Called with the action of a process; returns whether the event is meant for it.
+        Called with the action of a process; returns whether the event targets it.
 
     """
 

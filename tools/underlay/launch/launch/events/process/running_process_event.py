@@ -24,7 +24,7 @@ class RunningProcessEvent(Event):
     cmd
         The command line, as a list of words.
     cwd
-        The folder that the process was started in; None is that of the launch.
+        The working directory of the process; None for that of the launch.
     env
         The environment that the process was started with.
     pid
@@ -73,7 +73,7 @@ class RunningProcessEvent(Event):
 
     @property
     def cwd(self) -> Optional[str]:
-        """Return the folder that the process was started in; None is that of the launch."""
+        """Return the working directory of the process; None for that of the launch."""
         return self.__cwd
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event that ends certain processes."""
+"""The event that terminates certain processes."""
 
 from __future__ import annotations
 
@@ -7,6 +7,6 @@ from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 
 class ShutdownProcess(ProcessTargetedEvent):
-    """The processes that a matcher accepts are to end."""
+    """Event that requests the termination of the processes that a matcher accepts."""
 
     name = 'launch.events.process.ShutdownProcess'

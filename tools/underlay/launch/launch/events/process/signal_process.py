@@ -15,21 +15,21 @@ if TYPE_CHECKING:
 
 class SignalProcess(ProcessTargetedEvent):
     """
-    Event that asks for a signal to be sent to certain processes.
+    Event that requests sending a signal to certain processes.
 
     Parameters
     ----------
     signal_number
         The signal, as its name (`'SIGINT'`) or its number.
     process_matcher
-        Called with the action of a process; returns whether the event is meant for it.
+        Called with the action of a process; returns whether the event targets it.
 
     Raises
     ------
     KeyError
-        There is no signal of the name.
+        There is no signal with this name.
     ValueError
-        There is no signal of the number.
+        There is no signal with this number.
 
     """
 

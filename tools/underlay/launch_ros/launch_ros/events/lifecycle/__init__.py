@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The events of nodes with a life cycle."""
+"""Events of lifecycle nodes."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event that asks nodes to change their state."""
+"""Event that requests lifecycle transitions."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class ChangeState(Event):
     Parameters
     ----------
     lifecycle_node_matcher
-        Called with the action of each lifecycle node; whether that node is meant.
+        Predicate of LifecycleNode actions; selects the nodes to change.
     transition_id
         A constant of lifecycle_msgs.msg.Transition.
 
@@ -32,7 +32,7 @@ class ChangeState(Event):
 
     name = 'launch_ros.events.lifecycle.ChangeState'
 
-    # The transitions of lifecycle_msgs/Transition that there are to ask for.
+    # The transitions of lifecycle_msgs/Transition that can be requested.
     valid_transitions = {
         0: 'TRANSITION_CREATE',
         1: 'TRANSITION_CONFIGURE',

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The older place of the matchers."""
+"""Deprecated location of the node matchers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def matches_node_name(node_name: str) -> Callable[[Node], bool]:
     """
-    Return a matcher of the nodes of a full name (deprecated here).
+    Return a predicate that matches nodes by fully qualified name (deprecated here).
 
     Parameters
     ----------

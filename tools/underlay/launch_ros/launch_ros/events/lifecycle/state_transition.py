@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event of a node that has changed its state."""
+"""Event of a completed lifecycle transition."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class StateTransition(Event):
     action
         The action that runs the node.
     msg
-        The message of the node (lifecycle_msgs/TransitionEvent).
+        The message that the node published (lifecycle_msgs/TransitionEvent).
 
     """
 
@@ -42,7 +42,7 @@ class StateTransition(Event):
 
     @property
     def timestamp(self) -> int:
-        """Return the node's time stamp, in nanoseconds."""
+        """Return the timestamp of the message, in nanoseconds."""
         return int(self.__msg.timestamp)
 
     @property
@@ -52,10 +52,10 @@ class StateTransition(Event):
 
     @property
     def start_state(self) -> str:
-        """Return the label of the state before."""
+        """Return the label of the previous state."""
         return str(self.__msg.start_state.label)
 
     @property
     def goal_state(self) -> str:
-        """Return the label of the state now."""
+        """Return the label of the new state."""
         return str(self.__msg.goal_state.label)

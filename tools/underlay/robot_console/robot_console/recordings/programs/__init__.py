@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Programs that the console starts beside itself, so that the page never waits for them.
+Programs that the console runs as child processes, so that the page never blocks on them.
 
-Each ends by itself, and in order, when its standard input is closed. So none outlives the console,
-even if that is killed.
+Each exits in order when its standard input is closed. Therefore, none outlives the console, even
+if that is killed.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Play a recording as `ros2 bag play` does, with the console as its keyboard."""
+"""Play a recording like `ros2 bag play`, controlled by the console."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ REPORT_S = 0.1
 
 class BagSource:
     """
-    The chosen topics of a bag, as a `Source` for playback.
+    The selected topics of a bag, as a `Source` for playback.
 
     Parameters
     ----------
     reader
         Reads the bag.
     topics
-        The names of the topics that are played.
+        The names of the topics to play.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class BagSource:
 
     def messages(self, start_ns: int) -> Iterator[RecordedMessage]:
         """
-        Iterate over the messages that are played, by time.
+        Iterate over the messages to play, in order of time.
 
         Parameters
         ----------
@@ -69,7 +69,7 @@ class BagSource:
 
     def latched(self, start_ns: int, end_ns: int) -> Iterator[RecordedMessage]:
         """
-        Iterate over the latched messages of a time span.
+        Iterate over the latched messages in a time span.
 
         Parameters
         ----------
@@ -107,7 +107,7 @@ def main() -> None:
 
 
 def _prepare(node: Any, reader: BagReader, args: argparse.Namespace) -> tuple[Playback, BagSource]:
-    """Create the publishers, and return what plays."""
+    """Create the publishers, the playback and its source."""
     chosen = filter_of(args)
     topics = [each.topic for each in reader.metadata.topics]
     wanted = [topic for topic in topics if chosen.wants(topic.name, topic.type_name)]
@@ -123,7 +123,7 @@ def _prepare(node: Any, reader: BagReader, args: argparse.Namespace) -> tuple[Pl
 
 
 def _go_on(playback: Playback, source: BagSource, lifeline: Lifeline) -> None:
-    """Play for a short time, do what the console says, and report."""
+    """Play for a short time, execute commands of the console, and report the state."""
     end_s = time.monotonic() + REPORT_S
     commands: list[dict[str, Any]] = []
     _report(playback, source)

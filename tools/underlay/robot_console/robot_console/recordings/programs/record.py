@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record as `ros2 bag record` does, until the console closes the standard input."""
+"""Record like `ros2 bag record`, until the console closes standard input."""
 
 from __future__ import annotations
 

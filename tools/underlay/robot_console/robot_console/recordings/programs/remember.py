@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keep the messages of the last seconds in memory, and save them when the console says so."""
+"""Buffer the messages of the last seconds, and save them on command of the console."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def main() -> None:
 def _run(
     node: Any, memory: MessageMemory, chosen: TopicFilter, lifeline: Lifeline, stop: StopSignals
 ) -> None:
-    # What is asked of a writer is the same: topics and messages.
+    # The recorder calls only methods of a writer that `MessageMemory` also has.
     writer = cast(BagWriter, memory)
     recorder = Recorder(node, writer, chosen, PauseSwitch(False, lambda text: None))
     next_look_s = 0.0
@@ -77,7 +77,7 @@ def _report(memory: MessageMemory, topic_count: int) -> None:
 
 
 def _save(kept: Kept, folder: str) -> None:
-    """Write a recording in another thread, since messages go on coming."""
+    """Write a recording in another thread, while messages continue to arrive."""
     threading.Thread(target=_write, args=(kept, folder)).start()
 
 
