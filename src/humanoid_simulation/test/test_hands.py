@@ -107,7 +107,7 @@ def test_an_arm_does_not_sag(hand: Hand) -> None:
         request = TrajectoryRequest(arm.own, [TrajectoryPoint(1.0, posture)])
         arm.accept(hand.control.checked_goal(name, request), lambda end: None)
         assert hand.robot.wait(2.0)
-        positions_rad = hand.robot.backend.observe()[''].positions_rad[arm.places]
+        positions_rad = hand.robot.backend.observe()[''].positions_rad[arm.indices]
         # Noise, and the weight of the hand alone at the wrist.
         assert positions_rad == pytest.approx(posture, abs=0.008)
 
