@@ -66,7 +66,10 @@ def cancel_goal(sent: Future[Any]) -> None:
         What `ActionClient.send_goal_async` returned.
 
     """
-    sent.add_done_callback(_cancel)
+    if sent.done():  # at once: a callback of what is done already waits for the executor
+        _cancel(sent)
+    else:
+        sent.add_done_callback(_cancel)
 
 
 def _cancel(sent: Future[Any]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any, get_type_hints, TypeVar
+from typing import Any, TypeVar
 
 from humanoid_common.parameters.specs import specs_of
 from humanoid_common.parameters.values import checked_value
@@ -35,7 +35,8 @@ def build(kind: type[T], values: Mapping[str, Any]) -> T:
     """
     specs = specs_of(kind)
     checked = {name: checked_value(specs[name], value) for name, value in values.items()}
-    return _assembled(kind, checked)
+    built: T = _assembled(kind, checked)
+    return built
 
 
 def values_of(snapshot: Any) -> dict[str, Any]:
@@ -63,7 +64,7 @@ def values_of(snapshot: Any) -> dict[str, Any]:
     return found
 
 
-def _assembled(kind: type[T], values: Mapping[str, Any]) -> T:
+def _assembled(kind: Any, values: Mapping[str, Any]) -> Any:
     """Build a dataclass from values and groups of values."""
     own: dict[str, Any] = {}
     groups: dict[str, dict[str, Any]] = {}
@@ -73,5 +74,7 @@ def _assembled(kind: type[T], values: Mapping[str, Any]) -> T:
             groups.setdefault(first, {})[rest] = value
         else:
             own[name] = value
-    hints = get_type_hints(kind) if groups else {}
-    return kind(**own, **{name: _assembled(hints[name], each) for name, each in groups.items()})
+    for declared in fields(kind):
+        if declared.name in groups:
+            own[declared.name] = _assembled(type(declared.default), groups[declared.name])
+    return kind(**own)

@@ -33,9 +33,12 @@ class ParameterSpec:
         return f'a list of {many}' if self.is_list else one
 
 
+_READ: dict[type, dict[str, ParameterSpec]] = {}
+
+
 def specs_of(kind: type) -> dict[str, ParameterSpec]:
     """
-    Read the parameters that a dataclass declares.
+    Read the parameters that a dataclass declares; the result is cached, so leave it as it is.
 
     Parameters
     ----------
@@ -54,6 +57,13 @@ def specs_of(kind: type) -> dict[str, ParameterSpec]:
         A field is not declared with `parameter`, or its type is not that of a ROS parameter.
 
     """
+    if kind not in _READ:
+        _READ[kind] = _read(kind)
+    return _READ[kind]
+
+
+def _read(kind: type) -> dict[str, ParameterSpec]:
+    """Read the type and the rules of each field."""
     hints = get_type_hints(kind)
     specs = {}
     for declared in fields(kind):

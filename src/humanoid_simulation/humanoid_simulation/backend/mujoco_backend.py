@@ -82,7 +82,7 @@ class MujocoBackend:
             )
             for place, seed in zip(placements, seeds)
         }
-        self._wrenches = Wrenches(self._model, self._data)
+        self._wrenches = Wrenches(self._data)
         self._hoists = Hoists(self._model, self._data, self._wrenches)
         self._name(scene)
         self._periods = 0
@@ -213,7 +213,7 @@ class MujocoBackend:
         for robot in self._robots.values():
             robot.enter(model, data)
         numbers = numbers_in(before[0], model)
-        self._wrenches.enter(model, data, numbers)
+        self._wrenches.enter(data, numbers)
         self._hoists.enter(model, data, numbers)
         self._name(scene)
         self._look_again()

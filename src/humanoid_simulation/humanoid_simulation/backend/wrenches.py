@@ -47,28 +47,28 @@ class Wrenches:
 
     Parameters
     ----------
-    model, data
-        The MuJoCo model, and its state, whose `xfrc_applied` is set.
+    data
+        The MuJoCo state, whose `xfrc_applied` is set.
 
     """
 
-    def __init__(self, model: Any, data: Any) -> None:
-        self._model, self._data = model, data
+    def __init__(self, data: Any) -> None:
+        self._data = data
         self._acting: list[tuple[Wrench, float]] = []
 
-    def enter(self, model: Any, data: Any, numbers: Mapping[int, int]) -> None:
+    def enter(self, data: Any, numbers: Mapping[int, int]) -> None:
         """
         Switch to another model; wrenches on bodies that it lacks end.
 
         Parameters
         ----------
-        model, data
-            The new MuJoCo model, and its state.
+        data
+            The state of the new MuJoCo model.
         numbers
             New ids of the bodies, by the old ones.
 
         """
-        self._model, self._data = model, data
+        self._data = data
         self._acting = [
             (replace(wrench, body=numbers[wrench.body]), left_s)
             for wrench, left_s in self._acting

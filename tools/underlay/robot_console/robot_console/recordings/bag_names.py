@@ -35,7 +35,9 @@ def bag_folder(folder: str, name: str, now: datetime) -> str:
     """
     name = name.strip()
     if name.startswith('.') or '/' in name or '\0' in name:
-        raise ValueError('The name of a recording has no slashes, and no dot before it.')
+        raise ValueError(
+            f"The name of a recording has no slashes, and no dot before it: '{name}' will not do."
+        )
     if not name:
         return _free(os.path.join(folder, now.strftime('%Y-%m-%d_%H-%M-%S')))
     path = os.path.join(folder, name)
