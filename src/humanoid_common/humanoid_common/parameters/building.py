@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar
 
+from humanoid_common.parameters.errors import ParameterError
 from humanoid_common.parameters.specs import specs_of
 from humanoid_common.parameters.values import checked_value
 
@@ -76,5 +77,8 @@ def _assembled(kind: Any, values: Mapping[str, Any]) -> Any:
             own[name] = value
     for declared in fields(kind):
         if declared.name in groups:
-            own[declared.name] = _assembled(type(declared.default), groups[declared.name])
+            try:
+                own[declared.name] = _assembled(type(declared.default), groups[declared.name])
+            except ParameterError as error:
+                raise error.within(declared.name) from None
     return kind(**own)

@@ -18,3 +18,18 @@ class ParameterError(NodeStartError):
         super().__init__(reason)
         self.reason = reason
         self.names = names
+
+    def within(self, group: str) -> ParameterError:
+        """
+        Return the same error with the full names of the parameters of a group.
+
+        Parameters
+        ----------
+        group
+            The name of the group, which its own check does not know.
+
+        """
+        reason = self.reason
+        for name in self.names:
+            reason = reason.replace(f"'{name}'", f"'{group}.{name}'")
+        return ParameterError(reason, *(f'{group}.{name}' for name in self.names))
