@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every test of the workspace.
 
-First those of src/ with `colcon test`, two packages at a time; then those of tools/ in several
+First those of src/ with `colcon test`, some packages at a time; then those of tools/ in several
 processes; then what builds src/.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
@@ -26,9 +26,25 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT_S = 45 * 60.0
 MOST_UNSTEADY = 3
-SIMULATION = ('humanoid_bringup', 'humanoid_navigation', 'humanoid_simulation')
-"""Packages whose tests take as long as those of all others together."""
+AT_ONCE = min((os.cpu_count() or 1) * 3 // 2, 16)
+"""Processes that run tests at the same time.
+
+Tests wait much, so that three fill two cores. With more, robots fall behind real time, and tests
+run out of it; each reserves some of the 100 DDS domains.
+"""
+LONGEST = (
+    'humanoid_simulation',
+    'humanoid_bringup',
+    'humanoid_navigation',
+    'robot_mcp',
+    'humanoid_manipulation',
+    'humanoid_perception',
+    'llm_planner',
+    'humanoid_control',
+)
+"""Packages whose tests take minutes, the longest first: they begin before the others."""
 _LAST_WORDS_S = 10.0
+_POLL_S = 0.2
 _ENDS = (0, 1, 5)  # of pytest: passed, failed, nothing to run
 
 
@@ -49,7 +65,7 @@ class Suite:
 
 
 def run(rounds: Sequence[Sequence[Suite]], limit_s: float = LIMIT_S) -> int:
-    """Run the tests, those of a round at the same time; return the exit status."""
+    """Run the tests, `AT_ONCE` of a round at the same time; return the exit status."""
     end_s = time.monotonic() + limit_s
     suites = [suite for each in rounds for suite in each]
     for path in (path for suite in suites for path in suite.reports()):
@@ -109,29 +125,54 @@ def _read(report: Path) -> Iterator[tuple[str, str]]:
 
 
 def _run(suites: Sequence[Suite], end_s: float) -> list[int]:
-    """Run commands at the same time, each to its end; return their statuses.
+    """Run commands, `AT_ONCE` at the same time, each to its end; return their statuses.
 
-    The output of the last one is seen while it runs, that of the others afterwards.
+    The output of one that is alone is seen while it runs, that of several when each has ended.
     """
-    print(f'== {" and ".join(suite.name for suite in suites)}', flush=True)
+    waiting = list(enumerate(suites))[::-1]
+    running: dict[int, tuple[subprocess.Popen[bytes], IO[bytes] | None]] = {}
+    statuses = [0] * len(suites)
     with ExitStack() as stack:
-        hidden = [stack.enter_context(TemporaryFile()) for _ in suites[:-1]]
-        outputs = [*hidden, None]
-        processes = [_start(*each) for each in zip(suites, outputs, strict=True)]
         try:
-            return [process.wait(max(end_s - time.monotonic(), 0.0)) for process in processes]
-        except subprocess.TimeoutExpired:
-            for process in processes:
-                _end(process, signal.SIGABRT)  # Python then writes where its threads are
-            raise TimeIsUpError('The tests took too long and were ended: see above.') from None
-        except KeyboardInterrupt:
-            for process in processes:
-                _end(process, signal.SIGINT)
+            while waiting or running:
+                while waiting and len(running) < AT_ONCE:
+                    index, suite = waiting.pop()
+                    print(f'== {suite.name}', flush=True)
+                    output = stack.enter_context(TemporaryFile()) if len(suites) > 1 else None
+                    running[index] = _start(suite, output), output
+                for index in _wait_for_one(running, end_s):
+                    process, output = running.pop(index)
+                    statuses[index] = process.returncode
+                    _show(suites[index], output)
+        except BaseException as error:
+            stopped = isinstance(error, KeyboardInterrupt)
+            for index, (process, output) in running.items():
+                # Upon SIGABRT, Python writes where its threads are.
+                _end(process, signal.SIGINT if stopped else signal.SIGABRT)
+                _show(suites[index], output)
             raise
-        finally:
-            for suite, output in zip(suites, hidden, strict=False):
-                output.seek(0)
-                print(f'== {suite.name}', output.read().decode(errors='replace'), sep='\n')
+    return statuses
+
+
+def _wait_for_one(
+    running: dict[int, tuple[subprocess.Popen[bytes], IO[bytes] | None]], end_s: float
+) -> list[int]:
+    """Wait until at least one command has ended; return the indices of those."""
+    while True:
+        ended = [index for index, (process, _) in running.items() if process.poll() is not None]
+        if ended:
+            return ended
+        if time.monotonic() > end_s:
+            raise TimeIsUpError('The tests took too long and were ended: see above.')
+        time.sleep(_POLL_S)
+
+
+def _show(suite: Suite, output: IO[bytes] | None) -> None:
+    """Print what a command wrote while others ran beside it."""
+    if output is not None:
+        output.seek(0)
+        text = output.read().decode(errors='replace')
+        print(f'== {suite.name} has ended', text, sep='\n', flush=True)
 
 
 def _start(suite: Suite, output: IO[bytes] | None) -> subprocess.Popen[bytes]:
@@ -158,37 +199,35 @@ def _end(process: subprocess.Popen[bytes], number: int) -> None:
 
 
 def packages() -> list[Suite]:
-    """Return the tests of the packages of src/, which colcon runs, in two halves."""
+    """Return the tests of the packages of src/, each run by colcon, the longest first."""
     names = sorted(path.parent.name for path in ROOT.glob('src/*/package.xml'))
-    return [
-        _packages('simulation', [name for name in names if name in SIMULATION]),
-        _packages('other packages', [name for name in names if name not in SIMULATION]),
-    ]
+    return [_package(name) for name in sorted(names, key=_rank)]
 
 
-def _packages(title: str, names: list[str]) -> Suite:
-    """Return the tests of packages, which run one after the other."""
-    results = ROOT / 'build'
+def _rank(name: str) -> int:
+    """Return the place of a package in the order in which tests begin."""
+    return LONGEST.index(name) if name in LONGEST else len(LONGEST)
+
+
+def _package(name: str) -> Suite:
+    """Return the tests of a package."""
+    results = ROOT / 'build' / name
 
     def reports() -> list[Path]:
-        found = {name: sorted((results / name).glob('test_results/*/*.xml')) for name in names}
-        return [path for name in names for path in found[name] or [results / name / 'pytest.xml']]
+        return sorted(results.glob('test_results/*/*.xml')) or [results / 'pytest.xml']
 
     watched = 'PYTHONPATH="$PWD/tools/test:$PYTHONPATH" PYTEST_ADDOPTS="-p watchdog" exec "$@"'
     test = ['tools/in_environment', '--underlay', 'bash', '-c', watched, 'bash']
-    test += ['colcon', '--log-base', f'log/tests of {title}', 'test']
+    test += ['colcon', '--log-base', f'log/tests of {name}', 'test']
     test += ['--executor', 'sequential', '--event-handlers', 'console_cohesion-']
-    test += ['--packages-select', *names]
+    test += ['--packages-select', name]
     again = [*test, '--packages-select-test-failures', '--pytest-args', '--last-failed']
-    return Suite(title, [*test, '--pytest-args', '--cache-clear'], again, reports)
+    return Suite(name, [*test, '--pytest-args', '--cache-clear'], again, reports)
 
 
 def tools() -> Suite:
     """Return the tests of tools/ that do not care what runs beside them."""
-    # Tests wait much, so that three fill two cores. With more, robots fall behind real time, and
-    # tests run out of it; each reserves some of the 100 DDS domains.
-    workers = min((os.cpu_count() or 1) * 3 // 2, 16)
-    shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
+    shared = ['-n', str(AT_ONCE), '--dist', 'loadfile', '--no-loadscope-reorder']
     return _pytest('tools/', ['tools', '-m', 'not alone'], shared)
 
 

@@ -10,6 +10,7 @@ import sys
 import time
 
 import pytest
+import run_all
 from run_all import MOST_UNSTEADY, run, Suite
 
 FLAKY = """
@@ -87,6 +88,21 @@ def test_what_fails_is_said_at_once(
     command = [*suite.command, '-p', 'watchdog']
     assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=10.0) == 1
     assert 'FAILED test_it.py::test_broken (call)' in capfd.readouterr().err
+
+
+def test_some_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Commands of a round begin in their order, when there is room; the next round waits."""
+    monkeypatch.setattr(run_all, 'AT_ONCE', 2)
+    written = tmp_path / 'written'
+
+    def suite(name: str, s: float) -> Suite:
+        command = f'echo +{name} >> {written}; sleep {s}; echo -{name} >> {written}'
+        return Suite(name, ['sh', '-c', command], ['false'], list)
+
+    assert run([[suite('a', 3.0), suite('b', 0.5), suite('c', 0.5)], [suite('d', 0.0)]]) == 0
+    begun_or_ended = written.read_text().split()
+    assert set(begun_or_ended[:2]) == {'+a', '+b'}
+    assert begun_or_ended[2:] == ['-b', '+c', '-c', '-a', '+d', '-d']
 
 
 @pytest.mark.parametrize('command', ['false', 'true'])
