@@ -1,25 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Process the events of a launch until it is idle or shut down."""
+"""Process the events of a launch, and the signals that end it, until it is idle or shut down."""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 import logging
+import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._failure_report import report_failure
+from launch._checks.failures import report_failure
 from launch.event_handler import BaseEventHandler
-from launch.events.include_launch_description import IncludeLaunchDescription
-from launch.events.shutdown import Shutdown
+from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.logging import get_logger
-from launch.utilities.normalize_to_list_of_entities_impl import normalize_to_list_of_entities
-from launch.utilities.visit_all_entities_and_collect_futures_impl import visit_into
+from launch.utilities import normalize_to_list_of_entities, visit_into
 
 if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_context import LaunchContext
+
+_WATCHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 
 
 class EventProcessor:
@@ -187,3 +190,44 @@ class EventProcessor:
         if error is not None:
             self.fail(error)
         self.wake_up()
+
+
+@contextmanager
+def handled_signals(
+    loop: asyncio.AbstractEventLoop,
+    react: Callable[[signal.Signals], None],
+) -> Iterator[None]:
+    """
+    Handle termination signals within a context.
+
+    These are SIGINT, SIGTERM, SIGQUIT, and SIGHUP unless it is ignored, as under nohup. The
+    previous handlers are restored on exit. Use this in the main thread only.
+
+    Parameters
+    ----------
+    loop
+        The event loop that calls `react`.
+    react
+        Called with each signal.
+
+    """
+    before: dict[signal.Signals, Any] = {
+        number: signal.getsignal(number) for number in _WATCHED if _is_wanted(number)
+    }
+
+    def on_signal(number: int, frame: object) -> None:
+        """Wake up the loop, which only waits for file descriptors, and schedule the reaction."""
+        loop.call_soon_threadsafe(react, signal.Signals(number))
+
+    for number in before:
+        signal.signal(number, on_signal)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
+
+
+def _is_wanted(number: signal.Signals) -> bool:
+    """Check whether to handle a signal; a SIGHUP that nohup ignores is not handled."""
+    return number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN

@@ -6,12 +6,17 @@ from __future__ import annotations
 import os
 from typing import Any, NamedTuple, Optional, TYPE_CHECKING
 
-from launch._call_site import CallSite
+from launch._checks.before_start import note_file
+from launch._checks.failures import CallSite
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.substitution import SubstitutionFailure
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 MAX_NESTED = 64
+_PATH = 'current_launch_file_path'
+_FOLDER = 'current_launch_file_directory'
 
 
 class OpenFile(NamedTuple):
@@ -73,3 +78,113 @@ def _circle(files: tuple[OpenFile, ...], last: OpenFile) -> str:
 
 def _line(call_site: Optional[CallSite]) -> str:
     return 'a line that is not known' if call_site is None else str(call_site)
+
+
+def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile:
+    """
+    Make a launch file the current one.
+
+    Parameters
+    ----------
+    context
+        The launch context; its local variables are set to the path and the directory of the file.
+    file
+        The entry of the include stack.
+
+    Returns
+    -------
+    LeaveLaunchFile
+        The entity that leaves the file; visit it after the contents of the file.
+
+    """
+    known = context.get_locals_as_dict()
+    before = {name: known[name] for name in (_PATH, _FOLDER) if name in known}
+    leave = LeaveLaunchFile(before, context._open_files)
+    context.extend_locals({_PATH: file.path, _FOLDER: os.path.dirname(file.path)})
+    context._open_files = (*context._open_files, file)
+    note_file(context, file.path)
+    return leave
+
+
+class LeaveLaunchFile(LaunchDescriptionEntity):
+    """
+    Entity that makes the including file the current one again.
+
+    In ROS 2 Jazzy, ThisLaunchFile and ThisLaunchFileDir continue to refer to the included file.
+    They do the same here, unless the context scopes the location.
+
+    Parameters
+    ----------
+    before
+        The local variables about the including file; empty if there is none.
+    open_files
+        The include stack without the included file.
+
+    """
+
+    def __init__(self, before: dict[str, str], open_files: tuple[OpenFile, ...]) -> None:
+        self._before = before
+        self._open_files = open_files
+
+    def visit(self, context: LaunchContext) -> None:
+        """
+        Restore the include stack, and the location of the launch file if the context scopes it.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        """
+        context._open_files = self._open_files
+        if self._before and context._scopes_location:
+            context.extend_locals(self._before)
+
+
+def launch_file_location(context: LaunchContext, variable: str, name: str) -> str:
+    """
+    Look up the location of the launch file that is being read.
+
+    It warns if the location is that of a file that was included before.
+
+    Parameters
+    ----------
+    context
+        The launch context, whose local variables are read.
+    variable
+        The local variable, `current_launch_file_path` or `current_launch_file_directory`.
+    name
+        The name of the substitution, for messages.
+
+    Raises
+    ------
+    SubstitutionFailure
+        No launch file is being read.
+
+    """
+    known = context.get_locals_as_dict()
+    if variable not in known:
+        raise SubstitutionFailure(
+            f'{name} cannot be used in a script: no launch file is being read'
+        )
+    if context._open_files:
+        _warn_of_another_file(
+            context, name, context._open_files[-1].path, known['current_launch_file_path']
+        )
+    return str(known[variable])
+
+
+def _warn_of_another_file(context: LaunchContext, name: str, reading: str, meant: str) -> None:
+    """Warn, once for each pair of files, that the location is that of an earlier include."""
+    if reading == meant or (reading, meant) in context._warned_locations:
+        return
+    from launch.logging import get_logger
+
+    context._warned_locations.add((reading, meant))
+    get_logger('launch').warning(
+        "%s in '%s' stands for '%s', which has been included before; pass --scoped-location to "
+        'ros2 launch, or use the substitution before the include',
+        name,
+        reading,
+        meant,
+    )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lazy import of the public names of a package."""
+"""Lazy import of the public names of a package, and further paths to them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def lazy_exports(
     package
         The `__name__` of the package.
     names
-        Its public names, each defined in the module of its snake_case name.
+        Its public names, each defined in the package or in the module of its snake_case name.
     elsewhere
         The modules of names defined elsewhere; an empty string marks a sub-package.
 
@@ -61,6 +61,23 @@ def lazy_exports(
         return value
 
     return get, lambda: sorted(modules)
+
+
+def also_found_at(package: str, *modules: str) -> None:
+    """
+    Let what a package holds be imported from modules of it as well, as from `os.path`.
+
+    Parameters
+    ----------
+    package
+        The `__name__` of the package, which is being imported.
+    *modules
+        The names of the modules, which have no files of their own.
+
+    """
+    for name in modules:
+        sys.modules[f'{package}.{name}'] = sys.modules[package]
+        vars(sys.modules[package]).setdefault(name, sys.modules[package])
 
 
 def _unknown(package: str, name: str, known: Iterable[str]) -> str:

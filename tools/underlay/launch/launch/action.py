@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._call_site import calling_line, CallSite
+from launch._checks.failures import calling_line, CallSite
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Optional[Condition] = None, **unknown: Any) -> None:
         if unknown:
-            from launch._checked import unknown_keyword
+            from launch._checks.arguments import unknown_keyword
 
             raise unknown_keyword(type(self), next(iter(unknown)))
         if condition is not None and not hasattr(condition, 'evaluate'):
@@ -79,8 +79,7 @@ class Action(LaunchDescriptionEntity):
             The element has both `if` and `unless`.
 
         """
-        from launch.conditions.if_condition import IfCondition
-        from launch.conditions.unless_condition import UnlessCondition
+        from launch.conditions import IfCondition, UnlessCondition
 
         wanted = entity.get_attr('if', optional=True)
         unwanted = entity.get_attr('unless', optional=True)
@@ -156,7 +155,7 @@ class Action(LaunchDescriptionEntity):
 
     def _announce_completion(self, context: LaunchContext) -> None:
         """Emit ExecutionComplete at the end of the execution if a handler matches it."""
-        from launch.events.execution_complete import ExecutionComplete
+        from launch.events import ExecutionComplete
 
         event = ExecutionComplete(action=self)
         if not context.would_handle_event(event):

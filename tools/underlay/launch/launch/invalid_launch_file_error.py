@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The error of a launch file that no loader could read."""
+"""The errors of a launch file that no loader could read."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from launch._error_text import error_text
+from launch._checks.failures import error_text
 
 
 class InvalidLaunchFileError(Exception):
@@ -26,3 +26,14 @@ class InvalidLaunchFileError(Exception):
         texts = [f'{type(each).__name__}: {error_text(each)}' for each in self.likely_errors]
         lines = [' - ' + text.replace('\n', '\n   ') for text in texts]
         return '\n'.join([head, *lines])
+
+
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
+    """A launch file has a syntax error or an unknown format."""
+
+    def __init__(self, text: str = '') -> None:
+        """Create the error; without a message it states that the format is unknown."""
+        super().__init__()
+        self.is_about_content = bool(text)
+        if text:
+            self.args = (text,)

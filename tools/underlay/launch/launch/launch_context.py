@@ -8,18 +8,21 @@ from collections.abc import Callable, Iterable, Mapping
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._configurations import LaunchConfigurations
-from launch._context_locals import ContextLocals, LocalsView
-from launch._scopes import EnvironmentScopes
+from launch._context_state import (
+    ContextLocals,
+    EnvironmentScopes,
+    LaunchConfigurations,
+    LocalsView,
+)
 
 if TYPE_CHECKING:
     import asyncio
 
-    from launch._before_start import BeforeStart
+    from launch._checks.before_start import BeforeStart
+    from launch._dry_run_record import VisitObserver
     from launch._include_stack import OpenFile
     from launch._supervision.process_registry import ProcessRegistry
     from launch._supervision.program import Spawn
-    from launch._visit_observer import VisitObserver
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
     from launch.substitution import Substitution

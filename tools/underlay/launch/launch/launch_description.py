@@ -142,6 +142,6 @@ class LaunchDescription(LaunchDescriptionEntity):
             The first declaration of each name, and its includes, outermost first.
 
         """
-        from launch._argument_discovery import find_arguments
+        from launch.launch_introspector import find_arguments
 
         return find_arguments(self.__entities, conditional_inclusion)

@@ -9,10 +9,7 @@ from typing import Optional, TYPE_CHECKING
 from launch.launch_description import LaunchDescription
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -85,7 +82,7 @@ class LaunchDescriptionSource:
     def _require_file(self, location: str, context: LaunchContext) -> None:
         """Raise an error if the location must be a file, but is not."""
         if self._loads_file and not os.path.isfile(location):
-            from launch._missing_file import explain_missing_include
+            from launch._checks.missing_file import explain_missing_include
 
             reading = {each.path for each in context._open_files}
             raise FileNotFoundError(explain_missing_include(location, reading))

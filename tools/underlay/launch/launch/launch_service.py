@@ -9,10 +9,9 @@ import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._before_start import BeforeStart
+from launch._checks.before_start import BeforeStart
 from launch.event_handler import EventHandler
-from launch.events.include_launch_description import IncludeLaunchDescription
-from launch.events.shutdown import Shutdown
+from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 
 if TYPE_CHECKING:
@@ -195,8 +194,7 @@ class LaunchService:
         shutdown_when_idle: bool,
     ) -> int:
         """Set up the resources of a run, and always release them again."""
-        from launch._event_processor import EventProcessor
-        from launch._signals import handled_signals
+        from launch._event_processor import EventProcessor, handled_signals
         from launch._supervision.process_registry import ProcessRegistry
         from launch.logging import log_launch_config
         from launch.logging._screen import screen

@@ -20,7 +20,7 @@ from launch.actions import (
 from launch.event_handlers import OnProcessStart
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess
-from launch.logging._formats import label_formatter
+from launch.logging._handlers import label_formatter
 from launch.logging._screen import screen
 from launch.substitutions import LaunchConfiguration
 import pytest

@@ -11,7 +11,7 @@ from typing import Any, List  # noqa: UP035
 from launch import Action, LaunchContext, Substitution
 from launch.actions import LogInfo
 from launch.frontend import (
-    _extensions,
+    _known_names,
     Entity,
     expose,
     expose_action,
@@ -57,22 +57,22 @@ def _own_names() -> Iterator[None]:
     """Forget what a test has exposed."""
     actions = dict(expose.action_parse_methods)
     substitutions = dict(expose.substitution_parse_methods)
-    _extensions.load_extensions.cache_clear()
-    _extensions.extension_parsers.cache_clear()
+    _known_names.load_extensions.cache_clear()
+    _known_names.extension_parsers.cache_clear()
     yield
     expose.action_parse_methods.clear()
     expose.action_parse_methods.update(actions)
     expose.substitution_parse_methods.clear()
     expose.substitution_parse_methods.update(substitutions)
-    _extensions.load_extensions.cache_clear()
-    _extensions.extension_parsers.cache_clear()
+    _known_names.load_extensions.cache_clear()
+    _known_names.extension_parsers.cache_clear()
 
 
 def _offer(monkeypatch: pytest.MonkeyPatch, group: str, value: str) -> None:
     """Let an entry point be there."""
     points = [EntryPoint(name='mine', value=value, group=group)]
     monkeypatch.setattr(
-        'launch.frontend._extensions.entry_points_of',
+        'launch.frontend._known_names.entry_points_of',
         lambda wanted: points if wanted == group else [],
     )
 

@@ -44,12 +44,51 @@ def test_every_public_name_can_be_imported(package: str) -> None:
         'launch.launch_context.LaunchContext',
         'launch.some_substitutions_type.SomeSubstitutionsType',
         'launch.utilities.type_utils.perform_typed_substitution',
+        'launch.actions.pop_environment.PopEnvironment',
+        'launch.actions.pop_launch_configurations.PopLaunchConfigurations',
+        'launch.actions.push_environment.PushEnvironment',
+        'launch.actions.push_launch_configurations.PushLaunchConfigurations',
+        'launch.actions.reset_environment.ResetEnvironment',
+        'launch.conditions.evaluate_condition_expression_impl.evaluate_condition_expression',
+        'launch.conditions.if_condition.IfCondition',
+        'launch.conditions.launch_configuration_equals.LaunchConfigurationEquals',
+        'launch.conditions.launch_configuration_not_equals.LaunchConfigurationNotEquals',
+        'launch.conditions.unless_condition.UnlessCondition',
+        'launch.event_handlers.event_named.event_named',
+        'launch.events.execution_complete.ExecutionComplete',
+        'launch.events.include_launch_description.IncludeLaunchDescription',
+        'launch.events.matchers.matches_action',
+        'launch.events.process.process_exited.ProcessExited',
+        'launch.events.process.process_io.ProcessIO',
+        'launch.events.process.process_matchers.matches_pid',
+        'launch.events.process.process_started.ProcessStarted',
+        'launch.events.process.process_stderr.ProcessStderr',
+        'launch.events.process.process_stdin.ProcessStdin',
+        'launch.events.process.process_stdout.ProcessStdout',
+        'launch.events.process.process_targeted_event.ProcessTargetedEvent',
+        'launch.events.process.running_process_event.RunningProcessEvent',
+        'launch.events.process.shutdown_process.ShutdownProcess',
+        'launch.events.process.signal_process.SignalProcess',
+        'launch.events.shutdown.Shutdown',
+        'launch.events.timer_event.TimerEvent',
+        'launch.substitutions.substitution_failure.SubstitutionFailure',
+        'launch.utilities.class_tools_impl.is_a',
+        'launch.utilities.ensure_argument_type_impl.ensure_argument_type',
+        'launch.utilities.normalize_to_list_of_entities_impl.normalize_to_list_of_entities',
+        'launch.utilities.normalize_to_list_of_substitutions_impl'
+        '.normalize_to_list_of_substitutions',
+        'launch.utilities.perform_substitutions_impl.perform_substitutions',
+        'launch.utilities.visit_all_entities_and_collect_futures_impl'
+        '.visit_all_entities_and_collect_futures',
     ],
 )
 def test_deep_paths(name: str) -> None:
-    """A class is also found under its own module."""
+    """A class is also found in the module that ROS 2 Jazzy has for it, in a fresh process too."""
     module, _, attribute = name.rpartition('.')
     assert hasattr(import_module(module), attribute)
+    code = f'import {module}; from {module} import {attribute}'
+    result = subprocess.run([sys.executable, '-c', code], stderr=subprocess.PIPE, text=True)
+    assert (result.returncode, result.stderr) == (0, '')
 
 
 def test_misspelt_name() -> None:

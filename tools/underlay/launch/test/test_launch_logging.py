@@ -11,11 +11,9 @@ import re
 import sys
 from typing import Any
 
-from launch._supervision.line_format import LineFormat
-from launch._supervision.process_output import ProcessOutput
+from launch._supervision.process_output import LineFormat, ProcessOutput
 from launch.actions import LogInfo
-from launch.logging import get_logger, launch_config, reset
-from launch.logging._directory import base_directory
+from launch.logging import base_directory, get_logger, launch_config, reset
 from launch.logging._output import normalize_output_config
 import pytest
 

@@ -14,10 +14,10 @@ import time
 from types import SimpleNamespace
 from typing import Any
 
-from launch._supervision.line_format import LineFormat
-from launch._supervision.output_stream import OutputStream
+from launch._supervision.process_output import LineFormat
+from launch._supervision.running_process import OutputStream
 from launch.actions import ExecuteProcess
-from launch.logging._backlog import Backlog
+from launch.logging._screen import Backlog
 import pytest
 
 FLOOD = """
@@ -113,7 +113,7 @@ def test_stream_waits_for_the_screen(
     """Nothing is read from a process while the screen is congested, and all of it later."""
     waiting: list[Callable[[], None]] = []
     screen = SimpleNamespace(is_congested=True, when_clear=waiting.append)
-    monkeypatch.setattr('launch._supervision.output_stream.screen', screen)
+    monkeypatch.setattr('launch._supervision.running_process.screen', screen)
     read: list[bytes] = []
 
     async def follow() -> None:

@@ -16,7 +16,7 @@ from typing import Any
 
 from launch._supervision.family import Family
 from launch._supervision.orphan_guard import OrphanGuard
-from launch._supervision.prefork.eligibility import kind_of
+from launch._supervision.prefork.prefork import kind_of
 from launch._supervision.prefork.template_handle import TemplateHandle
 from launch._supervision.program import Child, execute, Program
 import pytest

@@ -9,7 +9,7 @@ import os
 from pathlib import Path
 import sys
 
-from launch._supervision.prefork.eligibility import kind_of
+from launch._supervision.prefork.prefork import kind_of
 from launch._supervision.program import Program
 import pytest
 

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchDescription, LaunchIntrospector, LaunchService
-from launch._rehearsal.record import Record
-from launch._rehearsal.rehearsal import rehearse
-from launch._rehearsal.tree_text import tree_lines
+from launch._dry_run import rehearse
+from launch._dry_run_record import Record, tree_lines
 from launch.actions import (
     DeclareLaunchArgument,
     EmitEvent,

@@ -9,12 +9,11 @@ import os
 import signal
 import subprocess
 
-from launch._supervision.exit_watch import watch_exit
 from launch._supervision.family import Family
-from launch._supervision.leftovers import end_leftovers
-from launch._supervision.line_splitter import LineSplitter
 from launch._supervision.orphan_guard import OrphanGuard
-from launch._supervision.process_group import is_empty, living_members, send_signal
+from launch._supervision.process_group import end_leftovers, is_empty, living_members, send_signal
+from launch._supervision.process_output import LineSplitter
+from launch._supervision.running_process import watch_exit
 import pytest
 
 

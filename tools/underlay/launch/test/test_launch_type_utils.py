@@ -9,11 +9,12 @@ from typing import Any
 
 from launch import LaunchContext
 from launch.substitutions import LaunchConfiguration
-from launch.utilities._scalars import read_boolean, read_yaml
 from launch.utilities.type_utils import (
     coerce_to_type,
     normalize_typed_substitution,
     perform_typed_substitution,
+    read_boolean,
+    read_yaml,
 )
 import pytest
 import yaml

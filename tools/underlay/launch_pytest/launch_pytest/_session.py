@@ -11,8 +11,7 @@ from typing import Any, Optional
 
 from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.actions import RegisterEventHandler
-from launch_testing._observation import Observation
-from launch_testing._ready import ready_actions, ReadyHandler
+from launch_testing._observation import Observation, ready_actions, ReadyHandler
 from launch_testing.actions.ready_to_test import ReadyToTest
 import pytest
 

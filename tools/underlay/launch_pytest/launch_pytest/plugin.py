@@ -63,7 +63,7 @@ def pytest_pycollect_makeitem(
     mark = _mark(collector, obj)
     if mark is None:
         return None
-    from launch_pytest._collection import collect
+    from launch_pytest._marked_tests import collect
 
     return collect(collector, name, obj, mark)  # type: ignore[arg-type]
 
@@ -90,7 +90,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
     """
     if _is_used():
-        from launch_pytest._collection import put_after_shutdown_last
+        from launch_pytest._marked_tests import put_after_shutdown_last
 
         put_after_shutdown_last(items)
 
@@ -113,14 +113,14 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Optional[bool]:
     """
     if not _is_used():
         return None
-    from launch_pytest._running import run_marked
+    from launch_pytest._marked_tests import run_marked
 
     return run_marked(pyfuncitem) or None
 
 
 def _is_used() -> bool:
     """Whether any test with the marker was collected."""
-    return 'launch_pytest._collection' in sys.modules
+    return 'launch_pytest._marked_tests' in sys.modules
 
 
 @pytest.fixture
@@ -159,7 +159,7 @@ def _session(request: pytest.FixtureRequest) -> LaunchSession:
             f'@pytest.mark.{_MARKER}(fixture=...)'
         )
     from launch_pytest._fixture import launch_fixture_of
-    from launch_pytest._running import session_of
+    from launch_pytest._marked_tests import session_of
 
     name = launch_fixture_of(mark, request.node.nodeid).name
     request.getfixturevalue(name)

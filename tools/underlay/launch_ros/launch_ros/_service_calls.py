@@ -7,9 +7,9 @@ import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
 import logging
+from types import TracebackType
 from typing import Any, Optional
 
-from launch_ros._pending_answer import PendingAnswer
 from rcl_interfaces.srv import GetParameterTypes
 
 STARTED_ANEW = 'started anew'
@@ -143,7 +143,7 @@ class ServiceCaller:
         while True:
             self._require_server()
             if self._probe.service_is_ready():
-                with PendingAnswer(self._probe, GetParameterTypes.Request()) as pending:
+                with _PendingAnswer(self._probe, GetParameterTypes.Request()) as pending:
                     if await pending.arrives_within(_CHECK_S):
                         return
                 patience.check("the node that offers '%s', which is busy", self._name)
@@ -156,7 +156,7 @@ class ServiceCaller:
         """Send the request; raise an error if the server disappears before its response."""
         self.has_asked = True
         lost = _now() + _LOST_AFTER_S
-        with PendingAnswer(self._client, request) as pending:
+        with _PendingAnswer(self._client, request) as pending:
             while not await pending.arrives_within(_CHECK_S):
                 self._require_server()
                 if self._client.service_is_ready():
@@ -187,3 +187,65 @@ class _Patience:
 
 def _now() -> float:
     return asyncio.get_running_loop().time()
+
+
+class _PendingAnswer:
+    """
+    Pending service request of an event loop; leaving the context drops the response.
+
+    Parameters
+    ----------
+    client
+        The rclpy client that sends the request. Its node is spun in another thread.
+    request
+        The request message of the service.
+
+    Raises
+    ------
+    RuntimeError
+        No event loop is running in this thread.
+
+    """
+
+    def __init__(self, client: Any, request: Any) -> None:
+        loop = asyncio.get_running_loop()
+        self._client = client
+        self._arrived = asyncio.Event()
+        self._future = client.call_async(request)
+        self._future.add_done_callback(lambda _: loop.call_soon_threadsafe(self._arrived.set))
+
+    def __enter__(self) -> _PendingAnswer:
+        return self
+
+    def __exit__(
+        self,
+        kind: Optional[type[BaseException]],
+        error: Optional[BaseException],
+        traceback: Optional[TracebackType],
+    ) -> None:
+        self._client.remove_pending_request(self._future)
+
+    async def arrives_within(self, seconds: float) -> bool:
+        """
+        Wait for the service response with a timeout.
+
+        Parameters
+        ----------
+        seconds
+            The timeout in s.
+
+        Returns
+        -------
+        bool
+            Whether the response has arrived; then `result` returns it.
+
+        """
+        try:
+            await asyncio.wait_for(self._arrived.wait(), seconds)
+        except asyncio.TimeoutError:
+            return False
+        return True
+
+    def result(self) -> Any:
+        """Return the response that has arrived."""
+        return self._future.result()

@@ -9,11 +9,11 @@ from typing import Any, Optional
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
 from launch.substitution import Substitution
-from launch.utilities.ensure_argument_type_impl import ensure_argument_type
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
+from launch.utilities import (
+    ensure_argument_type,
     normalize_to_list_of_substitutions,
+    perform_substitutions,
 )
-from launch.utilities.perform_substitutions_impl import perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 _NOT_YET = object()
@@ -126,8 +126,8 @@ class Parameter:
             The value is not a valid parameter value.
 
         """
+        from launch_ros.utilities.parameter_files import flow_text
         from launch_ros.utilities.parameter_values import checked
-        from launch_ros.utilities.yaml_text import flow_text
 
         name = perform_substitutions(context, self.__name)
         value = checked(self.__value.evaluate(context), name)
@@ -194,7 +194,7 @@ class ParameterFile:
         """
         path = os.fspath(perform_substitutions(context, self.__param_file))
         if self.__allow_substs and os.path.isfile(path):
-            from launch_ros.utilities.substituted_file import substitute_parameter_file
+            from launch_ros.utilities.parameter_files import substitute_parameter_file
 
             return substitute_parameter_file(context, path)
         return path

@@ -12,7 +12,7 @@ from launch_ros.actions import PushRosNamespace, SetParameter, SetParametersFrom
 from launch_ros.actions._load_request import build_load_request, LoadRequest
 from launch_ros.descriptions import ComposableNode, Parameter, ParameterValue
 from launch_ros.utilities import evaluate_parameters, normalize_parameters, to_parameters_list
-from launch_ros.utilities.parameter_file_content import matches, read_parameter_file
+from launch_ros.utilities.parameter_list import matches, read_parameter_file
 import pytest
 
 FILE = """

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from launch.substitutions import LocalSubstitution
-from launch_ros.actions import _node_extensions
+from launch_ros.actions import _ros_arguments
 from launch_ros.actions.node import NodeActionExtension
 import pytest
 
@@ -35,9 +35,9 @@ class Renaming(NodeActionExtension):
 @pytest.fixture(autouse=True)
 def _fresh_extensions() -> Iterator[None]:
     """Look the extensions up anew."""
-    _node_extensions.extensions.cache_clear()
+    _ros_arguments.extensions.cache_clear()
     yield
-    _node_extensions.extensions.cache_clear()
+    _ros_arguments.extensions.cache_clear()
 
 
 def _install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *lines: str) -> None:

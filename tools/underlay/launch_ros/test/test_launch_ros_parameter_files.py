@@ -9,8 +9,11 @@ from typing import Any, Optional
 
 from launch.actions import TimerAction
 from launch_ros.actions import Node, SetParametersFromFile
-from launch_ros.utilities.parameter_file_keys import key_matches, parameter_file_keys
-from launch_ros.utilities.parameter_file_problem import parameter_file_problem
+from launch_ros.utilities.parameter_file_check import (
+    key_matches,
+    parameter_file_keys,
+    parameter_file_problem,
+)
 import pytest
 
 Run = Callable[..., Any]

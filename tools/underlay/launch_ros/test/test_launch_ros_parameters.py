@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchContext
-from launch._failure_place import place_of
+from launch._checks.failures import place_of
 from launch.actions import SetLaunchConfiguration
 from launch.substitutions import LaunchConfiguration, TextSubstitution
 from launch_ros.actions import PushRosNamespace
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 from launch_ros.utilities import evaluate_parameters, normalize_parameters
-from launch_ros.utilities.yaml_text import flow_text
+from launch_ros.utilities.parameter_files import flow_text
 import pytest
 import yaml
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any, Optional
 
 from launch import LaunchDescription, LaunchService
-from launch._rehearsal.rehearsal import rehearse
-from launch._rehearsal.tree_text import tree_lines
+from launch._dry_run import rehearse
+from launch._dry_run_record import tree_lines
 from launch.actions import LogInfo
 from launch_ros.actions import (
     LifecycleNode,

@@ -9,8 +9,7 @@ from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
     from launch_testing import actions, asserts, event_handlers, legacy, markers, tools, util
-    from launch_testing._parametrize import parametrize
-    from launch_testing._post_shutdown_test import post_shutdown_test
+    from launch_testing._decorators import parametrize, post_shutdown_test
     from launch_testing.io_handler import ActiveIoHandler, IoHandler
     from launch_testing.launch_test_service import LaunchTestService
     from launch_testing.proc_info_handler import ActiveProcInfoHandler, ProcInfoHandler
@@ -42,8 +41,8 @@ _ELSEWHERE = {
     'event_handlers': '',
     'legacy': '',
     'markers': '',
-    'parametrize': '_parametrize',
-    'post_shutdown_test': '_post_shutdown_test',
+    'parametrize': '_decorators',
+    'post_shutdown_test': '_decorators',
     'tools': '',
     'util': '',
 }

@@ -1,17 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record the events of a launch for its tests."""
+"""Observe a launch for its tests: when it is ready, what its processes do and why it ends."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 import signal
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING
 
-from launch.actions import RegisterEventHandler
+from launch import EventHandler
+from launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart, OnShutdown
 from launch.events import Shutdown
 from launch.events.process import ProcessExited
+from launch_testing.actions.ready_to_test import ReadyToTest, TestsMayBegin
 from launch_testing.io_handler import ActiveIoHandler
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
+
+if TYPE_CHECKING:
+    from launch import LaunchContext, LaunchDescriptionEntity
 
 
 class Observation:
@@ -102,3 +108,62 @@ class Observation:
     def _on_shutdown(self, event: Any, context: Any) -> None:
         if self._shutdown is None:
             self._shutdown = event
+
+
+class ReadyHandler(EventHandler):
+    """
+    Event handler that calls a function as soon as all ReadyToTest actions have been visited.
+
+    Parameters
+    ----------
+    description
+        The launch description; included files are not searched.
+    on_ready
+        Called without arguments, and again on each later event.
+
+    """
+
+    def __init__(
+        self,
+        description: LaunchDescriptionEntity,
+        on_ready: Callable[[], None],
+    ) -> None:
+        super().__init__(matcher=lambda event: isinstance(event, TestsMayBegin))
+        self._missing = set(ready_actions([description]))
+        self._on_ready = on_ready
+
+    def handle(self, event: Any, context: LaunchContext) -> None:
+        """
+        Record that the action of the event was visited.
+
+        Parameters
+        ----------
+        event
+            A TestsMayBegin.
+        context
+            The context of the launch.
+
+        """
+        super().handle(event, context)
+        self._missing.discard(event.action)
+        if not self._missing:
+            self._on_ready()
+
+
+def ready_actions(entities: Iterable[LaunchDescriptionEntity]) -> Iterator[object]:
+    """
+    Yield all ReadyToTest actions that can be found without executing anything.
+
+    Parameters
+    ----------
+    entities
+        The entities to search, including their sub-entities but not included files.
+
+    """
+    for entity in entities:
+        if isinstance(entity, ReadyToTest):
+            yield entity
+        elif not isinstance(entity, IncludeLaunchDescription):
+            yield from ready_actions(entity.describe_sub_entities())
+            for _, children in entity.describe_conditional_sub_entities():
+                yield from ready_actions(children)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch.events.process.process_exited import ProcessExited
+from launch.events.process import ProcessExited
 from launch_testing._waiting import Waiting
 from launch_testing.util.resolve_processes import resolveProcesses, SomeProcess
 

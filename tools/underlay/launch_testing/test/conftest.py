@@ -17,9 +17,9 @@ from typing import Any
 from launch.actions import ExecuteProcess
 from launch.events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
 import launch.logging
-from launch_testing._single_run import SingleRun
 from launch_testing.loader import LoadTestsFromPythonModule
 from launch_testing.test_result import TestResult
+from launch_testing.test_runner import SingleRun
 import pytest
 
 # A shell that says hello, waits for a signal, says bye and ends in order.

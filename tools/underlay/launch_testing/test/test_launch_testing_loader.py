@@ -10,8 +10,7 @@ from typing import Any
 import unittest
 
 import launch_testing
-from launch_testing._injection import bind
-from launch_testing.loader import LoadTestsFromPythonModule
+from launch_testing.loader import bind, LoadTestsFromPythonModule
 from launch_testing.markers import retry_on_failure
 import pytest
 

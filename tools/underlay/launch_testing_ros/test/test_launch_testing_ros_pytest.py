@@ -8,7 +8,7 @@ from pathlib import Path
 import subprocess
 import sys
 
-from launch_testing_ros._domain import isolated_domain
+from launch_testing_ros.pytest.launch_ros_test_module import isolated_domain
 from launch_testing_ros.tools import basic_output_filter
 import pytest
 

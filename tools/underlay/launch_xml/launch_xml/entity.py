@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An element of a launch file in XML."""
+"""An element of a launch file in XML, and how the file is read into elements."""
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from dataclasses import dataclass, field
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._call_site import CallSite
-from launch.frontend._complaints import wrong_value
+from launch._checks.failures import CallSite
 from launch.frontend.entity import Entity as BaseEntity
+from launch.frontend.entity import wrong_value
 from launch.frontend.type_utils import value_of_text, value_of_texts
-from launch_xml._tree import Element
+
+if TYPE_CHECKING:
+    from xml.parsers.expat import XMLParserType
 
 _SEPARATOR = '-sep'
 
@@ -31,7 +34,7 @@ class Entity(BaseEntity):
 
     def __init__(
         self,
-        element: Element,
+        element: _Element,
         *,
         file_name: str = '<string>',
         parent: Optional[BaseEntity] = None,
@@ -73,3 +76,76 @@ class Entity(BaseEntity):
             ('attribute(s)', [n for n in self.__attributes if n not in self.__read_attributes]),
             ('nested tag(s)', [tag for tag in tags if tag not in self.__read_tags]),
         ]
+
+
+@dataclass
+class _Element:
+    """An element, with the line on which it begins."""
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    children: list[_Element] = field(default_factory=list)
+
+
+class NotXMLError(Exception):
+    """A text is not XML; the error knows the line."""
+
+    def __init__(self, text: str, line: int) -> None:
+        """Create the error."""
+        super().__init__(text)
+        self.line = line
+
+
+def read_tree(content: Union[str, bytes]) -> _Element:
+    """
+    Read XML into a tree whose elements know their lines.
+
+    Parameters
+    ----------
+    content
+        The text of the document.
+
+    Returns
+    -------
+    Element
+        The root.
+
+    Raises
+    ------
+    NotXMLError
+        The text is not XML.
+
+    """
+    from xml.parsers.expat import ExpatError, ParserCreate
+
+    parser = ParserCreate()
+    builder = _Builder(parser)
+    try:
+        parser.Parse(content, True)
+    except ExpatError as error:
+        raise NotXMLError(str(error), error.lineno) from None
+    assert builder.root is not None, 'XML has a root'
+    return builder.root
+
+
+class _Builder:
+    """Builds the tree while the parser walks through the text."""
+
+    def __init__(self, parser: XMLParserType) -> None:
+        self.root: Optional[_Element] = None
+        self._open: list[_Element] = []
+        self._parser = parser
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = _Element(tag, attributes, self._parser.CurrentLineNumber)
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self.root = element
+        self._open.append(element)
+
+    def _end(self, tag: str) -> None:
+        self._open.pop()

@@ -6,10 +6,9 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from launch._call_site import CallSite
-from launch._failure_place import note_line
-from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+from launch._checks.failures import CallSite, note_line
 from launch.frontend.parser import Parser as BaseParser
+from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError
 
 if TYPE_CHECKING:
     from launch.frontend.parser import SomeFile
@@ -35,8 +34,7 @@ class Parser(BaseParser):
             The file is not XML.
 
         """
-        from launch_xml._tree import NotXMLError, read_tree
-        from launch_xml.entity import Entity
+        from launch_xml.entity import Entity, NotXMLError, read_tree
 
         name, content = _read(file)
         try:

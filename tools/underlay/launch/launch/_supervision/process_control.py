@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 
 from launch.event import Event
 from launch.event_handler import BaseEventHandler
-from launch.events.process.process_stdin import ProcessStdin
-from launch.events.process.process_targeted_event import ProcessTargetedEvent
-from launch.events.process.signal_process import SignalProcess
-from launch.events.shutdown import Shutdown
+from launch.events import Shutdown
+from launch.events.process import ProcessStdin, ProcessTargetedEvent, SignalProcess
 
 if TYPE_CHECKING:
     from launch._supervision.supervisor import Supervisor

@@ -6,12 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checked import text_like
+from launch._checks.arguments import text_like
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import perform_typed_substitution
 
 if TYPE_CHECKING:
@@ -77,9 +74,7 @@ class ProcessOptions:
         override = context.launch_configurations.get('emulate_tty')
         if override is None:
             return bool(perform_typed_substitution(context, self.emulate_tty, bool))
-        from launch.conditions.evaluate_condition_expression_impl import (
-            evaluate_condition_expression,
-        )
+        from launch.conditions import evaluate_condition_expression
 
         return evaluate_condition_expression(
             context, normalize_to_list_of_substitutions(str(override))

@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Logging of the output of a process."""
+"""Split the output of a process into lines, format and log them."""
 
 from __future__ import annotations
 
 from collections import deque
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Optional
 
-from launch._supervision.line_format import LineFormat
-from launch._supervision.line_splitter import LineSplitter
 from launch.logging import get_output_loggers, launch_config
 from launch.logging._output import is_on_screen
 from launch.logging._screen import screen
 
 _STREAMS = (1, 2)
 _LAST_LINES = 20
+_LONGEST = 1024 * 1024
+"""Maximum length of a line in bytes; a longer one is split, as it may never end."""
+_PLACE = '{line}'
 
 
 class ProcessOutput:
@@ -101,3 +103,111 @@ class ProcessOutput:
         self._loggers[stream].info('%s', text)
         if not self._is_seen[stream]:
             self._unseen.extend(text.split('\n')[-_LAST_LINES:])
+
+
+class LineSplitter:
+    """Splitter that collects bytes and returns complete lines."""
+
+    def __init__(self) -> None:
+        self._pieces: list[bytes] = []
+        self._size = 0
+
+    def feed(self, data: bytes) -> list[str]:
+        """
+        Add bytes, and return the lines that they complete.
+
+        Parameters
+        ----------
+        data
+            The next bytes of the stream.
+
+        Returns
+        -------
+        list of str
+            The lines without line breaks; one that is longer than 1 MiB is split.
+
+        """
+        if b'\n' in data:
+            lines, _, rest = b''.join([*self._pieces, data]).rpartition(b'\n')
+            self._keep(rest)
+            return _decode(lines)
+        self._pieces.append(data)
+        self._size += len(data)
+        return self._cut() if self._size > _LONGEST else []
+
+    def _keep(self, rest: bytes) -> None:
+        self._pieces = [rest] if rest else []
+        self._size = len(rest)
+
+    def _cut(self) -> list[str]:
+        """Return the incomplete line, except for a trailing incomplete UTF-8 character."""
+        text = b''.join(self._pieces)
+        tail = 1
+        while tail < 4 and 0x80 <= text[-tail] < 0xC0:
+            tail += 1
+        end = len(text) - (tail if text[-tail] >= 0xC0 else 0)
+        self._keep(text[end:])
+        return _decode(text[:end])
+
+    def flush(self) -> list[str]:
+        """Return the text after the last line break as a line, if there is any."""
+        rest = b''.join(self._pieces)
+        self._keep(b'')
+        return _decode(rest) if rest else []
+
+
+def _decode(data: bytes) -> list[str]:
+    """Decode lines, and strip the carriage returns that a pseudo terminal adds."""
+    lines = data.decode('utf-8', 'replace').split('\n')
+    return [line.rstrip('\r') for line in lines] if b'\r' in data else lines
+
+
+class LineFormat:
+    """
+    Format of the output lines of a process, applied to many lines at once if possible.
+
+    Parameters
+    ----------
+    text
+        The brace-style format, with the fields `line` and `this`.
+    this
+        The action, for the field `this`.
+
+    """
+
+    def __init__(self, text: str, this: Any) -> None:
+        self._text = text
+        self._this = this
+        self._frame = _frame_of(text, this)
+
+    def apply(self, lines: Sequence[str]) -> str:
+        """
+        Format lines for the log.
+
+        Parameters
+        ----------
+        lines
+            The lines, without line breaks.
+
+        Returns
+        -------
+        str
+            The formatted lines, with line breaks between them.
+
+        """
+        if self._frame is None:
+            return '\n'.join(self._text.format(line=line, this=self._this) for line in lines)
+        head, tail = self._frame
+        between = f'{tail}\n{head}'
+        return f'{head}{between.join(lines)}{tail}'
+
+
+def _frame_of(text: str, this: Any) -> Optional[tuple[str, str]]:
+    """Return the text before and after each line, None if the format is more complex."""
+    head, place, tail = text.partition(_PLACE)
+    if not place:
+        return None
+    try:
+        return head.format(this=this), tail.format(this=this)
+    except (KeyError, ValueError, IndexError):
+        return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Running process with its streams."""
+"""Start a process, read its output, and watch for its exit."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ from collections.abc import Callable, Sequence
 from functools import partial
 import os
 import signal
+import threading
 from typing import Optional
 
-from launch._supervision.exit_watch import watch_exit
-from launch._supervision.output_stream import OutputStream
 from launch._supervision.process_group import send_signal
 from launch._supervision.program import Child, Program, Spawn
+from launch.logging._screen import screen
 
 OnOutput = Callable[[int, bytes], None]
+
+_CHUNK = 65536
+_CHUNKS_AT_THE_END = 64
 
 
 class RunningProcess:
@@ -172,3 +175,151 @@ def _file(path: str) -> tuple[Sequence[int], Sequence[int]]:
 def _close(descriptors: Sequence[int]) -> None:
     for descriptor in descriptors:
         os.close(descriptor)
+
+
+class OutputStream:
+    """
+    Reader of a pipe or a pseudo terminal that passes the data to a callback.
+
+    Nothing is read while the screen is congested, so that the writer blocks (back-pressure).
+
+    Parameters
+    ----------
+    loop
+        The event loop that watches the descriptor.
+    descriptor
+        The file descriptor to read from; the stream takes ownership of it.
+    use
+        Called with each piece of the output.
+
+    """
+
+    def __init__(
+        self,
+        loop: asyncio.AbstractEventLoop,
+        descriptor: int,
+        use: Callable[[bytes], None],
+    ) -> None:
+        self._loop = loop
+        self._descriptor = descriptor
+        self._use = use
+        os.set_blocking(descriptor, False)
+        loop.add_reader(descriptor, self._on_readable)
+
+    def _on_readable(self) -> None:
+        if not screen.is_congested:
+            self._read()
+            return
+        self._loop.remove_reader(self._descriptor)
+        screen.when_clear(self._read_on_from_any_thread)
+
+    def _read_on_from_any_thread(self) -> None:
+        try:
+            self._loop.call_soon_threadsafe(self._read_on)
+        except RuntimeError:  # the loop is closed; output is no longer read
+            pass
+
+    def _read_on(self) -> None:
+        if self._descriptor >= 0:
+            self._loop.add_reader(self._descriptor, self._on_readable)
+
+    def _read(self) -> bool:
+        """Read once; return whether there may be more."""
+        if self._descriptor < 0:
+            return False
+        try:
+            data = os.read(self._descriptor, _CHUNK)
+        except (BlockingIOError, InterruptedError):
+            return False
+        except OSError:  # the other end of a pseudo terminal is closed
+            data = b''
+        if not data:
+            self.close()
+            return False
+        self._use(data)
+        return True
+
+    def drain(self) -> None:
+        """Read the data that is available now."""
+        for _ in range(_CHUNKS_AT_THE_END):
+            if not self._read():
+                return
+
+    def close(self) -> None:
+        """Stop reading, and close the descriptor."""
+        if self._descriptor >= 0:
+            self._loop.remove_reader(self._descriptor)
+            os.close(self._descriptor)
+            self._descriptor = -1
+
+
+def watch_exit(
+    child: Child,
+    loop: asyncio.AbstractEventLoop,
+) -> asyncio.Future[int]:
+    """
+    Watch for the exit of a child process, and reap it.
+
+    Parameters
+    ----------
+    child
+        The process.
+    loop
+        The event loop of the future.
+
+    Returns
+    -------
+    Future of int
+        The exit status, negative for a signal; canceling it ends the watch.
+
+    """
+    future: asyncio.Future[int] = loop.create_future()
+    try:
+        descriptor = os.pidfd_open(child.pid)
+    except (AttributeError, OSError):
+        _watch_in_thread(child, loop, future)
+    else:
+        loop.add_reader(descriptor, _reap, child, loop, future, descriptor)
+        future.add_done_callback(partial(_unwatch_if_cancelled, loop, descriptor))
+    return future
+
+
+def _unwatch_if_cancelled(
+    loop: asyncio.AbstractEventLoop, descriptor: int, future: asyncio.Future[int]
+) -> None:
+    if future.cancelled():
+        loop.remove_reader(descriptor)
+        os.close(descriptor)
+
+
+def _reap(
+    child: Child,
+    loop: asyncio.AbstractEventLoop,
+    future: asyncio.Future[int],
+    descriptor: int,
+) -> None:
+    loop.remove_reader(descriptor)
+    os.close(descriptor)
+    _finish(future, child.wait())
+
+
+def _watch_in_thread(
+    child: Child,
+    loop: asyncio.AbstractEventLoop,
+    future: asyncio.Future[int],
+) -> None:
+    """Wait for the child in a thread, if no pidfd can be opened."""
+
+    def wait() -> None:
+        code = child.wait()
+        try:
+            loop.call_soon_threadsafe(_finish, future, code)
+        except RuntimeError:  # the loop is closed; no one is waiting
+            pass
+
+    threading.Thread(target=wait, name=f'wait for {child.pid}', daemon=True).start()
+
+
+def _finish(future: asyncio.Future[int], code: int) -> None:
+    if not future.done():
+        future.set_result(code)

@@ -9,18 +9,13 @@ import logging
 import signal
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._supervision.escalation import Escalation
-from launch._supervision.leftovers import end_leftovers
-from launch._supervision.line_format import LineFormat
+from launch._checks.programs import explain_spawn_failure
+from launch._supervision.process_group import end_leftovers, Escalation
 from launch._supervision.process_options import PerformedOptions
-from launch._supervision.process_output import ProcessOutput
+from launch._supervision.process_output import LineFormat, ProcessOutput
 from launch._supervision.program import execute, Program
 from launch._supervision.running_process import RunningProcess, start_process
-from launch._supervision.spawn_failure import explain_spawn_failure
-from launch.events.process.process_exited import ProcessExited
-from launch.events.process.process_started import ProcessStarted
-from launch.events.process.process_stderr import ProcessStderr
-from launch.events.process.process_stdout import ProcessStdout
+from launch.events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
 from launch.logging import get_logger, launch_config
 
 if TYPE_CHECKING:

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions of a launch description."""
+"""The actions of a launch description; those that begin and end a scope are here."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._lazy import lazy_exports
+from launch._lazy import also_found_at, lazy_exports
+from launch.action import Action
 
 if TYPE_CHECKING:
     from launch.actions.append_environment_variable import AppendEnvironmentVariable
@@ -18,12 +19,7 @@ if TYPE_CHECKING:
     from launch.actions.log_info import LogInfo
     from launch.actions.opaque_coroutine import OpaqueCoroutine
     from launch.actions.opaque_function import OpaqueFunction
-    from launch.actions.pop_environment import PopEnvironment
-    from launch.actions.pop_launch_configurations import PopLaunchConfigurations
-    from launch.actions.push_environment import PushEnvironment
-    from launch.actions.push_launch_configurations import PushLaunchConfigurations
     from launch.actions.register_event_handler import RegisterEventHandler
-    from launch.actions.reset_environment import ResetEnvironment
     from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
     from launch.actions.set_environment_variable import SetEnvironmentVariable
     from launch.actions.set_launch_configuration import SetLaunchConfiguration
@@ -32,6 +28,7 @@ if TYPE_CHECKING:
     from launch.actions.unregister_event_handler import UnregisterEventHandler
     from launch.actions.unset_environment_variable import UnsetEnvironmentVariable
     from launch.actions.unset_launch_configuration import UnsetLaunchConfiguration
+    from launch.launch_context import LaunchContext
 
 __all__ = [
     'AppendEnvironmentVariable',
@@ -59,6 +56,107 @@ __all__ = [
     'UnsetEnvironmentVariable',
     'UnsetLaunchConfiguration',
 ]
+
+
+class PushLaunchConfigurations(Action):
+    """Keeps the launch configurations until PopLaunchConfigurations restores them."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Save a copy of the launch configurations.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        """
+        context._push_launch_configurations()
+
+
+class PopLaunchConfigurations(Action):
+    """Restores the launch configurations that PushLaunchConfigurations kept."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Restore the launch configurations of the last `PushLaunchConfigurations`.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        RuntimeError
+            Nothing has been pushed.
+
+        """
+        context._pop_launch_configurations()
+
+
+class PushEnvironment(Action):
+    """Keeps the environment until PopEnvironment restores it."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Save a copy of the environment.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        """
+        context._push_environment()
+
+
+class PopEnvironment(Action):
+    """Restores the environment that PushEnvironment kept."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Restore the environment of the last `PushEnvironment`.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        RuntimeError
+            Nothing has been pushed.
+
+        """
+        context._pop_environment()
+
+
+class ResetEnvironment(Action):
+    """Restores the environment that the launch was started with."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Restore the environment that the launch was started with.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        """
+        context._reset_environment()
+
+
+# ROS 2 Jazzy has a module for each of them; launch files import from those, too.
+also_found_at(
+    __name__,
+    'pop_environment',
+    'pop_launch_configurations',
+    'push_environment',
+    'push_launch_configurations',
+    'reset_environment',
+)
 
 _ELSEWHERE = {
     'Shutdown': 'shutdown_action',

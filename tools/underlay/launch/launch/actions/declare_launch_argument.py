@@ -7,11 +7,11 @@ from collections.abc import Container, Iterable
 import os
 from typing import Any, NoReturn, Optional, TYPE_CHECKING
 
-from launch._checked import list_like, of_type, optional_text_like
+from launch._checks.arguments import list_like, of_type, optional_text_like
 from launch.action import Action
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -83,7 +83,7 @@ class DeclareLaunchArgument(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._children import children_named
+        from launch.frontend._attributes import children_named
 
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.escape_characters(entity.get_attr('name'))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checked import list_like, of_type, typed
+from launch._checks.arguments import list_like, of_type, typed
 from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -17,9 +17,9 @@ from launch.substitutions.launch_configuration import LaunchConfiguration
 if TYPE_CHECKING:
     import asyncio
 
+    from launch._dry_run_record import VisitObserver
     from launch._supervision.process_options import PerformedOptions, ProcessOptions
     from launch._supervision.supervisor import Supervisor
-    from launch._visit_observer import VisitObserver
     from launch.launch_context import LaunchContext
 
 OnExit = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
@@ -279,7 +279,7 @@ class ExecuteLocal(Action):
         """Raise an error if the program does not exist and nothing has been started yet."""
         checks = context._before_start
         if checks is not None and checks.resolves_programs and not self.shell:
-            from launch._programs import require_program
+            from launch._checks.programs import require_program
 
             require_program(self.description_of_process())
 
@@ -305,7 +305,7 @@ class ExecuteLocal(Action):
         return [('its end', entities)] if entities else []
 
     def _check_in_advance(self, context: LaunchContext) -> None:
-        from launch._programs import require_later_program
+        from launch._checks.programs import require_later_program
 
         description = self.__process_description
         if not self.shell and description.cmd:

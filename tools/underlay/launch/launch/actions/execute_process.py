@@ -77,7 +77,7 @@ class ExecuteProcess(ExecuteLocal):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._process_attributes import parse_process
+        from launch.frontend._attributes import parse_process
 
         _, kwargs = super().parse(entity, parser)
         kwargs.update(parse_process(entity, parser, frozenset(ignore or ())))

@@ -6,21 +6,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checked import list_like, mapping_like, typed
+from launch._checks.arguments import list_like, mapping_like, typed
 from launch.action import Action
-from launch.actions.pop_environment import PopEnvironment
-from launch.actions.pop_launch_configurations import PopLaunchConfigurations
-from launch.actions.push_environment import PushEnvironment
-from launch.actions.push_launch_configurations import PushLaunchConfigurations
-from launch.actions.reset_environment import ResetEnvironment
+from launch.actions import (
+    PopEnvironment,
+    PopLaunchConfigurations,
+    PushEnvironment,
+    PushLaunchConfigurations,
+    ResetEnvironment,
+)
 from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities.type_utils import (
-    is_substitution,
-    perform_typed_substitution,
-)
+from launch.utilities.type_utils import is_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -89,7 +88,7 @@ class GroupAction(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._children import parse_pairs
+        from launch.frontend._attributes import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
         for name in ('scoped', 'forwarding'):

@@ -7,19 +7,15 @@ from collections.abc import Iterable, Mapping, Sequence
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checked import list_like, text_like
-from launch._include_stack import open_file
+from launch._checks.arguments import list_like, text_like
+from launch._include_stack import enter_launch_file, open_file
 from launch.action import Action
-from launch.actions._include_location import enter_launch_file
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description import LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.actions.declare_launch_argument import DeclareLaunchArgument
@@ -84,7 +80,7 @@ class IncludeLaunchDescription(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._children import parse_pairs
+        from launch.frontend._attributes import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
         path = parser.parse_substitution(entity.get_attr('file'))
@@ -114,8 +110,8 @@ class IncludeLaunchDescription(Action):
         return [] if description is None else [description]
 
     def _check_in_advance(self, context: LaunchContext) -> None:
-        from launch._missing_file import explain_missing_include
-        from launch._preflight import constant_text
+        from launch._checks.missing_file import explain_missing_include
+        from launch._checks.preflight import constant_text
 
         path = constant_text(self.__launch_description_source._location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):
@@ -200,7 +196,7 @@ class IncludeLaunchDescription(Action):
         includes: list[IncludeLaunchDescription],
     ) -> None:
         """Record the line of the innermost include, which must pass the missing argument."""
-        from launch._failure_place import note_line
+        from launch._checks.failures import note_line
 
         lines = [each.call_site for each in reversed([self, *includes]) if each.call_site]
         if lines:
@@ -234,7 +230,7 @@ def _setting(name: Any, value: Any) -> SetLaunchConfiguration:
 def _text(name: SomeSubstitutionsType, context: Optional[LaunchContext]) -> str:
     """Return the name of an argument; without a context, as far as it is known."""
     from launch.launch_context import LaunchContext
-    from launch.substitutions.substitution_failure import SubstitutionFailure
+    from launch.substitution import SubstitutionFailure
 
     try:
         return perform_substitutions(

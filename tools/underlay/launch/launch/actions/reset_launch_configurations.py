@@ -8,10 +8,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch.action import Action
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -62,7 +59,7 @@ class ResetLaunchConfigurations(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._children import parse_pairs
+        from launch.frontend._attributes import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
         kwargs['launch_configurations'] = dict(parse_pairs(entity, parser, 'keep'))

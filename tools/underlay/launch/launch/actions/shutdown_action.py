@@ -6,13 +6,10 @@ from __future__ import annotations
 from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
-from launch.events.process.process_exited import ProcessExited
-from launch.events.shutdown import Shutdown as ShutdownEvent
+from launch.events import Shutdown as ShutdownEvent
+from launch.events.process import ProcessExited
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity

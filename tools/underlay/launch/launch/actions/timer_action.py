@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that visits other actions after a delay."""
+"""The action that visits other actions after a delay, in the scope in which it was started."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any, Optional, Protocol, TYPE_CHECKING, Union
 
-from launch._checked import list_like, typed
+from launch._checks.arguments import list_like, typed
 from launch.action import Action
-from launch.actions._captured_scope import EnterScope, LeaveScope
 from launch.event_handler import EventHandler
 from launch.event_handlers.on_shutdown import OnShutdown
-from launch.events.timer_event import TimerEvent
+from launch.events import TimerEvent
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
@@ -212,3 +211,53 @@ def _warn_of_text(period: str) -> None:
         f"the period of a TimerAction should be a float or substitutions, not the text '{period}'",
         stacklevel=4,
     )
+
+
+class EnterScope(LaunchDescriptionEntity):
+    """
+    Entity that opens a scope with captured launch configurations.
+
+    Parameters
+    ----------
+    configurations
+        The captured launch configurations, which replace the current ones.
+    local_variables
+        The captured local variables, which are added to the current ones; `event` is kept.
+
+    """
+
+    def __init__(self, configurations: dict[str, Any], local_variables: dict[str, Any]) -> None:
+        self._configurations = configurations
+        self._locals = local_variables
+
+    def visit(self, context: LaunchContext) -> None:
+        """
+        Replace the launch configurations until `LeaveScope` is visited.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        """
+        context._push_launch_configurations()
+        context.launch_configurations.clear()
+        context.launch_configurations.update(self._configurations)
+        event = context.get_locals_as_dict().get('event')
+        context.extend_locals({**self._locals, 'event': event})
+
+
+class LeaveScope(LaunchDescriptionEntity):
+    """Entity that closes the scope."""
+
+    def visit(self, context: LaunchContext) -> None:
+        """
+        Restore the launch configurations from before the scope.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        """
+        context._pop_launch_configurations()

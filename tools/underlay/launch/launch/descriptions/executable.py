@@ -3,18 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import count
 import os
 import re
 import shlex
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checked import list_like, mapping_like, optional_text_like, text_like
-from launch._supervision.python_output import runs_python
+from launch._checks.arguments import list_like, mapping_like, optional_text_like, text_like
+from launch._checks.programs import find_program
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
     from launch.action import Action
@@ -24,6 +24,7 @@ Variables = list[tuple[list[Substitution], list[Substitution]]]
 SomeVariables = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
 
 _numbers = count(1)
+ROS_ARGUMENTS = '--ros-args'  # what follows is for a node; none of it is a program
 
 
 class Executable:
@@ -223,3 +224,40 @@ def _perform_variables(context: LaunchContext, variables: Variables) -> dict[str
         perform_substitutions(context, name): perform_substitutions(context, value)
         for name, value in variables
     }
+
+
+def runs_python(command: Sequence[str], *, shell: bool) -> bool:
+    """
+    Whether one of the words of a command is a Python interpreter, or a script for one.
+
+    Parameters
+    ----------
+    command
+        The words; what follows `--ros-args` is left out.
+    shell
+        Whether a shell runs the command, and therefore splits the words at spaces.
+
+    """
+    words = ' '.join(command).split() if shell else command
+    if ROS_ARGUMENTS in words:
+        words = words[: words.index(ROS_ARGUMENTS)]
+    return any(_is_python(word) for word in words if word and not word.startswith('-'))
+
+
+def _is_python(word: str) -> bool:
+    if os.path.basename(word).startswith('python'):
+        return True
+    path = word if '/' in word else find_program(word)
+    return path is not None and b'python' in _interpreter(path)
+
+
+def _interpreter(path: str) -> bytes:
+    """Return the shebang of a script, empty for any other file."""
+    try:
+        if not os.path.isfile(path):
+            return b''
+        with open(path, 'rb') as file:
+            head = file.read(256)
+    except (OSError, ValueError):
+        return b''
+    return head.partition(b'\n')[0] if head.startswith(b'#!') else b''

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from launch._lazy import lazy_exports
+from launch._lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
-    from launch.event_handlers.event_named import event_named
+    from launch.event import Event
     from launch.event_handlers.on_action_event_base import OnActionEventBase
     from launch.event_handlers.on_execution_complete import OnExecutionComplete
     from launch.event_handlers.on_process_exit import OnProcessExit
@@ -25,6 +26,27 @@ __all__ = [
     'OnShutdown',
     'event_named',
 ]
+
+
+def event_named(name: str) -> Callable[[Event], bool]:
+    """
+    Create a matcher of events by name.
+
+    Parameters
+    ----------
+    name
+        The name, such as `launch.events.Shutdown`.
+
+    Returns
+    -------
+    callable
+        Predicate that accepts an event, and returns whether it has the name.
+
+    """
+    return lambda event: event.name == name
+
+
+also_found_at(__name__, 'event_named')
 
 _ELSEWHERE = {
     'OnProcessIO': 'on_process_io',

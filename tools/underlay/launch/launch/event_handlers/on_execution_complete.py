@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase, Reaction
-from launch.events.execution_complete import ExecutionComplete
+from launch.events import ExecutionComplete
 
 if TYPE_CHECKING:
     from launch.action import Action

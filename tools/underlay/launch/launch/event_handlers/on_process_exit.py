@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase, Reaction
-from launch.events.process.process_exited import ProcessExited
+from launch.events.process import ProcessExited
 
 if TYPE_CHECKING:
     from launch.actions.execute_local import ExecuteLocal

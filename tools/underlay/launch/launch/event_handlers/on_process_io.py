@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase
-from launch.events.process.process_io import ProcessIO
+from launch.events.process import ProcessIO
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch.event_handler import BaseEventHandler
 from launch.event_handlers.on_action_event_base import checked_reaction, Reaction
-from launch.events.shutdown import Shutdown
+from launch.events import Shutdown
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from launch.frontend import expose, parse_substitution, type_utils
     from launch.frontend.entity import Entity
     from launch.frontend.expose import expose_action, expose_substitution
-    from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
-    from launch.frontend.invalid_substitution_error import InvalidSubstitutionError
+    from launch.frontend.parse_substitution import InvalidSubstitutionError
     from launch.frontend.parser import Parser
+    from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError
 
 __all__ = [
     'Entity',
@@ -28,6 +28,8 @@ __all__ = [
 ]
 
 _ELSEWHERE = {
+    'InvalidFrontendLaunchFileError': 'parser',
+    'InvalidSubstitutionError': 'parse_substitution',
     'expose': '',
     'expose_action': 'expose',
     'expose_substitution': 'expose',

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Locations of the tags and substitutions of launch itself.
+Locations of the tags, substitutions and parsers of launch files.
 
-They are loaded when a launch file uses them; other packages use `launch.frontend.expose`.
+Those of launch itself are loaded when a launch file uses them; other packages use
+`launch.frontend.expose` or entry points.
 """
 
 from __future__ import annotations
@@ -10,6 +11,12 @@ from __future__ import annotations
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
+from typing import Any, TYPE_CHECKING
+
+from launch._entry_points import entry_points_of
+
+if TYPE_CHECKING:
+    from launch.frontend.parser import Parser
 
 ACTIONS = {
     'append_env': 'launch.actions.append_environment_variable:AppendEnvironmentVariable',
@@ -20,7 +27,7 @@ ACTIONS = {
     'let': 'launch.actions.set_launch_configuration:SetLaunchConfiguration',
     'log': 'launch.actions.log_info:LogInfo',
     'reset': 'launch.actions.reset_launch_configurations:ResetLaunchConfigurations',
-    'reset_env': 'launch.actions.reset_environment:ResetEnvironment',
+    'reset_env': 'launch.actions:ResetEnvironment',
     'set_env': 'launch.actions.set_environment_variable:SetEnvironmentVariable',
     'shutdown': 'launch.actions.shutdown_action:Shutdown',
     'timer': 'launch.actions.timer_action:TimerAction',
@@ -57,6 +64,9 @@ PARSERS = {
 # Modules of other packages with such tables.
 _MORE = ('launch_ros._known_names',)
 
+_TAGS = 'launch.frontend.launch_extension'
+_PARSERS = 'launch.frontend.parser'
+
 
 @cache
 def known_actions() -> dict[str, str]:
@@ -91,3 +101,38 @@ def _together(table: str, own: dict[str, str]) -> dict[str, str]:
         if find_spec(module.partition('.')[0]) is not None:
             places.update(getattr(import_module(module), table))
     return places
+
+
+@cache
+def load_extensions() -> None:
+    """Import the modules that expose tags and substitutions."""
+    _load_group(_TAGS, known=())
+
+
+@cache
+def extension_parsers() -> dict[str, type[Parser]]:
+    """Return the parsers of other packages by name."""
+    return _load_group(_PARSERS, known=PARSERS)
+
+
+def _load_group(group: str, known: Any) -> dict[str, Any]:
+    """Load all entry points of a group; warn about those that cannot be loaded."""
+    loaded = {}
+    for point in entry_points_of(group):
+        if point.name in known:
+            continue
+        try:
+            loaded[point.name] = point.load()
+        except Exception as error:
+            _warn(group, point.name, point.value, error)
+    return loaded
+
+
+def _warn(group: str, name: str, value: str, error: Exception) -> None:
+    import warnings
+
+    warnings.warn(
+        f"the extension '{name}' ({value}) of the group '{group}' cannot be loaded and is left "
+        f'out: {type(error).__name__}: {error}',
+        stacklevel=2,
+    )

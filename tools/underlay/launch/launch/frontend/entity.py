@@ -1,18 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An element of a launch file, in any format."""
+"""An element of a launch file, in any format, and the errors about what is wrong in it."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import count
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch.frontend._complaints import missing_attribute, unexpected_names
+from launch._did_you_mean import did_you_mean
 from launch.frontend.type_utils import check_is_list_entity
 
 if TYPE_CHECKING:
-    from launch._call_site import CallSite
+    from launch._checks.failures import CallSite
 
 _numbers = count(1)
+
+_ATTRIBUTES = {
+    ('node', 'type'): "write 'exec'",
+    ('node', 'package'): "XML and YAML write 'pkg'",
+    ('node', 'executable'): "XML and YAML write 'exec'",
+    ('composable_node', 'package'): "XML and YAML write 'pkg'",
+    ('node', 'required'): 'write on_exit="shutdown"',
+    ('node', 'ns'): "write 'namespace'",
+    ('node', 'launch_prefix'): "write 'launch-prefix'",
+    ('executable', 'launch_prefix'): "write 'launch-prefix'",
+    ('group', 'ns'): 'write <push_ros_namespace namespace="..."/> in it',
+    ('include', 'ns'): 'put it in a group with <push_ros_namespace namespace="..."/>',
+    ('include', 'pass_all_args'): 'an included file sees all variables anyway',
+    ('arg', 'value'): 'write <let name="..." value="..."/>, or \'default\'',
+    ('arg', 'doc'): "write 'description'",
+}
 
 
 class Entity:
@@ -128,3 +145,75 @@ class Entity:
     def _left(self) -> list[tuple[str, list[str]]]:
         """Return the names of attributes and children that have not been read, by kind."""
         raise NotImplementedError
+
+
+def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]) -> str:
+    """
+    Format the error about a missing attribute, with suggestions.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    name, data_type
+        The attribute that was asked for, and its type.
+    left
+        The names of attributes and children that have not been read.
+
+    """
+    text = f"Attribute '{name}' of type '{data_type}' not found in Entity '{entity.type_name}'"
+    return _with_advice(text, [_legacy(entity, each) or _instead(each, name) for each in left])
+
+
+def unexpected_names(entity: Entity, kind: str, names: list[str], known: list[str]) -> str:
+    """
+    Format the error about attributes or children that an element cannot have.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    kind
+        Their kind: `attribute(s)` or `nested tag(s)`.
+    names
+        Their names.
+    known
+        The names that the element can have, for suggestions.
+
+    """
+    listed = ', '.join(f"'{name}'" for name in sorted(set(names)))
+    text = f'Unexpected {kind} found in `{entity.type_name}`: {{{listed}}}'
+    return _with_advice(text, [_legacy(entity, each) or _meant(each, known) for each in names])
+
+
+def wrong_value(entity: Entity, name: str, error: Exception) -> str:
+    """
+    Format the error about an attribute whose value cannot be used.
+
+    Parameters
+    ----------
+    entity, name
+        The element, and the attribute.
+    error
+        The error about the value.
+
+    """
+    return f"The attribute '{name}' of `{entity.type_name}` cannot be used: {error}"
+
+
+def _meant(name: str, known: list[str]) -> str:
+    return did_you_mean(name, [each for each in known if each != name])
+
+
+def _instead(given: str, missing: str) -> str:
+    close = did_you_mean(given, [missing])
+    return f"There is '{given}' instead: was '{missing}' meant?" if close else ''
+
+
+def _legacy(entity: Entity, name: str) -> str:
+    advice = _ATTRIBUTES.get((entity.type_name, name))
+    return f"ROS 2 has no '{name}' there: {advice}." if advice else ''
+
+
+def _with_advice(text: str, advice: Iterable[str]) -> str:
+    return '\n'.join([text, *filter(None, advice)])

@@ -6,8 +6,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, TYPE_CHECKING, TypeVar
 
-from launch.frontend import _complaints
-from launch.frontend._known_names import known_actions, known_substitutions, load
+from launch._did_you_mean import did_you_mean
+from launch.frontend._known_names import (
+    known_actions,
+    known_substitutions,
+    load,
+    load_extensions,
+)
 
 if TYPE_CHECKING:
     from launch.action import Action
@@ -17,6 +22,21 @@ if TYPE_CHECKING:
 
 ExposedT = TypeVar('ExposedT')
 ParseMethod = Callable[..., Any]
+
+# Names of ROS 1, and of other places, with what ROS 2 has instead.
+_TAGS = {
+    'rosparam': 'write <param from="FILE"/> in the node',
+    'test': 'tests are Python files, see launch_testing',
+    'machine': 'all nodes run on this machine',
+    'env': 'write <set_env name="..." value="..."/>',
+    'param': 'write <param> in a node, or <set_parameter name="..." value="..."/> for all',
+    'remap': 'write <remap> in a node, or <set_remap from="..." to="..."/> for all',
+}
+_SUBSTITUTIONS = {
+    'optenv': '$(env NAME DEFAULT)',
+    'find': '$(find-pkg-share PACKAGE)',
+    'arg': '$(var NAME)',
+}
 
 action_parse_methods: dict[str, ParseMethod] = {}
 substitution_parse_methods: dict[str, ParseMethod] = {}
@@ -81,7 +101,7 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
     method = _find(entity.type_name, action_parse_methods, known_actions())
     if method is None:
         names = [*known_actions(), *action_parse_methods]
-        raise RuntimeError(_complaints.unknown_tag(entity.type_name, names))
+        raise RuntimeError(_unknown_tag(entity.type_name, names))
     action_class, kwargs = method(entity, parser)
     entity.assert_entity_completely_parsed()
     action: Action = action_class(**kwargs)
@@ -108,7 +128,7 @@ def instantiate_substitution(name: str, arguments: Iterable[Any]) -> Substitutio
     method = _find(name, substitution_parse_methods, known_substitutions())
     if method is None:
         names = [*known_substitutions(), *substitution_parse_methods]
-        raise LookupError(_complaints.unknown_substitution(name, names))
+        raise LookupError(_unknown_substitution(name, names))
     substitution_class, kwargs = method(list(arguments))
     substitution: Substitution = substitution_class(**kwargs)
     return substitution
@@ -148,7 +168,20 @@ def _find(
     if name in known:
         return _parse_method(load(known[name]))
     if name not in exposed:
-        from launch.frontend._extensions import load_extensions
-
         load_extensions()
     return exposed.get(name)
+
+
+def _unknown_tag(name: str, known: Iterable[str]) -> str:
+    """Format the error about a tag that does not exist, with a suggestion."""
+    old = f"'{name}' is none of the tags of ROS 2: {_TAGS[name]}." if name in _TAGS else ''
+    text = f'Unrecognized entity of the type: {name}'
+    return '\n'.join(filter(None, [text, old or did_you_mean(name, known)]))
+
+
+def _unknown_substitution(name: str, known: Iterable[str]) -> str:
+    """Format the error about a substitution that does not exist, with a suggestion."""
+    new = _SUBSTITUTIONS.get(name)
+    old = f"ROS 2 writes '{new}'." if new else ''
+    text = f'Unknown substitution: {name}'
+    return '\n'.join(filter(None, [text, old or did_you_mean(name, known)]))

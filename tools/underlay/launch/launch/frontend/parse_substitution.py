@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parse strings with substitutions in launch files."""
+"""Parse strings with substitutions, such as `$(find-pkg-share $(var package))/launch`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 import re
 from typing import Any, Union
 
-from launch.frontend._grammar import Call, read_template, Template
 from launch.frontend.expose import instantiate_substitution
-from launch.frontend.invalid_substitution_error import InvalidSubstitutionError
 from launch.substitution import Substitution
 from launch.substitutions.text_substitution import TextSubstitution
+
+_NAME = re.compile(r'[A-Za-z][A-Za-z0-9_-]*')
+_HARMLESS = re.compile(r'[A-Za-z0-9_/.:,#=-]+')
+_OPENING = '$('
+_QUOTES = '\'"'
 
 
 def parse_substitution(string_value: str) -> list[Substitution]:
@@ -115,3 +119,148 @@ def _make(part: Union[str, Call], text: str) -> Substitution:
 
 def _make_all(template: Template, text: str) -> list[Substitution]:
     return [_make(part, text) for part in template]
+
+
+@dataclass(frozen=True)
+class Call:
+    """A substitution in a string: its name, its arguments and its position."""
+
+    name: str
+    arguments: list[Template]
+    position: int
+
+
+Template = list[Union[str, Call]]
+
+
+def read_template(text: str) -> Template:
+    """
+    Split a string of a launch file into plain strings and substitutions.
+
+    Parameters
+    ----------
+    text
+        The text; backslashes in it escape the characters after them.
+
+    Returns
+    -------
+    list
+        A `str` for each plain string, and a `Call` for each substitution.
+
+    Raises
+    ------
+    InvalidSubstitutionError
+        A substitution has a syntax error.
+
+    """
+    return _Reader(text).template(stop='')
+
+
+class _Reader:
+    """Recursive descent parser of a string."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+        self._open_quotes = ''
+
+    def template(self, stop: str) -> Template:
+        """Read up to an unescaped character of `stop`, or to the end."""
+        parts: Template = []
+        plain = ''
+        while self._at < len(self._text) and self._text[self._at] not in stop:
+            if self._text.startswith(_OPENING, self._at):
+                parts += [plain, self._call()] if plain else [self._call()]
+                plain = ''
+            else:
+                plain += self._plain_text()
+        return [*parts, plain] if plain or not parts else parts
+
+    def _plain_text(self) -> str:
+        """Read a character, an escaped character, or a run of ordinary characters."""
+        harmless = _HARMLESS.match(self._text, self._at)
+        if harmless is not None:
+            self._at = harmless.end()
+            return harmless.group()
+        escaped = self._text[self._at] == '\\' and self._at + 1 < len(self._text)
+        self._at += 2 if escaped else 1
+        return self._text[self._at - 1]
+
+    def _call(self) -> Call:
+        position = self._at
+        self._at += len(_OPENING)
+        match = _NAME.match(self._text, self._at)
+        if match is None:
+            raise self._error("a substitution begins with its name, such as in '$(var robot)'")
+        self._at = match.end()
+        arguments = []
+        while self._next() == ' ':
+            self._at += 1
+            arguments.append(self._argument())
+        if self._next() != ')':
+            raise self._unfinished(match.group(), position)
+        self._at += 1
+        return Call(match.group(), arguments, position)
+
+    def _argument(self) -> Template:
+        quote = self._next()
+        if not quote or quote in ' )':
+            raise self._error('there is a space too many: only one stands before each argument')
+        if quote not in _QUOTES:
+            return self.template(stop=' \t\r\n()' + _QUOTES)
+        self._check_quote(quote)
+        return self._quoted(quote)
+
+    def _quoted(self, quote: str) -> Template:
+        start = self._at
+        outside = self._open_quotes
+        self._open_quotes += quote
+        self._at += 1
+        content = self.template(stop=quote)
+        if self._next() != quote:
+            self._at = start
+            raise self._error(f'the quote {quote} is never closed')
+        self._at += 1
+        self._open_quotes = outside
+        return content
+
+    def _check_quote(self, quote: str) -> None:
+        if quote in self._open_quotes:
+            raise self._error(
+                f'the quote {quote} is open already: use the other kind of quotes in it'
+            )
+
+    def _next(self) -> str:
+        return self._text[self._at] if self._at < len(self._text) else ''
+
+    def _unfinished(self, name: str, position: int) -> InvalidSubstitutionError:
+        found = self._next()
+        if not found:
+            self._at = position
+            return self._error(f"the substitution '{name}' is never closed: a ')' is missing")
+        return self._error(
+            f"'{found}' cannot stand there in the substitution '{name}': put the whole argument "
+            'in quotes, or a backslash before it'
+        )
+
+    def _error(self, problem: str) -> InvalidSubstitutionError:
+        return InvalidSubstitutionError(
+            f'Syntax error in a substitution: {problem}.', self._text, self._at
+        )
+
+
+class InvalidSubstitutionError(RuntimeError):
+    """A string has a substitution that is malformed or unknown."""
+
+    def __init__(self, problem: str, text: str, position: int) -> None:
+        """Create the error for a problem at a position in a string."""
+        self.text = text
+        self.position = position
+        self.line = text.count('\n', 0, position) + 1
+        super().__init__(f'{problem}\n{self._where()}')
+
+    def _where(self) -> str:
+        """Format the line and the column of the problem."""
+        lines = self.text.split('\n')
+        column = self.position - (self.text.rfind('\n', 0, self.position) + 1) + 1
+        return f"It is at character {column} of '{lines[self.line - 1]}'."

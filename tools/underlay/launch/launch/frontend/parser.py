@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator
 import os
 from typing import Any, Optional, TextIO, TYPE_CHECKING, Union
 
-from launch._failure_place import note_line
+from launch._checks.failures import note_line
 from launch.frontend.expose import instantiate_action
-from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.frontend.parse_substitution import (
     parse_if_substitutions,
     parse_substitution,
     replace_escaped_characters,
 )
+from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError
 from launch.launch_description import LaunchDescription
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ class Parser:
 
     @classmethod
     def _available(cls) -> Iterable[type[Parser]]:
-        from launch.frontend._extensions import extension_parsers
+        from launch.frontend._known_names import extension_parsers
 
         return [*_known_parsers(), *extension_parsers().values()]
 

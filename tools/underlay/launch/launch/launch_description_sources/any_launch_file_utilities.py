@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import os
 
-from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
-from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError, InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
@@ -36,7 +35,7 @@ def get_launch_description_from_any_launch_file(
     """
     path = os.fspath(launch_file_path)
     if not os.path.isfile(path):
-        from launch._missing_file import explain_missing_file
+        from launch._checks.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('launch file', path))
     extension = os.path.splitext(path)[1]

@@ -8,8 +8,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 import os
 from types import FunctionType, ModuleType
 
-from launch._call_site import CallSite
-from launch._failure_place import note_line
+from launch._checks.failures import CallSite, note_line
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 
@@ -77,7 +76,7 @@ def get_launch_description_from_python_launch_file(
     """
     path = os.fspath(python_launch_file_path)
     if not os.path.isfile(path):
-        from launch._missing_file import explain_missing_file
+        from launch._checks.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('launch file', path))
     try:

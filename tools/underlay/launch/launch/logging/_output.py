@@ -7,9 +7,14 @@ from collections.abc import Collection, Iterable, Mapping
 import logging
 from typing import Union
 
-from launch.logging._config import launch_config, logger_at
-from launch.logging._formats import bare_formatter, label_formatter, stamped_formatter
-from launch.logging._handlers import LogFileHandler, ScreenHandler
+from launch.logging import launch_config, logger_at
+from launch.logging._handlers import (
+    bare_formatter,
+    label_formatter,
+    LogFileHandler,
+    ScreenHandler,
+    stamped_formatter,
+)
 
 OutputConfig = Union[str, Mapping[str, Union[str, Collection[str]]]]
 

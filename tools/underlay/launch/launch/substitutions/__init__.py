@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._lazy import lazy_exports
+from launch._lazy import also_found_at, lazy_exports
+from launch.substitution import SubstitutionFailure
 
 if TYPE_CHECKING:
     from launch.substitutions.anon_name import AnonName
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from launch.substitutions.path_join_substitution import PathJoinSubstitution
     from launch.substitutions.path_substitution import PathSubstitution
     from launch.substitutions.python_expression import PythonExpression
-    from launch.substitutions.substitution_failure import SubstitutionFailure
     from launch.substitutions.text_substitution import TextSubstitution
     from launch.substitutions.this_launch_file import ThisLaunchFile
     from launch.substitutions.this_launch_file_dir import ThisLaunchFileDir
@@ -59,6 +59,8 @@ __all__ = [
     'ThisLaunchFile',
     'ThisLaunchFileDir',
 ]
+
+also_found_at(__name__, 'substitution_failure')
 
 _ELSEWHERE = {
     'AllSubstitution': 'boolean_substitution',

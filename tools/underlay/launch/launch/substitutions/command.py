@@ -8,12 +8,8 @@ import shlex
 from typing import TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
-from launch.substitutions.substitution_failure import SubstitutionFailure
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.substitution import Substitution, SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     import subprocess
@@ -83,7 +79,7 @@ class Command(Substitution):
         command = ''.join(parts)
         mode = perform_substitutions(context, self.__on_stderr)
         if context._before_start is not None:
-            from launch._stale_files import note_files_of_command
+            from launch._checks.before_start import note_files_of_command
 
             note_files_of_command(context, command)
         if mode not in _MODES:
@@ -112,7 +108,7 @@ def _run(parts: Sequence[str], merge: bool) -> subprocess.CompletedProcess[str]:
             errors='replace',
         )
     except FileNotFoundError as error:
-        from launch._command_advice import advice_on_program
+        from launch._checks.programs import advice_on_program
 
         advice = advice_on_program(parts)
         raise SubstitutionFailure(f'file not found: {error}{advice}') from error
@@ -140,7 +136,7 @@ def _judge(parts: Sequence[str], mode: str, result: subprocess.CompletedProcess[
     """Raise an error or warn if the result is not acceptable in the mode."""
     command = ''.join(parts)
     if result.returncode != 0:
-        from launch._command_advice import advice_on_failure
+        from launch._checks.programs import advice_on_failure
 
         said = result.stdout if mode == 'capture' else result.stderr
         raise SubstitutionFailure(

@@ -5,14 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._before_start import note_file
+from launch._checks.before_start import note_file
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
-from launch.substitutions.substitution_failure import SubstitutionFailure
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.substitution import Substitution, SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -64,7 +60,7 @@ class FileContent(Substitution):
             with open(path, encoding='utf-8') as file:
                 return file.read()
         except FileNotFoundError as error:
-            from launch._missing_file import explain_missing_file
+            from launch._checks.missing_file import explain_missing_file
 
             advice = explain_missing_file('file', path)
             raise SubstitutionFailure(f'File not found: {path}\n{advice}') from error

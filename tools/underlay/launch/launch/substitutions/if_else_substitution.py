@@ -6,13 +6,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
-from launch.substitutions.substitution_failure import SubstitutionFailure
-from launch.utilities._scalars import read_boolean
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.substitution import Substitution, SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import read_boolean
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

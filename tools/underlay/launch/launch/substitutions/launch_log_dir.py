@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.substitutions._path_operator import PathOperator
+from launch.substitution import PathOperator
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

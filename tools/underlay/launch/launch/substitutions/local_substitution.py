@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import Optional, TYPE_CHECKING
 
-from launch.substitution import Substitution
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.substitution import Substitution, SubstitutionFailure
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

@@ -6,12 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
-from launch.substitutions._path_operator import PathOperator
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.substitution import PathOperator, Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

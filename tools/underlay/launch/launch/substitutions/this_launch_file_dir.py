@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.substitutions._launch_file_location import launch_file_location
-from launch.substitutions._path_operator import PathOperator
+from launch._include_stack import launch_file_location
+from launch.substitution import PathOperator
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Convert performed substitutions to the requested types."""
+"""Convert performed substitutions to the requested types; scalars follow the rules of YAML 1.1."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 import os
+import re
 from typing import Any, get_args, get_origin, Optional, TYPE_CHECKING
 
 from launch.substitution import Substitution
-from launch.utilities._scalars import read_boolean, read_value
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 _SCALARS = (bool, int, float, str)
+_TRUE = frozenset(('true', 'True', 'TRUE', 'yes', 'Yes', 'YES', 'on', 'On', 'ON'))
+_FALSE = frozenset(('false', 'False', 'FALSE', 'no', 'No', 'NO', 'off', 'Off', 'OFF'))
+_NOTHING = frozenset(('null', 'Null', 'NULL'))
+_DECIMAL = re.compile(r'[-+]?(?:0|[1-9][0-9]*)')
+_POINT = re.compile(r'[-+]?[0-9]+\.[0-9]*(?:[eE][-+][0-9]+)?')
+EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
+_PLAIN_WORD = re.compile(r'[A-Za-z/_][A-Za-z0-9/_.-]*')
 
 
 def is_substitution(value: Any) -> bool:
@@ -219,3 +223,89 @@ def type_name(data_type: Any) -> str:
     if data_type is None:
         return 'str, int, float, bool or list of one of them'
     return getattr(data_type, '__name__', str(data_type))
+
+
+def read_yaml(text: str) -> Any:
+    """
+    Parse a YAML 1.1 document; the common scalars need no YAML parser.
+
+    Parameters
+    ----------
+    text
+        The document.
+
+    Returns
+    -------
+    Any
+        The parsed value: a scalar, a list, a dictionary or None.
+
+    Raises
+    ------
+    ValueError
+        The document is not valid YAML.
+
+    """
+    if text in _TRUE:
+        return True
+    if text in _FALSE:
+        return False
+    if _DECIMAL.fullmatch(text):
+        return int(text)
+    if _POINT.fullmatch(text):
+        return float(text)
+    if _PLAIN_WORD.fullmatch(text) and text not in _NOTHING:
+        return text
+    import yaml
+
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(f"'{text}' is not YAML: {error}") from error
+
+
+def read_value(text: str) -> Any:
+    """
+    Parse a YAML document, but read `1e3` as a number, as YAML 1.2 and ROS do.
+
+    Parameters
+    ----------
+    text
+        The document.
+
+    Returns
+    -------
+    Any
+        As for `read_yaml`.
+
+    Raises
+    ------
+    ValueError
+        The document is not valid YAML.
+
+    """
+    return float(text) if EXPONENT.fullmatch(text) else read_yaml(text)
+
+
+def read_boolean(text: str) -> bool:
+    """
+    Parse a boolean: true, false, yes, no, on, off, 1 or 0.
+
+    Parameters
+    ----------
+    text
+        The word, with any space around it; true may be True or TRUE, and the others likewise.
+
+    Raises
+    ------
+    ValueError
+        It is none of these words.
+
+    """
+    word = text.strip()
+    if word in _TRUE or word == '1':
+        return True
+    if word in _FALSE or word == '0':
+        return False
+    raise ValueError(
+        f"cannot read '{text}' as a boolean: expected true, false, yes, no, on, off, 1 or 0"
+    )

@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requests to load a composable node into a container."""
+"""Load composable nodes into a container: build the requests and send them."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
 from launch.launch_context import LaunchContext
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.logging import get_logger
+from launch.utilities import perform_substitutions
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import global_parameters, remap_pairs, remap_rules
-from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters
 from launch_ros.utilities.parameter_list import named_values, NamedValue, to_ros_parameter
+from launch_ros.utilities.parameters_and_remappings import evaluate_parameters
 
 if TYPE_CHECKING:
+    import asyncio
+
+    from launch_ros._service_calls import ServiceCaller
     from launch_ros.descriptions.composable_node import ComposableNode
 
 
@@ -112,3 +117,88 @@ def _messages(parameters: list[NamedValue]) -> list[Any]:
 def _text(parts: Any) -> Any:
     """Return a human-readable description of the parts of a name."""
     return None if parts is None else ' + '.join(part.describe() for part in parts)
+
+
+class ContainerClient:
+    """
+    Client that loads composable nodes into a container, in order, and logs each result.
+
+    Parameters
+    ----------
+    ros_node
+        The launch's own rclpy node.
+    container
+        The fully qualified name of the container.
+    process
+        Done when the container has ended for good; None if this launch did not start it.
+
+    """
+
+    def __init__(
+        self,
+        ros_node: Any,
+        container: str,
+        process: Optional[asyncio.Future[Any]] = None,
+    ) -> None:
+        from composition_interfaces.srv import LoadNode
+
+        self._service_type = LoadNode
+        self._ros_node = ros_node
+        self._container = container
+        self._process = process
+        self._logger = get_logger('launch_ros.actions.load_composable_nodes')
+        self._caller: Optional[ServiceCaller] = None
+
+    @property
+    def has_asked(self) -> bool:
+        """Whether a load request has been sent to the container."""
+        return self._caller is not None and self._caller.has_asked
+
+    async def load(self, requests: Iterable[LoadRequest]) -> None:
+        """
+        Load composable nodes; a failure of one does not affect the others.
+
+        Parameters
+        ----------
+        requests
+            The load requests, in order.
+
+        """
+        from launch_ros._service_calls import ServiceCaller
+
+        caller = self._caller = ServiceCaller(
+            self._ros_node,
+            self._service_type,
+            self._container,
+            '_container/load_node',
+            self._logger,
+            self._process,
+        )
+        try:
+            for request in requests:
+                await self._load_one(caller, request)
+        finally:
+            caller.close()
+
+    async def _load_one(self, caller: ServiceCaller, request: LoadRequest) -> None:
+        from launch_ros._service_calls import ServiceGoneError
+
+        try:
+            answer = await caller.call(request.to_message())
+        except ServiceGoneError as error:
+            self._report_failure(request, '', str(error))
+            return
+        if answer.success:
+            name = answer.full_node_name or request.names.name_in_root
+            self._logger.info("Loaded node '%s' in container '%s'", name, self._container)
+        else:
+            self._report_failure(request, answer.full_node_name, answer.error_message)
+
+    def _report_failure(self, request: LoadRequest, full_name: str, why: str) -> None:
+        self._logger.error(
+            "Failed to load node '%s' of type '%s' in container '%s': %s",
+            full_name or request.names.name or '',
+            request.plugin,
+            self._container,
+            why,
+        )

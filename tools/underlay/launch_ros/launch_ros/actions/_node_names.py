@@ -1,20 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The name and the namespace of a node."""
+"""
+The name and the namespace of a node: expand and validate them.
+
+Valid names are recognised here; rclpy, which is slow to import, only explains invalid ones.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Optional
+import re
+from typing import Any, Optional
 
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch.substitution import Substitution
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import perform_substitutions
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
-from launch_ros.utilities.validate_names import validate_namespace, validate_node_name
 
 _UNKNOWN_NAME = '<node_name_unspecified>'
 UNKNOWN_NAMESPACE = '<node_namespace_unspecified>'
+
+_NODE_NAME = re.compile(r'(?=.{1,255}\Z)[A-Za-z_][A-Za-z0-9_]*')
+_NAMESPACE = re.compile(r'/|(?=.{1,245}\Z)(/[A-Za-z_][A-Za-z0-9_]*)+')
 
 
 @dataclass(frozen=True)
@@ -117,3 +125,58 @@ def _validate(names: NodeNames) -> None:
         validate_node_name(names.name)
     if names.namespace is not None:
         validate_namespace(names.namespace)
+
+
+class InvalidNameError(ValueError):
+    """A name is not allowed in ROS; the message states why, and where."""
+
+
+def validate_node_name(name: str) -> None:
+    """
+    Validate a node name.
+
+    Parameters
+    ----------
+    name
+        The name, without a namespace.
+
+    Raises
+    ------
+    InvalidNameError
+        The name is not allowed in ROS; the message states why, and where.
+
+    """
+    if not _NODE_NAME.fullmatch(name):
+        from rclpy.validate_node_name import validate_node_name as judge
+
+        _let_judge(judge, name)
+
+
+def validate_namespace(namespace: str) -> None:
+    """
+    Validate an absolute namespace.
+
+    Parameters
+    ----------
+    namespace
+        The namespace, with its leading slash.
+
+    Raises
+    ------
+    InvalidNameError
+        The name is not allowed in ROS; the message states why, and where.
+
+    """
+    if not _NAMESPACE.fullmatch(namespace):
+        from rclpy.validate_namespace import validate_namespace as judge
+
+        _let_judge(judge, namespace)
+
+
+def _let_judge(judge: Callable[[str], Any], name: str) -> None:
+    from rclpy.exceptions import NameValidationException
+
+    try:
+        judge(name)
+    except NameValidationException as error:
+        raise InvalidNameError(str(error)) from error

@@ -1,24 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS arguments for the parameters and remappings of a node."""
+"""ROS arguments for the command line of a node: parameters, remappings and extensions."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 import os
-from typing import Any, Optional, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._before_start import note_file
+from launch._checks.before_start import note_file
+from launch._entry_points import entry_points_of
 from launch.launch_context import LaunchContext
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.actions._node_names import NodeNames
 from launch_ros.parameter_descriptions import Parameter
-from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
-from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
-from launch_ros.utilities.normalize_remap_rules_impl import evaluate_remap_rule, RemapRule
-from launch_ros.utilities.parameter_files import is_parameter_file, write_parameter_file
-from launch_ros.utilities.yaml_text import flow_text
+from launch_ros.utilities.parameter_files import flow_text, is_parameter_file, write_parameter_file
+from launch_ros.utilities.parameters_and_remappings import (
+    evaluate_parameters,
+    evaluate_remap_rule,
+    EvaluatedParameters,
+    NormalizedParameters,
+    RemapRule,
+)
+
+if TYPE_CHECKING:
+    from launch_ros.actions.node import Node
 
 ParameterArgument = tuple[str, bool]
 """A file path and True, or a rule such as `name:=value` and False."""
+
+_GROUP = 'launch_ros.node_action'
 
 
 def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
@@ -144,7 +155,7 @@ def parameter_arguments(parameters: Iterable[ParameterArgument]) -> list[str]:
 def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
     """Register the file for the check against node names, unless a process has started."""
     if context._before_start is not None:
-        from launch_ros.actions._parameter_files_check import ParameterFilesCheck
+        from launch_ros.utilities.parameter_file_check import ParameterFilesCheck
 
         note_file(context, path)
         context._before_start.check_of_type(ParameterFilesCheck).add(path, names)
@@ -195,3 +206,95 @@ def rule_arguments(rules: Iterable[str]) -> list[str]:
 
     """
     return [word for rule in rules for word in ('-r', rule)]
+
+
+class NodeActionExtension:
+    """Base class of extensions that register as entry points of `launch_ros.node_action`."""
+
+    NAME: Optional[str] = None
+    EXTENSION_POINT_VERSION = '0.1'
+
+    def prepare_for_execute(
+        self,
+        context: LaunchContext,
+        ros_specific_arguments: dict[str, Any],
+        node_action: Node,
+    ) -> tuple[list[Any], dict[str, Any]]:
+        """
+        Extend the command line of a node; to be overridden by subclasses.
+
+        Added arguments may refer to `ros_specific_arguments` by a LocalSubstitution.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+        ros_specific_arguments
+            The rules `__node:=...` under `name` and `__ns:=...` under `ns`, each only if known.
+        node_action
+            The action that is about to start the node.
+
+        Returns
+        -------
+        tuple
+            The arguments to add, as strings or substitutions, and the rules to use instead.
+
+        """
+        return [], ros_specific_arguments
+
+
+def extend_node(
+    context: LaunchContext,
+    ros_specific_arguments: dict[str, Any],
+    node: Node,
+) -> tuple[list[str], dict[str, Any]]:
+    """
+    Apply all installed extensions to the command line of a node.
+
+    Parameters
+    ----------
+    context
+        The launch context; receives the local `ros_specific_arguments` if arguments are added.
+    ros_specific_arguments
+        The rules for the name and the namespace, by `name` and `ns`.
+    node
+        The action that is about to start the node.
+
+    Returns
+    -------
+    tuple
+        The arguments to add, as strings, and the rules to use.
+
+    """
+    added: list[Any] = []
+    for extension in extensions():
+        more, ros_specific_arguments = extension.prepare_for_execute(
+            context, ros_specific_arguments, node
+        )
+        added += more
+    if added:
+        context.extend_locals({'ros_specific_arguments': ros_specific_arguments})
+    words = [
+        perform_substitutions(context, normalize_to_list_of_substitutions(word)) for word in added
+    ]
+    return words, ros_specific_arguments
+
+
+@cache
+def extensions() -> list[Any]:
+    """Instantiate all extensions; log and skip those that cannot be loaded."""
+    found = []
+    for entry_point in entry_points_of(_GROUP):
+        try:
+            found.append(entry_point.load()())
+        except Exception as error:
+            from launch.logging import get_logger
+
+            get_logger('launch_ros.actions.node').warning(
+                "the extension '%s' (%s) of nodes cannot be loaded and is left out: %s: %s",
+                entry_point.name,
+                entry_point.value,
+                type(error).__name__,
+                error,
+            )
+    return found

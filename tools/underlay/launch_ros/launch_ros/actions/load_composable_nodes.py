@@ -9,11 +9,11 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
-from launch.utilities.ensure_argument_type_impl import ensure_argument_type
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
+from launch.utilities import (
+    ensure_argument_type,
     normalize_to_list_of_substitutions,
+    perform_substitutions,
 )
-from launch.utilities.perform_substitutions_impl import perform_substitutions
 from launch_ros.actions.composable_node_container import ComposableNodeContainer
 from launch_ros.utilities.track_node_names import warn_of_same_names
 
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
-    from launch_ros.actions._container_client import ContainerClient
-    from launch_ros.actions._load_request import LoadRequest
+    from launch_ros.actions._load_request import ContainerClient, LoadRequest
     from launch_ros.descriptions.composable_node import ComposableNode
 
 
@@ -163,7 +162,7 @@ class LoadComposableNodes(Action):
         process: Optional[asyncio.Future[Any]],
     ) -> None:
         """Start the task that sends load requests to the container."""
-        from launch_ros.actions._container_client import ContainerClient
+        from launch_ros.actions._load_request import ContainerClient
         from launch_ros.ros_adapters import get_ros_adapter
 
         adapter = get_ros_adapter(context)

@@ -6,17 +6,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checked import list_like, optional_text_like, text_like
+from launch._checks.arguments import list_like, optional_text_like, text_like
 from launch.actions.execute_process import ExecuteProcess
 from launch.descriptions.executable import SomeVariables
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch_ros.actions._node_extensions import extend_node, NodeActionExtension
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
+    extend_node,
     global_arguments,
+    NodeActionExtension,
     own_parameters,
     parameter_arguments,
     ParameterArgument,
@@ -25,12 +26,14 @@ from launch_ros.actions._ros_arguments import (
     rule_arguments,
 )
 from launch_ros.substitutions.executable_in_package import ExecutableInPackage
-from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
-from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
+from launch_ros.utilities.parameters_and_remappings import (
+    normalize_parameters,
+    normalize_remap_rules,
+)
 from launch_ros.utilities.track_node_names import warn_of_same_names
 
 if TYPE_CHECKING:
-    from launch._visit_observer import VisitObserver
+    from launch._dry_run_record import VisitObserver
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
 
@@ -159,7 +162,7 @@ class Node(ExecuteProcess):
             The class and the keyword arguments of its constructor.
 
         """
-        from launch.frontend._process_attributes import parse_command, parse_texts
+        from launch.frontend._attributes import parse_command, parse_texts
         from launch_ros.utilities.parse_parameters import parse_parameters, parse_remappings
 
         _, kwargs = super().parse(entity, parser, ignore=['cmd', 'name', *(ignore or ())])

@@ -9,12 +9,8 @@ from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
-from launch_ros.utilities.validate_names import InvalidNameError, validate_namespace
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -80,6 +76,8 @@ class PushROSNamespace(Action):
             The resulting namespace is not allowed in ROS.
 
         """
+        from launch_ros.actions._node_names import InvalidNameError, validate_namespace
+
         pushed = perform_substitutions(context, self.__namespace)
         previous = context.launch_configurations.get('ros_namespace')
         namespace = make_namespace_absolute(prefix_namespace(previous, pushed)) or '/'

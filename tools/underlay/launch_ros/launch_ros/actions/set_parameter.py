@@ -8,8 +8,10 @@ from typing import Any, TYPE_CHECKING
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameter_dict
-from launch_ros.utilities.normalize_parameters_impl import normalize_parameter_dict
+from launch_ros.utilities.parameters_and_remappings import (
+    evaluate_parameter_dict,
+    normalize_parameter_dict,
+)
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity

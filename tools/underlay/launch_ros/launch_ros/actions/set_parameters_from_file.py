@@ -9,10 +9,7 @@ from typing import Any, TYPE_CHECKING
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -59,7 +56,7 @@ class SetParametersFromFile(Action):
         return cls, kwargs
 
     def _check_in_advance(self, context: LaunchContext) -> None:
-        from launch._preflight import constant_text
+        from launch._checks.preflight import constant_text
 
         path = constant_text(self.__filename, context)
         if path is not None:
@@ -91,6 +88,6 @@ class SetParametersFromFile(Action):
 def _require(path: str) -> None:
     """Raise an error if a parameter file does not exist."""
     if not os.path.isfile(path):
-        from launch._missing_file import explain_missing_file
+        from launch._checks.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('parameter file', path))

@@ -10,10 +10,7 @@ from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -75,7 +72,7 @@ class SetROSLogDir(Action):
             The launch context; processes that follow inherit its environment.
 
         """
-        from launch.logging._directory import base_directory
+        from launch.logging import base_directory
 
         path = os.path.expanduser(perform_substitutions(context, self.__log_dir))
         context.environment['ROS_LOG_DIR'] = os.path.join(base_directory(), path)

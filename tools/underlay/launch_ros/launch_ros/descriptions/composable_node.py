@@ -8,14 +8,13 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch_ros.utilities.normalize_parameters_impl import (
+from launch.utilities import normalize_to_list_of_substitutions
+from launch_ros.utilities.parameters_and_remappings import (
     normalize_parameters,
+    normalize_remap_rules,
     NormalizedParameters,
+    RemapRule,
 )
-from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules, RemapRule
 
 if TYPE_CHECKING:
     from launch.condition import Condition
@@ -110,8 +109,7 @@ class ComposableNode:
 
         """
         from launch.action import Action
-        from launch.frontend._children import children_named
-        from launch.frontend._process_attributes import parse_texts
+        from launch.frontend._attributes import children_named, parse_texts
         from launch_ros.utilities.parse_parameters import (
             parse_nested_parameters,
             parse_parameters,
@@ -181,7 +179,7 @@ def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNod
         Parses substitutions in their attributes.
 
     """
-    from launch.frontend._children import children_named
+    from launch.frontend._attributes import children_named
 
     parsed = [ComposableNode.parse(parser, child) for child in children_named(entity, _TAG)]
     return [node_class(**kwargs) for node_class, kwargs in parsed]

@@ -103,13 +103,12 @@ def _warn_of_unknown_states(*labels: Optional[str]) -> None:
     for label in labels:
         if label is None or label in _STATES:
             continue
-        import difflib
-
         from launch.logging import get_logger
+        from ros_environment.suggestions import closest_name
 
-        close = difflib.get_close_matches(label, _STATES, n=1, cutoff=0.5)
+        close = closest_name(label, _STATES, 0.5)
         get_logger('launch_ros.event_handlers').warning(
             "OnStateTransition waits for the state '%s', which lifecycle nodes do not have%s",
             label,
-            f": did you mean '{close[0]}'?" if close else f'; they are: {", ".join(_STATES)}',
+            f": did you mean '{close}'?" if close else f'; they are: {", ".join(_STATES)}',
         )

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters
     from launch_ros.utilities.namespace_utils import (
         is_namespace_absolute,
         is_root_namespace,
         make_namespace_absolute,
         prefix_namespace,
     )
-    from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
-    from launch_ros.utilities.normalize_remap_rules_impl import (
+    from launch_ros.utilities.parameter_list import to_parameters_list
+    from launch_ros.utilities.parameters_and_remappings import (
+        evaluate_parameters,
+        normalize_parameters,
         normalize_remap_rule,
         normalize_remap_rules,
     )
-    from launch_ros.utilities.parameter_list import to_parameters_list
     from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
@@ -39,14 +39,14 @@ __all__ = [
 
 _ELSEWHERE = {
     'add_node_name': 'track_node_names',
-    'evaluate_parameters': 'evaluate_parameters_impl',
+    'evaluate_parameters': 'parameters_and_remappings',
     'get_node_name_count': 'track_node_names',
     'is_namespace_absolute': 'namespace_utils',
     'is_root_namespace': 'namespace_utils',
     'make_namespace_absolute': 'namespace_utils',
-    'normalize_parameters': 'normalize_parameters_impl',
-    'normalize_remap_rule': 'normalize_remap_rules_impl',
-    'normalize_remap_rules': 'normalize_remap_rules_impl',
+    'normalize_parameters': 'parameters_and_remappings',
+    'normalize_remap_rule': 'parameters_and_remappings',
+    'normalize_remap_rules': 'parameters_and_remappings',
     'prefix_namespace': 'namespace_utils',
     'to_parameters_list': 'parameter_list',
 }

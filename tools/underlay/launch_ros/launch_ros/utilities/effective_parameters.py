@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Optional
 
-from launch.utilities._scalars import read_yaml
-from launch_ros.utilities.parameter_file_keys import key_matches
+from launch.utilities.type_utils import read_yaml
+from launch_ros.utilities.parameter_file_check import key_matches
 from launch_ros.utilities.parameter_files import is_written_here
 
 _FILE = '--params-file'

@@ -9,11 +9,8 @@ from typing import Any
 
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
-from launch.utilities._scalars import read_value
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import read_value
 
 _SCALARS = (bool, int, float, str, bytes)
 _ALLOWED = (

@@ -5,11 +5,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch import Action
-from launch_testing._ready import TestsMayBegin
+from launch import Action, Event
 
 if TYPE_CHECKING:
     from launch import LaunchContext
+
+
+class TestsMayBegin(Event):
+    """
+    A ReadyToTest action was visited.
+
+    Parameters
+    ----------
+    action
+        The action that was visited.
+
+    """
+
+    __test__ = False
+    name = 'launch_testing.TestsMayBegin'
+
+    def __init__(self, action: object) -> None:
+        self.action = action
 
 
 class ReadyToTest(Action):

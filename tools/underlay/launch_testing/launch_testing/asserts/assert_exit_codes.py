@@ -7,7 +7,7 @@ from collections.abc import Collection
 import signal
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch.events.process.process_exited import ProcessExited
+from launch.events.process import ProcessExited
 from launch_testing.util.resolve_processes import resolveProcesses, SomeProcess
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.event_handlers.on_process_io import OnProcessIO
-from launch.events.process.process_io import ProcessIO
+from launch.events.process import ProcessIO
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch import LaunchDescription
-from launch.events.matchers import matches_action
+from launch.events import matches_action
 from launch.events.process import ProcessExited, ShutdownProcess
 from launch_testing.tools.text import remove_ansi_escape_sequences
 

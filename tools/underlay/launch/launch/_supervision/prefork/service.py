@@ -13,7 +13,7 @@ import time
 from types import CodeType
 from typing import Any, NoReturn
 
-from launch._supervision.prefork.cloning import Cloning
+from launch._supervision.prefork.linux import Cloning
 from launch._supervision.prefork.starting_point import enter, forget_packages, main_module
 
 Become = Callable[[], tuple[CodeType, dict[str, Any]]]

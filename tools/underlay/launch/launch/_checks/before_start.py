@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Checks that run after the first visit and before the first process starts.
+
+They are added while the description is visited. The last one names installed files that are older
+than their source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import os
+from typing import Any, TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+_SHARE = '/share/'
+SWITCH = 'LAUNCH_PREFLIGHT'
+
+_Check = TypeVar('_Check')
+
+
+class BeforeStart:
+    """Pre-start checks of a launch; if one raises an error, no process is started."""
+
+    def __init__(self) -> None:
+        """Create an empty set of checks; LAUNCH_PREFLIGHT=0 disables the check for programs."""
+        self.resolves_programs = os.environ.get(SWITCH, '1') != '0'
+        self.checks: list[Callable[[LaunchContext], None]] = []
+        self.hints: list[Callable[[LaunchContext], str]] = []
+        self.files: dict[str, None] = {}
+
+    def check_of_type(self, kind: Callable[[], _Check]) -> _Check:
+        """
+        Get the check of a class; create it on first use.
+
+        Parameters
+        ----------
+        kind
+            The class; its instances are called with the context and raise an error on failure.
+
+        """
+        for check in self.checks:
+            if isinstance(check, kind):  # type: ignore[arg-type]
+                return check  # type: ignore[return-value]
+        added: Any = kind()
+        self.checks.append(added)
+        return added  # type: ignore[no-any-return]
+
+    def run(self, context: LaunchContext) -> None:
+        """
+        Run all checks before the first process is started.
+
+        Entities that wait for events are checked first, then the added checks run. Finally, it
+        warns about installed files that are older than their source.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, whose first description has been visited.
+
+        Raises
+        ------
+        Exception
+            The error raised by a check.
+
+        """
+        waiting = any(handler.describe()[1] for handler in context._event_handlers)
+        if self.resolves_programs and waiting:
+            from launch._checks.preflight import check_what_waits
+
+            check_what_waits(context)
+        for check in self.checks:
+            check(context)
+        installed = [path for path in self.files if _SHARE in path]
+        if installed:
+            warn_of_stale_files(installed)
+
+    def explain_failure(self, context: LaunchContext) -> list[str]:
+        """
+        Collect hints on why a visit may have failed.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, passed to each hint.
+
+        Returns
+        -------
+        list of str
+            Lines for the log; empty hints are omitted.
+
+        """
+        return [text for text in (hint(context) for hint in self.hints) if text]
+
+
+def note_file(context: LaunchContext, path: str) -> None:
+    """
+    Record a file that the launch reads, for the check of stale files.
+
+    Parameters
+    ----------
+    context
+        The context that records it; nothing is recorded once the checks have run.
+    path
+        The path of the file, as it is opened.
+
+    """
+    if context._before_start is not None:
+        context._before_start.files[path] = None
+
+
+def warn_of_stale_files(paths: Iterable[str]) -> None:
+    """
+    Warn about installed files whose source is newer and differs.
+
+    Without the package `ros_environment` nothing is checked.
+
+    Parameters
+    ----------
+    paths
+        The paths of the installed files.
+
+    """
+    try:
+        from ros_environment.source_tree import StaleFiles
+    except ImportError:
+        return
+    from launch.logging import get_logger
+
+    files = StaleFiles()
+    for path in paths:
+        source = files.newer_source(path)
+        if source:
+            get_logger('launch').warning(
+                "'%s' is newer than the installed '%s', which is used; run colcon build",
+                source,
+                path,
+            )
+
+
+def note_files_of_command(context: LaunchContext, command: str) -> None:
+    """
+    Record the installed files that a command line names, such as a model for xacro.
+
+    Parameters
+    ----------
+    context
+        The context that records them; nothing is recorded once the checks have run.
+    command
+        The command line, which is split as a shell does.
+
+    """
+    if context._before_start is None or _SHARE not in command:
+        return
+    import shlex
+
+    for word in shlex.split(command):
+        if _SHARE in word and os.path.isfile(word):
+            note_file(context, word)
