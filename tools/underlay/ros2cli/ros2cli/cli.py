@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Entry point of the `ros2` command line."""
+"""
+Entry point of the `ros2` command line.
+
+The commands of the underlay are in a static table, so that no entry points are scanned.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +13,10 @@ import io
 import os
 import sys
 
-from ros2cli.command_table import COMMAND_GROUP, COMMANDS
+from ros2cli.entry import Entry
 from ros2cli.exit_status import run_to_status
 from ros2cli.parser import Parser
-from ros2cli.standard_streams import open_standard_streams
-from ros2cli.start_up import end
+from ros2cli.start_up import end, open_standard_streams
 from ros2cli.subparsers import add_lazy_subparsers
 
 TYPE_CHECKING = False
@@ -22,6 +25,48 @@ if TYPE_CHECKING:
     from typing import NoReturn  # noqa: I300
 
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
+COMMAND_GROUP = 'ros2cli.command'
+COMMANDS = {
+    'action': Entry('ros2action.command:ActionCommand', 'Various action related sub-commands'),
+    'bag': Entry('ros2bag.command:BagCommand', 'Various rosbag related sub-commands'),
+    'component': Entry(
+        'ros2component.command:ComponentCommand',
+        'Various component related sub-commands',
+    ),
+    # In a package of its own, as in a ROS installation, but in the table so that help lists it.
+    'control': Entry(
+        'ros2controlcli.command.control:ControlCommand', 'Various control related sub-commands'
+    ),
+    'daemon': Entry('ros2daemon.command:DaemonCommand', 'Various daemon related sub-commands'),
+    'doctor': Entry(
+        'ros2doctor.command:DoctorCommand', 'Check ROS setup and other potential issues'
+    ),
+    'extension_points': Entry(
+        'ros2cli.extensions:ExtensionPointsCommand',
+        'List extension points',
+        hidden=True,
+    ),
+    'extensions': Entry('ros2cli.extensions:ExtensionsCommand', 'List extensions', hidden=True),
+    'interface': Entry(
+        'ros2interface.command:InterfaceCommand', 'Show information about ROS interfaces'
+    ),
+    'launch': Entry('ros2launch.command.launch:LaunchCommand', 'Run a launch file'),
+    'lifecycle': Entry(
+        'ros2lifecycle.command:LifecycleCommand',
+        'Various lifecycle related sub-commands',
+    ),
+    'multicast': Entry(
+        'ros2multicast.command:MulticastCommand',
+        'Various multicast related sub-commands',
+    ),
+    'node': Entry('ros2node.command:NodeCommand', 'Various node related sub-commands'),
+    'param': Entry('ros2param.command:ParamCommand', 'Various param related sub-commands'),
+    'pkg': Entry('ros2pkg.command:PkgCommand', 'Various package related sub-commands'),
+    'run': Entry('ros2run.command:RunCommand', 'Run a package specific executable'),
+    'service': Entry('ros2service.command:ServiceCommand', 'Various service related sub-commands'),
+    'topic': Entry('ros2topic.command:TopicCommand', 'Various topic related sub-commands'),
+    'wtf': Entry('ros2doctor.command:WtfCommand', 'Use `wtf` as alias to `doctor`'),
+}
 
 
 def run() -> NoReturn:

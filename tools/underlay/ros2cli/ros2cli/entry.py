@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rows of the static tables of commands and verbs."""
+"""Commands and verbs by name: rows of static tables, and entry points of other distributions."""
 
 from __future__ import annotations
 
@@ -35,3 +35,46 @@ class Entry:
         """Import the class and return an instance."""
         module, _, name = self.target.partition(':')
         return getattr(__import__(module, fromlist=[name]), name)()
+
+
+def find_entry(group: str, name: str) -> Entry | None:
+    """
+    Find the entry point of a command or verb in other installed distributions.
+
+    Parameters
+    ----------
+    group
+        The group of entry points, such as `ros2bag.verb`.
+    name
+        The name of the command or verb.
+
+    Returns
+    -------
+    Entry or None
+        Its class, without a summary; None if no distribution provides it.
+
+    """
+    return entries_of_group(group, name).get(name)
+
+
+def entries_of_group(group: str, name: str | None = None) -> dict[str, Entry]:
+    """
+    Read the entry points of a group from all installed distributions, which is slow.
+
+    Parameters
+    ----------
+    group
+        The group of entry points, such as `ros2bag.verb`.
+    name
+        The only name to look for; None for all.
+
+    Returns
+    -------
+    dict of str to Entry
+        The classes by name, without summaries.
+
+    """
+    from importlib.metadata import entry_points
+
+    found = entry_points(group=group) if name is None else entry_points(group=group, name=name)
+    return {point.name: Entry(point.value, '') for point in found}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Fast startup and exit of the interpreter.
+Fast startup and exit of the interpreter, with usable standard streams.
 
 Most commands take less time than the interpreter that runs them, so that its overhead dominates
 what a user waits for. This module imports nothing itself.
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from typing import NoReturn  # noqa: I300
 
 OBJECTS_BETWEEN_COLLECTIONS = 100_000
+STREAM_NAMES = ('stdin', 'stdout', 'stderr')
 
 
 def prepare() -> None:
@@ -56,6 +57,26 @@ def collect_less_often() -> None:
     import gc
 
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS, *gc.get_threshold()[1:])
+
+
+def open_standard_streams() -> None:
+    """
+    Open standard streams that the caller has closed, as in `ros2 topic list >&-`, on /dev/null.
+
+    Otherwise the next file or socket would get the descriptor, and receive the output.
+    """
+    for descriptor, name in enumerate(STREAM_NAMES):
+        if getattr(sys, name) is None and not _is_open(descriptor):
+            os.open(os.devnull, os.O_RDWR)  # the lowest free descriptor: this one
+            setattr(sys, name, os.fdopen(descriptor, 'r' if descriptor == 0 else 'w'))
+
+
+def _is_open(descriptor: int) -> bool:
+    try:
+        os.fstat(descriptor)
+    except OSError:
+        return False
+    return True
 
 
 def end(status: int) -> NoReturn:

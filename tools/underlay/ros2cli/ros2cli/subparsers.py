@@ -6,8 +6,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 
-from ros2cli.entry import Entry
-from ros2cli.entry_points import entries_of_group, find_entry
+from ros2cli.entry import entries_of_group, Entry, find_entry
 from ros2cli.suggest import did_you_mean
 
 TYPE_CHECKING = False

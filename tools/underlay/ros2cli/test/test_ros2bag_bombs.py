@@ -15,7 +15,7 @@ from mcap.records import Chunk
 import pytest
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
-from ros2bag.storage.bounded_chunks import chunk_stream, ChunkTooLarge
+from ros2bag.storage.damage import chunk_stream, ChunkTooLarge
 from ros2bag.storage.recovery import recover
 import zstandard
 

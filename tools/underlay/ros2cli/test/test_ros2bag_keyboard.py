@@ -10,7 +10,7 @@ from typing import Any
 
 from bag_samples import write_bag
 import pytest
-from ros2bag.api.keyboard import Keyboard
+from ros2bag.api.control import Keyboard
 
 Start = Callable[..., Any]
 

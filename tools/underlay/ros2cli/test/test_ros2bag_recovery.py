@@ -14,11 +14,11 @@ from mcap.reader import NonSeekingReader
 import pytest
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
+from ros2bag.storage.bag_writer import Reserve
 from ros2bag.storage.damage import BrokenFile
 from ros2bag.storage.definitions import Definition
 from ros2bag.storage.mcap_file import McapFile
 from ros2bag.storage.recovery import recover, write_metadata
-from ros2bag.storage.reserve import Reserve
 from rosbags.highlevel import AnyReader
 
 Ros2 = Callable[..., CompletedProcess[str]]
@@ -106,7 +106,7 @@ def test_damage_anywhere_costs_one_chunk_at_most(
 ) -> None:
     """Whatever byte is damaged, reading tells it or is right, and recover saves the rest."""
     path = _unfinished_bag(tmp_path / 'bag', monkeypatch, compression=compression)
-    monkeypatch.setattr('ros2bag.storage.copying.CHUNK_BYTES', 150)
+    monkeypatch.setattr('ros2bag.storage.recovery.CHUNK_BYTES', 150)
     recover(str(path.parent))
     content = path.read_bytes()
     (path.parent / 'metadata.yaml').unlink()

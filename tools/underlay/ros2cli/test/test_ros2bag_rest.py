@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ros2bag.api import recorder as module
-from ros2bag.api.pause import PauseSwitch
+from ros2bag.api.control import PauseSwitch
 from ros2bag.api.recorder import Recorder
 from ros2bag.api.topic_filter import TopicFilter
 

@@ -21,7 +21,7 @@ import pytest
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.latched import RecordedMessage
-from ros2bag.storage.metadata_yaml import metadata_from_text
+from ros2bag.storage.metadata import metadata_from_text
 from ros2bag.storage.offered_qos import OfferedQos
 from rosbags.highlevel import AnyReader
 import yaml

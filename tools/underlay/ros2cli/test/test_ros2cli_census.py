@@ -10,8 +10,7 @@ import sys
 from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph import census as module
-from ros2cli.graph.census import AGAIN_S, Census, SILENCE_S
-from ros2cli.graph.holders import find_holders, Holder
+from ros2cli.graph.census import AGAIN_S, Census, find_holders, Holder, SILENCE_S
 from ros2cli.graph.interfaces import read_interfaces
 from ros2cli.graph.link import Link, MAX_WAITING
 from ros2cli.graph.reach import LOCALHOST, Reach, SUBNET

@@ -12,7 +12,7 @@ import sys
 import time
 
 import pytest
-from ros2cli.completion.table import find_completer, OF_ARGUMENT, OF_COMMAND
+from ros2cli.completion.answering import find_completer, OF_ARGUMENT, OF_COMMAND
 
 LONG_S = 20.0
 # Whatever the machine has to do besides: people get no words after a few seconds.
@@ -196,7 +196,7 @@ def test_nodes_by_what_they_offer(monkeypatch: pytest.MonkeyPatch) -> None:
     from argparse import Namespace
 
     from ros2cli.completion import graph
-    from ros2cli.completion.names import Names
+    from ros2cli.completion.graph import Names
 
     services = {
         '/box/_container/load_node': ['composition_interfaces/srv/LoadNode'],
@@ -224,27 +224,27 @@ def test_names_of_the_graph(complete: Complete) -> None:
 
 def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is remembered is forgotten with time, and when processes come or go."""
-    from ros2cli.completion import memory
+    from ros2cli.completion import parameters
 
     neighbours = 1
     monkeypatch.setenv('ROS_HOME', str(tmp_path))
-    monkeypatch.setattr(memory, 'participant_ports', lambda domain: neighbours)
-    assert memory.recall('/a/b') is None
-    memory.remember('/a/b', ['rate_hz'])
-    assert memory.recall('/a/b') == ['rate_hz']
-    assert memory.recall('/a_b') is None
+    monkeypatch.setattr(parameters, 'participant_ports', lambda domain: neighbours)
+    assert parameters.recall('/a/b') is None
+    parameters.remember('/a/b', ['rate_hz'])
+    assert parameters.recall('/a/b') == ['rate_hz']
+    assert parameters.recall('/a_b') is None
     neighbours = 2
-    assert memory.recall('/a/b') is None
+    assert parameters.recall('/a/b') is None
     neighbours = 1
-    monkeypatch.setattr(memory, 'REMEMBERED_S', -1.0)
-    assert memory.recall('/a/b') is None
+    monkeypatch.setattr(parameters, 'REMEMBERED_S', -1.0)
+    assert parameters.recall('/a/b') is None
 
 
 def test_home_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where nothing can be written nothing is remembered, and that is all."""
-    from ros2cli.completion import memory
+    from ros2cli.completion import parameters
 
     (tmp_path / 'file').touch()
     monkeypatch.setenv('ROS_HOME', str(tmp_path / 'file'))
-    memory.remember('graph', [])
-    assert memory.recall('graph') is None
+    parameters.remember('graph', [])
+    assert parameters.recall('graph') is None

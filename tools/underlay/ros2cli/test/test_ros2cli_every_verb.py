@@ -14,8 +14,7 @@ import sys
 import time
 
 import pytest
-from ros2cli.cli import create_parser, main
-from ros2cli.command_table import COMMANDS
+from ros2cli.cli import COMMANDS, create_parser, main
 from ros2cli.exit_status import BROKEN_PIPE_STATUS
 
 SCRIPT = Path(__file__).parents[1] / 'scripts' / 'ros2'
@@ -115,7 +114,7 @@ def test_closed_stream_is_not_replaced_by_a_socket(
 ) -> None:
     """The descriptors of streams that are closed are not those of the next files."""
     code = (
-        'from ros2cli.standard_streams import open_standard_streams\n'
+        'from ros2cli.start_up import open_standard_streams\n'
         'open_standard_streams()\n'
         "raise SystemExit(open('/dev/null').fileno())\n"
     )

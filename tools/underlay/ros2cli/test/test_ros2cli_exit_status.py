@@ -7,7 +7,7 @@ import sys
 
 import pytest
 from ros2cli.exit_status import run_to_status
-from ros2cli.interrupts import interrupts_deferred
+from ros2cli.node.direct import interrupts_deferred
 
 
 def raising(error: BaseException) -> Callable[[], int]:

@@ -4,11 +4,10 @@
 from collections.abc import Callable
 
 import pytest
-from ros2cli.cli import main
-from ros2cli.command_table import COMMANDS
+from ros2cli.cli import COMMANDS, main
 from ros2cli.entry import Entry
-from ros2cli.extension_points import extension_points
-from ros2topic.command.topic import TopicCommand
+from ros2cli.extensions import extension_points
+from ros2topic.command import TopicCommand
 
 GROUPS = [
     'ros2action.verb',
@@ -40,9 +39,7 @@ OTHERS = {
 @pytest.fixture(autouse=True)
 def others(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let another package have two verbs of `ros2 topic`, one of which cannot be imported."""
-    monkeypatch.setattr(
-        'ros2cli.extension_points.entries_of_group', lambda group: OTHERS.get(group, {})
-    )
+    monkeypatch.setattr('ros2cli.extensions.entries_of_group', lambda group: OTHERS.get(group, {}))
 
 
 @pytest.fixture

@@ -8,10 +8,9 @@ import sys
 from typing import Any
 
 import pytest
-from ros2cli.cli import main
-from ros2cli.command_table import COMMANDS
+from ros2cli.cli import COMMANDS, main
 from ros2cli.entry import Entry
-from ros2pkg.command.pkg import PkgCommand
+from ros2pkg.command import PkgCommand
 
 VERB_COMMANDS = [
     command

@@ -14,7 +14,6 @@ from ros2cli.rtps.identifiers import (
     PID_LIVELINESS,
     PID_METATRAFFIC_UNICAST_LOCATOR,
     PID_RELIABILITY,
-    PID_SENTINEL,
     PID_TOPIC_NAME,
     PID_USER_DATA,
     PUBLICATIONS_READER,
@@ -22,16 +21,24 @@ from ros2cli.rtps.identifiers import (
     unicast_ports,
     UNKNOWN_ENTITY,
 )
-from ros2cli.rtps.message import acknack, data, heartbeat, message
+from ros2cli.rtps.message import (
+    acknack,
+    data,
+    Gap,
+    Heartbeat,
+    heartbeat,
+    message,
+    submessages,
+)
 from ros2cli.rtps.parameters import (
     decode_parameters,
     encode_parameters,
     INFINITE_NS,
+    PID_SENTINEL,
+    text_of,
     THIS_HOST,
 )
 from ros2cli.rtps.stream import MAX_AHEAD, Stream
-from ros2cli.rtps.text import text_of
-from ros2cli.rtps.wire import Gap, Heartbeat, submessages
 from rtps_network import DISTANT_HOST, gap, Network
 
 LONG_S = 30.0

@@ -2,8 +2,7 @@
 """Tests of bad arguments: every command and verb has a usage error for them."""
 
 import pytest
-from ros2cli.cli import main
-from ros2cli.command_table import COMMANDS
+from ros2cli.cli import COMMANDS, main
 
 PASSING_WORDS_ON = ('run',)
 VERBS = [

@@ -12,7 +12,7 @@ import sys
 from typing import Any
 
 import pytest
-from ros2component.api.services import container_services
+from ros2component.api import container_services
 
 Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]

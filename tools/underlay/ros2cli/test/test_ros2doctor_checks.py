@@ -15,33 +15,22 @@ from typing import Any
 
 import pytest
 from ros2cli.graph.interfaces import Interface
-from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.check.client_library import client_library_findings
+from ros2doctor.api.extension import Finding, Severity
 from ros2doctor.check.clock import clock_findings
 from ros2doctor.check.diagnostics import diagnostics_findings
-from ros2doctor.check.environment import environment_findings
+from ros2doctor.check.environment import Environment, environment_findings
 from ros2doctor.check.frames import frame_findings
-from ros2doctor.check.graphics import graphics_findings
-from ros2doctor.check.libraries import library_findings
-from ros2doctor.check.neighbours import NeighboursCheck
-from ros2doctor.check.network import network_findings, who_reaches
-from ros2doctor.check.nodes import name_findings, namespace_findings
+from ros2doctor.check.graph import client_library_findings, Endpoint, Graph
+from ros2doctor.check.graphics import Graphics, graphics_findings
+from ros2doctor.check.libraries import Libraries, library_findings, LibraryFolder
+from ros2doctor.check.listening import DiagnosticsListener, Transform
+from ros2doctor.check.network import Network, network_findings, who_reaches
+from ros2doctor.check.nodes import name_findings, namespace_findings, NeighboursCheck
 from ros2doctor.check.qos import pair_findings
-from ros2doctor.check.scripts import mending_command, script_findings
-from ros2doctor.check.shared_memory import CLEAN_UP
-from ros2doctor.check.wheels import wheel_findings
-from ros2doctor.check.workspace import workspace_findings
-from ros2doctor.facts.diagnostics import DiagnosticsListener
-from ros2doctor.facts.environment import Environment
-from ros2doctor.facts.graph import Endpoint, Graph
-from ros2doctor.facts.graphics import Graphics
-from ros2doctor.facts.libraries import Libraries, LibraryFolder
-from ros2doctor.facts.network import Network
-from ros2doctor.facts.scripts import Script
-from ros2doctor.facts.shared_memory import read_shared_memory, SharedMemory
-from ros2doctor.facts.transforms import Transform
-from ros2doctor.facts.wheels import install_command, Wheels
-from ros2doctor.facts.workspace import PackageState, Workspace
+from ros2doctor.check.scripts import mending_command, Script, script_findings
+from ros2doctor.check.shared_memory import CLEAN_UP, read_shared_memory, SharedMemory
+from ros2doctor.check.wheels import install_command, wheel_findings, Wheels
+from ros2doctor.check.workspace import PackageState, Workspace, workspace_findings
 import yaml
 
 SET_UP = 'source install/setup.bash'

@@ -14,7 +14,7 @@ import pytest
 from ros2cli.cli import main
 from ros2cli.entry import Entry
 from ros2doctor.api import DoctorCheck, DoctorReport, Report, Result
-from ros2doctor.api.greeting import table
+from ros2doctor.verb.hello import table
 
 Ros2 = Callable[..., subprocess.CompletedProcess[str]]
 HERE = 'test_ros2doctor_command_extensions'

@@ -9,18 +9,23 @@ from pathlib import Path
 import sys
 
 import pytest
-from ros2doctor.check.environment import environment_findings
-from ros2doctor.check.libraries import library_findings
-from ros2doctor.facts.client_library import why_rclpy_does_not_start
-from ros2doctor.facts.environment import read_environment
-from ros2doctor.facts.graphics import read_graphics
-from ros2doctor.facts.libraries import read_libraries
-from ros2doctor.facts.multicast import multicast_error
-from ros2doctor.facts.network import read_network
-from ros2doctor.facts.prefix import environment_prefix, is_own, python_version
-from ros2doctor.facts.scripts import read_script
-from ros2doctor.facts.wheels import install_command, normal_name, pins, read_wheels
-from ros2doctor.facts.workspace import changed_files, read_workspaces
+from ros2doctor.check.environment import environment_findings, read_environment
+from ros2doctor.check.graph import why_rclpy_does_not_start
+from ros2doctor.check.graphics import read_graphics
+from ros2doctor.check.libraries import library_findings, read_libraries
+from ros2doctor.check.multicast import multicast_error
+from ros2doctor.check.network import read_network
+from ros2doctor.check.scripts import read_script
+from ros2doctor.check.wheels import (
+    environment_prefix,
+    install_command,
+    is_own,
+    normal_name,
+    pins,
+    python_version,
+    read_wheels,
+)
+from ros2doctor.check.workspace import changed_files, read_workspaces
 from ros_environment.source_tree import SourcePackage
 
 BUILT_S = 1_000_000

@@ -6,7 +6,7 @@ import io
 from subprocess import CompletedProcess
 
 import pytest
-from ros2interface.api.expansion import field_type
+from ros2interface.definition import field_type
 
 Ros2 = Callable[..., CompletedProcess[str]]
 

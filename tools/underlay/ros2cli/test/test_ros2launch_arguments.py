@@ -4,9 +4,8 @@
 from types import SimpleNamespace
 
 import pytest
-from ros2launch.api.arguments import parse_launch_arguments
+from ros2launch.api.arguments import misspelt_argument_text, parse_launch_arguments
 from ros2launch.api.showing import argument_lines
-from ros2launch.api.unknown_arguments import misspelt_argument_text
 
 
 def test_arguments_are_split_at_the_first_separator() -> None:

@@ -9,8 +9,7 @@ from typing import Any
 
 import pytest
 from rcl_interfaces.msg import ParameterType
-from ros2param.api.file import matches
-from ros2param.api.nesting import flatten, nest
+from ros2param.api.file import flatten, matches, nest
 from ros2param.api.values import parse_value, to_plain_value
 
 Ros2 = Callable[..., CompletedProcess[str]]

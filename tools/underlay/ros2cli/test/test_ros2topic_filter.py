@@ -7,8 +7,8 @@ from subprocess import CompletedProcess
 from typing import Any
 
 import pytest
+from ros2topic.api.echo import LossCounter
 from ros2topic.api.filtering import MessageFilter
-from ros2topic.api.losses import LossCounter
 from sensor_msgs.msg import JointState
 
 Ros2 = Callable[..., CompletedProcess[str]]

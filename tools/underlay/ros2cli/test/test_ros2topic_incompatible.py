@@ -16,7 +16,7 @@ from rclpy.qos import (
     QoSCompatibility,
     QoSProfile,
 )
-from ros2topic.api.incompatibility import as_discovered, Incompatibility
+from ros2topic.api.qos import as_discovered, Incompatibility
 
 Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
+from ros2topic.api.arguments import add_qos_arguments, POLICIES, PROFILES
 from ros2topic.api.qos import choose_qos, matching_qos, POLICY_TYPES
-from ros2topic.api.qos_arguments import add_qos_arguments, POLICIES, PROFILES
 
 RELIABLE = ReliabilityPolicy.RELIABLE
 BEST_EFFORT = ReliabilityPolicy.BEST_EFFORT

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the measurement of rates, bandwidth and delay."""
 
-from ros2topic.api.backlog import Backlog
-from ros2topic.api.bandwidth import BandwidthMeter, human_bytes
-from ros2topic.api.delay import DelayMeter
-from ros2topic.api.rate import RateMeter
+from ros2topic.api.subscribing import Backlog
+from ros2topic.verb.bw import BandwidthMeter, human_bytes
+from ros2topic.verb.delay import DelayMeter
+from ros2topic.verb.hz import RateMeter
 
 
 def test_nothing_to_report_before_two_events() -> None:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A controller manager, asked through its services."""
+"""What the verbs share: ask a controller manager through its services, and print interfaces."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from typing import Any
 
 from ros2cli.names import absolute, closest
@@ -57,8 +58,8 @@ def ask(args: argparse.Namespace, name: str, kind: str, **request: Any) -> Any:
         There is no such manager, or it does not answer.
 
     """
-    from ros2cli.node.calls import call
     from ros2cli.node.direct import DirectNode
+    from ros2cli.node.spinning import call
 
     with DirectNode(args) as node:
         import controller_manager_msgs.srv
@@ -87,3 +88,37 @@ def _find(node: Any, manager: str, name: str, kind: str, timeout_s: float) -> No
     hint = closest(manager, known) or (f'There are: {", ".join(known)}' if known else '')
     advice = hint or 'There is none at all: start a robot, or look at ROS_DOMAIN_ID'
     raise RuntimeError(f"There is no controller manager '{manager}'\n{advice}")
+
+
+def command_line(interface: Any) -> str:
+    """
+    Format a command interface with whether it is available and claimed.
+
+    Parameters
+    ----------
+    interface
+        A `controller_manager_msgs/HardwareInterface`.
+
+    """
+    available = 'available' if interface.is_available else 'unavailable'
+    claimed = 'claimed' if interface.is_claimed else 'unclaimed'
+    return f'{interface.name} [{available}] [{claimed}]'
+
+
+def print_lines(title: str, lines: Iterable[str], indent: str = '') -> None:
+    """
+    Print a title, and indented lines below it.
+
+    Parameters
+    ----------
+    title
+        The first line.
+    lines
+        What is below, one tab further to the right.
+    indent
+        What precedes each line.
+
+    """
+    print(f'{indent}{title}')
+    for line in lines:
+        print(f'{indent}\t{line}')

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2action.verb import VerbExtension
-from ros2cli.messages.values_arguments import add_values_arguments
+from ros2cli.messages.values import add_values_arguments
 from ros2cli.node.arguments import add_node_arguments
 
 FIELD_ERROR = 'Failed to populate message fields: {!r}'
@@ -50,10 +50,10 @@ class SendGoalVerb(VerbExtension):
             The type, the name or the values are wrong, or the server disappears.
 
         """
-        from ros2action.api.sending import GoalSender
+        from ros2action.sending import GoalSender
         from ros2cli.messages.lookup import get_passed_type
         from ros2cli.messages.outgoing import OutgoingMessage
-        from ros2cli.messages.values_arguments import values_text
+        from ros2cli.messages.values import values_text
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
 

@@ -14,7 +14,7 @@ from rclpy.qos import (
     QoSProfile,
     ReliabilityPolicy,
 )
-from ros2bag.storage.errors import BagError
+from ros2bag.storage import BagError
 from ros2bag.storage.metadata import Topic
 from ros2bag.storage.offered_qos import INFINITE_NS, OfferedQos
 import yaml

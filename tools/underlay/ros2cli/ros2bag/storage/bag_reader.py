@@ -4,14 +4,37 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 import os
+import struct
+from typing import TYPE_CHECKING
+import zlib
 
-from ros2bag.storage.errors import BagError
+from ros2bag.storage import BagError
 from ros2bag.storage.latched import RecordedMessage
-from ros2bag.storage.metadata import BagMetadata
-from ros2bag.storage.metadata_yaml import FILE_NAME, metadata_from_text
+from ros2bag.storage.metadata import (
+    BagMetadata,
+    FILE_NAME,
+    FileInformation,
+    MessageSpan,
+    metadata_from_text,
+    Topic,
+    TopicInformation,
+)
+from ros2bag.storage.offered_qos import qos_from_text
 
-__all__ = ['BagReader']
+if TYPE_CHECKING:
+    # Imported by the functions that read a file: the metadata of a folder need none of it.
+    from mcap.reader import SeekingReader
+    from mcap.records import Channel, Statistics
+    from mcap.summary import Summary
+    from ros2bag.storage.damage import BoundedFile
+
+__all__ = ['BagReader', 'describe_file', 'topic_of']
+
+FOOTER = struct.Struct('<BQQQI')
+MAGIC_BYTES = 8
+CRC_BYTES = 4
 
 
 class BagReader:
@@ -43,8 +66,6 @@ class BagReader:
             self._folder = path
             self.metadata = read_metadata(path)
         elif os.path.exists(path):
-            from ros2bag.storage.mcap_summary import describe_file
-
             self._folder = os.path.dirname(path)
             self.metadata = describe_file(path)
         else:
@@ -65,8 +86,6 @@ class BagReader:
         metadata = self.metadata
         if metadata.storage_identifier != 'mcap' or metadata.compression_mode not in ('', 'none'):
             raise BagError(_foreign_text(self.path, metadata))
-        from ros2bag.storage.mcap_summary import describe_file
-
         for path in self._paths():
             describe_file(path)
 
@@ -95,8 +114,7 @@ class BagReader:
 
         """
         from mcap.reader import SeekingReader
-        from ros2bag.storage.bounded_chunks import limit_chunks
-        from ros2bag.storage.damage import BoundedFile, damage_told
+        from ros2bag.storage.damage import BoundedFile, damage_told, limit_chunks
 
         limit_chunks()
         for path in self._paths():
@@ -168,3 +186,103 @@ def _foreign_text(path: str, metadata: BagMetadata) -> str:
         f'rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
         '--dst-storage mcap'
     )
+
+
+def describe_file(path: str) -> BagMetadata:
+    """
+    Read the metadata of a single MCAP file from its index.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    BagMetadata
+        The metadata of a bag that consists of this file.
+
+    Raises
+    ------
+    BagError
+        The file is missing, unreadable or not MCAP.
+    BrokenFile
+        The file has no index, or is damaged.
+
+    """
+    from mcap.reader import SeekingReader
+    from ros2bag.storage.damage import BoundedFile, damage_told
+
+    with damage_told(path), BoundedFile(path) as stream:
+        reader = SeekingReader(stream)
+        _check_sum(stream)
+        return _describe(reader, os.path.basename(path))
+
+
+def _check_sum(stream: BoundedFile) -> None:
+    """Raise ValueError if the checksum of the index does not match; zero means no checksum."""
+    stream.seek(-FOOTER.size - MAGIC_BYTES, os.SEEK_END)
+    footer = stream.read(FOOTER.size)
+    _, _, start, _, expected = FOOTER.unpack(footer)
+    if not start or not expected:
+        return
+    stream.seek(start)
+    length = stream.size - MAGIC_BYTES - CRC_BYTES - start
+    if zlib.crc32(stream.read(length)) != expected:
+        raise ValueError('the index is damaged')
+
+
+def _describe(reader: SeekingReader, name: str) -> BagMetadata:
+    summary = reader.get_summary()
+    if summary is None or summary.statistics is None:
+        raise EOFError
+    statistics = summary.statistics
+    span = MessageSpan(
+        statistics.message_count, statistics.message_start_time, statistics.message_end_time
+    )
+    return BagMetadata(
+        files=(FileInformation(name, span if span.message_count else MessageSpan()),),
+        topics=_topics(summary, statistics),
+        ros_distro=_distro(reader),
+    )
+
+
+def _topics(summary: Summary, statistics: Statistics) -> tuple[TopicInformation, ...]:
+    return tuple(
+        TopicInformation(
+            topic_of(channel, summary.schemas[channel.schema_id].name),
+            statistics.channel_message_counts.get(channel.id, 0),
+        )
+        for channel in sorted(summary.channels.values(), key=lambda channel: channel.topic)
+        if channel.schema_id in summary.schemas
+    )
+
+
+def topic_of(channel: Channel, type_name: str) -> Topic:
+    """
+    Convert an MCAP channel to the topic that was recorded in it.
+
+    Parameters
+    ----------
+    channel
+        The channel, with the offered QoS and the type hash in its metadata.
+    type_name
+        The name of the channel's schema.
+
+    """
+    return Topic(
+        name=channel.topic,
+        type_name=type_name,
+        type_hash=channel.metadata.get('topic_type_hash', ''),
+        offered_qos=qos_from_text(channel.metadata.get('offered_qos_profiles', '')),
+        serialization_format=channel.message_encoding,
+    )
+
+
+def _distro(reader: SeekingReader) -> str:
+    for record in reader.iter_metadata():
+        with suppress(BagError):
+            if record.name == 'rosbag2':
+                text = record.metadata.get('serialized_metadata', '')
+                return metadata_from_text(text, 'the file').ros_distro
+    return ''

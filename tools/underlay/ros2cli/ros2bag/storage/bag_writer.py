@@ -9,18 +9,17 @@ import errno
 import os
 from typing import NoReturn
 
+from ros2bag.storage import BagError
 from ros2bag.storage.definitions import Definition
-from ros2bag.storage.errors import BagError
 from ros2bag.storage.latched import LatchedMessages, RecordedMessage
 from ros2bag.storage.mcap_file import McapFile
-from ros2bag.storage.metadata import BagMetadata, Topic
-from ros2bag.storage.metadata_yaml import FILE_NAME, metadata_to_text
-from ros2bag.storage.reserve import Reserve
-from ros2bag.storage.summary import merged
+from ros2bag.storage.metadata import BagMetadata, FILE_NAME, merged, metadata_to_text, Topic
 
-__all__ = ['BagWriter', 'WriterOptions']
+__all__ = ['RESERVE_NAME', 'BagWriter', 'Reserve', 'WriterOptions']
 
 DEFAULT_DISTRO = 'jazzy'
+RESERVE_NAME = '.reserve'
+RESERVED_BYTES = 4 * 1024 * 1024
 
 
 @dataclass(frozen=True)
@@ -226,3 +225,36 @@ def _advice(error: OSError, folder: str) -> str:
 
 def _not_writable(folder: str, error: OSError) -> BagError:
     return BagError(f"Output folder '{folder}' cannot be written: {error.strerror}")
+
+
+class Reserve:
+    """
+    Reserved disk space, to be released when the disk is full or the recording ends.
+
+    Parameters
+    ----------
+    folder
+        Where to create the file that takes the space (4 MiB).
+
+    Raises
+    ------
+    OSError
+        The disk does not have enough space left.
+
+    """
+
+    def __init__(self, folder: str) -> None:
+        self._path = os.path.join(folder, RESERVE_NAME)
+        try:
+            with open(self._path, 'xb') as stream:
+                os.posix_fallocate(stream.fileno(), 0, RESERVED_BYTES)
+        except OSError as error:
+            self.release()
+            # Other errors are file size limits, or file systems without support for preallocation.
+            if error.errno == errno.ENOSPC:
+                raise
+
+    def release(self) -> None:
+        """Release the disk space; may be called more than once."""
+        if os.path.exists(self._path):
+            os.unlink(self._path)

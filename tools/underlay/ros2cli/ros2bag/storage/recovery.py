@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recovery of recordings that are damaged or whose recorder was killed."""
+"""Recover recordings that are damaged or whose recorder was killed."""
 
 from __future__ import annotations
 
@@ -11,21 +11,22 @@ import os
 import re
 from typing import NamedTuple
 
-from ros2bag.storage.bag_reader import read_metadata
-from ros2bag.storage.copying import copy_messages
-from ros2bag.storage.errors import BagError
-from ros2bag.storage.mcap_summary import describe_file
-from ros2bag.storage.metadata_yaml import FILE_NAME, metadata_to_text
-from ros2bag.storage.patient_file import is_being_written
-from ros2bag.storage.reserve import FILE_NAME as RESERVE_NAME
-from ros2bag.storage.summary import merged
-from ros2bag.storage.survey import Survey
+from mcap.records import Channel, Message, Schema
+from ros2bag.storage import BagError
+from ros2bag.storage.bag_reader import describe_file, read_metadata, topic_of
+from ros2bag.storage.bag_writer import RESERVE_NAME
+from ros2bag.storage.damage import damage_told
+from ros2bag.storage.definitions import Definition
+from ros2bag.storage.mcap_file import is_being_written, McapFile
+from ros2bag.storage.metadata import FILE_NAME, merged, metadata_to_text
+from ros2bag.storage.salvage import Content, Salvage
 
 __all__ = ['RecoveredFile', 'recover', 'write_metadata']
 
 BROKEN_SUFFIX = '.broken'
 NEW_SUFFIX = '.recovered'
 NUMBER = re.compile(r'(\d+)')
+CHUNK_BYTES = 1024 * 1024
 
 
 class RecoveredFile(NamedTuple):
@@ -163,3 +164,140 @@ def _free_path(path: str) -> str:
     """Return a path that does not exist yet."""
     numbered = (f'{path}{number}' for number in count(2))
     return next(each for each in chain([path], numbered) if not os.path.exists(each))
+
+
+class Survey:
+    """
+    Content summary of an MCAP file, read once from start to end, and whether it is intact.
+
+    Parameters
+    ----------
+    path
+        The file.
+    progress
+        Called with the fraction (0 to 1) of the file that has been read.
+
+    Attributes
+    ----------
+    schemas, channels
+        By their IDs; the first record with an ID counts.
+    message_count
+        The number of readable messages.
+    compression
+        The compression of the chunks: `none`, `lz4` or `zstd`.
+    damaged_parts, objection
+        As in `Salvage`.
+    is_whole
+        Whether nothing is damaged, and the index counts the same messages.
+
+    Raises
+    ------
+    BagError
+        The file is missing, unreadable or not MCAP.
+
+    """
+
+    def __init__(self, path: str, progress: Callable[[float], None]) -> None:
+        self.schemas: dict[int, Schema] = {}
+        self.channels: dict[int, Channel] = {}
+        self.message_count = 0
+        salvage = Salvage(path)
+        with damage_told(path):
+            for record in salvage.records(progress):
+                self._note(record)
+        self.compression = salvage.compression or 'none'
+        self.damaged_parts = salvage.damaged_parts
+        self.objection = salvage.objection
+        self.is_whole = salvage.is_sound and self.message_count == _counted(path)
+
+    def _note(self, record: Content) -> None:
+        if isinstance(record, Message):
+            self.message_count += 1
+        elif isinstance(record, Schema):
+            self.schemas.setdefault(record.id, record)
+        else:
+            self.channels.setdefault(record.id, record)
+
+
+def _counted(path: str) -> int:
+    """Return the message count of the index; -1 without an index."""
+    try:
+        return describe_file(path).span.message_count
+    except BagError:
+        return -1
+
+
+def copy_messages(
+    path: str, survey: Survey, new_path: str, progress: Callable[[float], None]
+) -> int:
+    """
+    Copy the messages of a broken MCAP file to a new, complete one.
+
+    Messages whose schema or channel is lost cannot be copied.
+
+    Parameters
+    ----------
+    path
+        The broken file.
+    survey
+        The schemas, channels and compression found in it.
+    new_path
+        The file to create.
+    progress
+        Called with the fraction (0 to 1) of the broken file that has been read.
+
+    Returns
+    -------
+    int
+        The number of copied messages.
+
+    Raises
+    ------
+    OSError
+        The new file exists already or cannot be written.
+
+    """
+    name, compression = os.path.basename(path), survey.compression
+    file = McapFile(new_path, name=name, compression=compression, chunk_bytes=CHUNK_BYTES)
+    try:
+        copier = _Copier(file, survey)
+        for record in Salvage(path).records(progress):
+            if isinstance(record, Channel | Message):
+                copier.add(record)
+        file.finish()
+    finally:
+        file.close()
+    return file.message_count
+
+
+class _Copier:
+    """Copier of channels and messages from one file to another."""
+
+    def __init__(self, file: McapFile, survey: Survey) -> None:
+        self._file = file
+        self._survey = survey
+        self._names: dict[int, str] = {}
+
+    def add(self, record: Channel | Message) -> None:
+        """Write a record; skip it if its schema or channel is lost."""
+        number = record.id if isinstance(record, Channel) else record.channel_id
+        if number not in self._names:
+            self._names[number] = self._add_topic(number)
+        if isinstance(record, Message) and self._names[number]:
+            self._file.write(
+                self._names[number],
+                record.data,
+                record.log_time,
+                record.publish_time,
+                record.sequence,
+            )
+
+    def _add_topic(self, number: int) -> str:
+        """Register the topic of a channel, and return its name, or '' if it is lost."""
+        channel = self._survey.channels.get(number)
+        schema = self._survey.schemas.get(channel.schema_id) if channel else None
+        if channel is None or schema is None:
+            return ''
+        definition = Definition(schema.encoding, schema.data.decode(errors='replace'))
+        self._file.add_topic(topic_of(channel, schema.name), definition)
+        return channel.topic

@@ -5,22 +5,40 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from io import BytesIO
+import re
 import struct
+import sys
+from typing import Any, IO, NamedTuple
 import zlib
 
+from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Channel, Message, Schema
-from ros2bag.storage.bounded_chunks import size_objection
-from ros2bag.storage.chunk_search import next_chunk, unpacked
-from ros2bag.storage.damage import BoundedFile
-from ros2bag.storage.errors import BagError
-from ros2bag.storage.mcap_record import McapRecord, read_record, RECORD_HEADER
+from mcap.records import Channel, Chunk, Header, Message, MessageIndex, Metadata, Schema
+from ros2bag.storage import BagError
+from ros2bag.storage.damage import BoundedFile, chunk_stream, DAMAGE, size_objection
 
 __all__ = ['Content', 'Salvage']
 
 MAGIC = b'\x89MCAP0\r\n'
 CRC = struct.Struct('<I')
 Content = Schema | Channel | Message
+# Opcode; length below 2**40; first and last time, size, checksum; name of the compression.
+CHUNK_START = re.compile(
+    rb'\x06(?=.{5}\x00{3}.{28}(?:\x00{4}|\x03\x00{3}lz4|\x04\x00{3}zstd))', re.DOTALL
+)
+START_BYTES = 45
+BLOCK_BYTES = 1024 * 1024
+RECORD_HEADER = struct.Struct('<BQ')
+# Opcodes from here on are private to programs; those in between are reserved.
+PRIVATE_OPCODE = 0x80
+PARSERS: dict[int, Callable[[ReadDataStream], Any]] = {
+    Opcode.HEADER: Header.read,
+    Opcode.SCHEMA: Schema.read,
+    Opcode.CHANNEL: Channel.read,
+    Opcode.CHUNK: Chunk.read,
+    Opcode.MESSAGE_INDEX: MessageIndex.read,
+    Opcode.METADATA: Metadata.read,
+}
 
 
 class Salvage:
@@ -152,3 +170,128 @@ def _contents_of(data: bytes) -> Iterator[Content]:
         value = record.parsed()[0]
         if isinstance(value, Content):
             yield value
+
+
+def next_chunk(stream: BoundedFile, position: int) -> int | None:
+    """
+    Find the next whole chunk with a correct checksum.
+
+    Parameters
+    ----------
+    stream
+        The file, whose position changes.
+    position
+        The offset in bytes at which to start.
+
+    Returns
+    -------
+    int or None
+        The offset of the record in bytes, or None if there is no such chunk.
+
+    """
+    return next((at for at in _candidates(stream, position) if _is_chunk(stream, at)), None)
+
+
+def unpacked(chunk: Chunk) -> bytes | None:
+    """
+    Decompress and verify a chunk.
+
+    Parameters
+    ----------
+    chunk
+        The chunk as it is in the file.
+
+    Returns
+    -------
+    bytes or None
+        The records of the chunk; None if it is damaged or needs too much memory.
+
+    """
+    try:
+        stream, size = chunk_stream(chunk, validate_crc=True)
+        return stream.read(size)
+    except DAMAGE:
+        return None
+
+
+def _candidates(stream: BoundedFile, position: int) -> Iterator[int]:
+    """Yield the offsets of possible chunks."""
+    while position < stream.size:
+        stream.seek(position)
+        block = stream.read(BLOCK_BYTES + START_BYTES)
+        for match in CHUNK_START.finditer(block):
+            if match.start() < BLOCK_BYTES:
+                yield position + match.start()
+        position += BLOCK_BYTES
+
+
+def _is_chunk(stream: BoundedFile, position: int) -> bool:
+    stream.seek(position)
+    record = read_record(stream)
+    if record is None or not record.is_whole:
+        return False
+    chunk = record.parsed()[0]
+    return chunk is not None and chunk.uncompressed_crc != 0 and unpacked(chunk) is not None
+
+
+class McapRecord(NamedTuple):
+    """A record: its opcode, its declared length, and its possibly truncated content."""
+
+    opcode: int
+    length: int
+    content: bytes
+
+    @property
+    def size(self) -> int:
+        """Return the available size with the header, in bytes."""
+        return RECORD_HEADER.size + len(self.content)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether the content is complete."""
+        return len(self.content) == self.length
+
+    @property
+    def is_plausible(self) -> bool:
+        """Whether the content is complete and the opcode is known."""
+        is_known = 0 < self.opcode <= max(Opcode) or self.opcode >= PRIVATE_OPCODE
+        return is_known and self.is_whole
+
+    def parsed(self) -> tuple[Any, int]:
+        """
+        Parse the content; return the object and the number of bytes that it takes.
+
+        The object is None for a damaged record, with 0 bytes, and for kinds that are not needed,
+        with all bytes.
+        """
+        stream = ReadDataStream(BytesIO(self.content))
+        try:
+            if self.opcode == Opcode.MESSAGE:
+                return Message.read(stream, len(self.content)), len(self.content)
+            if self.opcode in PARSERS:
+                return PARSERS[self.opcode](stream), stream.count
+        except DAMAGE:
+            return None, 0
+        return None, len(self.content)
+
+
+def read_record(stream: IO[bytes]) -> McapRecord | None:
+    """
+    Read the next record of an MCAP file.
+
+    Parameters
+    ----------
+    stream
+        The file, or the decompressed data of a chunk, positioned at the start of a record.
+
+    Returns
+    -------
+    McapRecord or None
+        The record, whose content may be truncated; None if not even its header is left.
+
+    """
+    header = stream.read(RECORD_HEADER.size)
+    if len(header) < RECORD_HEADER.size:
+        return None
+    opcode, length = RECORD_HEADER.unpack(header)
+    return McapRecord(opcode, length, stream.read(min(length, sys.maxsize)))

@@ -5,13 +5,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
+from typing import NamedTuple
 
-from ros2cli.completion.names import graph_names
+from ros2cli.graph.watch import GraphWatch
 
 ACTION_SUFFIX = '/_action/send_goal'
 STATE_SERVICE = ('/get_state', 'lifecycle_msgs/srv/GetState')
 LOAD_SERVICE = ('/_container/load_node', 'composition_interfaces/srv/LoadNode')
 HIDDEN = '/_'
+SPIN_TIME_S = 0.1
 
 
 def topics(prefix: str, args: argparse.Namespace) -> list[str]:
@@ -146,3 +148,25 @@ def _owners(suffix: str, service_type: str) -> list[str]:
 
 def _visible(prefix: str, names: Iterable[str]) -> list[str]:
     return [name for name in names if HIDDEN in prefix or HIDDEN not in name]
+
+
+class Names(NamedTuple):
+    """The names in the graph: topics and services with their types, and full node names."""
+
+    topics: dict[str, list[str]]
+    services: dict[str, list[str]]
+    nodes: list[str]
+
+
+def graph_names() -> Names:
+    """Read the names in the graph during a short discovery."""
+    from ros2node.api import get_node_names
+
+    with GraphWatch(SPIN_TIME_S) as watch:
+        graph = watch.settled()
+    nodes = get_node_names(node=graph, include_hidden_nodes=True)
+    return Names(
+        dict(graph.get_topic_names_and_types()),
+        dict(graph.get_service_names_and_types()),
+        sorted({name.full_name for name in nodes}),
+    )

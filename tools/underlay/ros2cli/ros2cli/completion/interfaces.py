@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Complete the types of messages, services and actions."""
+"""Complete the types of messages, services and actions, and their values."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import argparse
 
 from ros2cli.completion.graph import types_of_service, types_of_topic
 from ros2interface.api import get_interface_packages, get_interfaces
+
+TYPES = ('message_type', 'service_type', 'action_type')
 
 
 def packages(prefix: str, args: argparse.Namespace) -> list[str]:
@@ -105,3 +107,30 @@ def _packages_first(prefix: str, kinds: tuple[str, ...]) -> list[str]:
     if len(found) > 1:
         return [f'{name}/' for name in found]
     return [text for types in found.values() for text in types]
+
+
+def values(prefix: str, args: argparse.Namespace) -> list[str]:
+    """
+    Return the default values of an interface as one line of YAML.
+
+    Parameters
+    ----------
+    prefix
+        The word to complete (unused).
+    args : argparse.Namespace
+        The parsed arguments, with the `message_type`, `service_type` or `action_type`.
+
+    Returns
+    -------
+    list of str
+        The line alone; empty if the type is unknown.
+
+    """
+    from ros2cli.messages.text import to_yaml
+    from ros2interface.definition import create_prototype
+
+    name = next(filter(None, (getattr(args, each, None) for each in TYPES)))
+    try:
+        return [to_yaml(create_prototype(name), flow_style=True).strip()]
+    except (AttributeError, ImportError, RuntimeError):
+        return []

@@ -16,10 +16,9 @@ from rclpy.qos import (
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
 from ros2cli.graph.names import ros_type
-from ros2cli.rtps import endpoint as dds
-from ros2cli.rtps.entities import NodeEntities
+from ros2cli.rtps import entities as dds
 
-UNKNOWN_NODE = NodeEntities(
+UNKNOWN_NODE = dds.NodeEntities(
     '_NODE_NAMESPACE_UNKNOWN_', '_NODE_NAME_UNKNOWN_', frozenset(), frozenset()
 )
 RELIABILITIES = {
@@ -37,7 +36,7 @@ LIVELINESSES = {
 TYPE_HASH = re.compile(r'RIHS(\d{2})_([0-9a-f]{64})')
 
 
-def endpoint_info(endpoint: dds.Endpoint, node: NodeEntities | None) -> TopicEndpointInfo:
+def endpoint_info(endpoint: dds.Endpoint, node: dds.NodeEntities | None) -> TopicEndpointInfo:
     """
     Convert an endpoint to the TopicEndpointInfo of rclpy.
 

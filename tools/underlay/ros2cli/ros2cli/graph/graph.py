@@ -8,8 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from ros2cli.graph.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
-from ros2cli.rtps.endpoint import Endpoint
-from ros2cli.rtps.entities import NodeEntities
+from ros2cli.rtps.entities import Endpoint, NodeEntities
 from ros2cli.rtps.identifiers import PREFIX_BYTES
 
 NamesAndTypes = list[tuple[str, list[str]]]

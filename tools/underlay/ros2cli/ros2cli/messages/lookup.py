@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the Python class of an interface by its name."""
+"""Find the Python class of an interface by its name, and hint at misspelt types and fields."""
 
 from __future__ import annotations
 
 from importlib import import_module
 from typing import Any
+
+from ros2cli.suggest import did_you_mean
 
 KINDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
 EXAMPLES = {
@@ -128,7 +130,21 @@ def _no_package_text(package: str, kind: str) -> str:
 
 
 def _no_type_text(folder: str, name: str, names: list[str]) -> str:
-    from ros2cli.suggest import did_you_mean
-
     known = [known for known in names if known[:1].isupper()]
     return f"'{folder}' has no type '{name}'. {did_you_mean(name, known)}".rstrip()
+
+
+def field_hint(error: Exception) -> str:
+    """
+    Return a question that suggests the field probably meant, or ''.
+
+    Parameters
+    ----------
+    error
+        The error of setting or reading a field; only an AttributeError has a hint.
+
+    """
+    fields: dict[str, str] = getattr(
+        getattr(error, 'obj', None), 'get_fields_and_field_types', dict[str, str]
+    )()
+    return did_you_mean(getattr(error, 'name', None) or '', fields)

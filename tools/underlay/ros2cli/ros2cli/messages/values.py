@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Parser for the values of a message on the command line, in YAML.
+The values of a message on the command line, in YAML.
 
 Nearly all are like `{linear: {x: 0.3}, name: arm}`: words, numbers and booleans in braces and
 brackets. These are parsed here, since the import of PyYAML takes a tenth of the time of a command;
-all other YAML is left to PyYAML.
+all other YAML is left to PyYAML, which is only imported for it.
 """
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Iterator
 import re
+import sys
 from typing import Any
 
 _TOKEN = re.compile(r' *(?:([]{},[])|([a-z][a-z0-9_]*):(?= )|([A-Za-z0-9_.+-]+))', re.ASCII)
@@ -153,3 +155,53 @@ def _scalar(text: str) -> Any:
     if _WORD.fullmatch(text) and text.lower() not in _NO_WORDS:
         return text
     raise _NotSimple
+
+
+def add_values_arguments(parser: argparse.ArgumentParser, what: str) -> None:
+    """
+    Add the argument for values in YAML, and the option to read them from standard input.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        The name of the message in the help, such as `goal`.
+
+    """
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument(
+        'values',
+        nargs='?',
+        default='{}',
+        help=f'Values to fill the {what} with in YAML format, otherwise it has default values',
+    )
+    source.add_argument('--stdin', action='store_true', help='Read values from standard input')
+
+
+def values_text(args: argparse.Namespace) -> str:
+    """
+    Return the values in YAML, from the command line or standard input.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_values_arguments`.
+
+    Raises
+    ------
+    RuntimeError
+        Standard input is closed, or is not text.
+
+    """
+    text: str = _read_stdin() if args.stdin else args.values
+    return text
+
+
+def _read_stdin() -> str:
+    if sys.stdin is None:
+        raise RuntimeError('--stdin reads values from standard input, which is closed')
+    try:
+        return sys.stdin.read()
+    except UnicodeDecodeError as error:
+        raise RuntimeError(f'--stdin reads text, and standard input is none: {error}') from error

@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
 import os
-from types import TracebackType
+import signal
+from types import FrameType, TracebackType
 from typing import Any, TYPE_CHECKING
 
+from ros2cli.deferral import import_rclpy
 from ros2cli.graph import DEFAULT_SPIN_TIME_S
-from ros2cli.interrupts import interrupts_deferred
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.node.arguments import add_node_arguments as add_arguments
-from ros2cli.node.rclpy_import import import_rclpy
 
 import_rclpy()
 import rclpy  # noqa: E402, I100
@@ -146,3 +148,28 @@ def _check_rclpy() -> None:
     """Raise if rclpy is shut down, to end a wait outside of ROS: SIGTERM only shuts rclpy down."""
     if not rclpy.ok():
         raise ExternalShutdownException
+
+
+@contextmanager
+def interrupts_deferred() -> Iterator[None]:
+    """
+    Raise KeyboardInterrupt only at the end of the block.
+
+    This includes an earlier SIGINT that rclpy has received but Python has not handled yet.
+    """
+    received: list[int] = []
+
+    def remember(number: int, _: FrameType | None) -> None:
+        received.append(number)
+
+    try:
+        previous = signal.signal(signal.SIGINT, remember)
+    except KeyboardInterrupt:
+        remember(signal.SIGINT, None)
+        previous = signal.signal(signal.SIGINT, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if received:
+        raise KeyboardInterrupt

@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 import os
 
-from ros2cli.rtps.endpoint import RELIABLE, TRANSIENT_LOCAL
-from ros2cli.rtps.entities import TOPIC, TYPE_NAME
+from ros2cli.rtps.entities import RELIABLE, TOPIC, TRANSIENT_LOCAL, TYPE_NAME
 from ros2cli.rtps.identifiers import (
     BUILTIN_ENDPOINTS,
     ENTITIES_READER,

@@ -16,7 +16,6 @@ SUBSCRIPTIONS_WRITER = bytes.fromhex('000004c2')
 SUBSCRIPTIONS_READER = bytes.fromhex('000004c7')
 ENTITIES_READER = bytes.fromhex('00000104')  # our own: a reader of a keyless topic
 
-PID_SENTINEL = 0x01
 PID_LEASE_DURATION = 0x02
 PID_TOPIC_NAME = 0x05
 PID_TYPE_NAME = 0x07

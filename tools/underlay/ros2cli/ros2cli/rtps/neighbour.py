@@ -5,8 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cli.rtps.endpoint import Endpoint, endpoint_of, guid_of
-from ros2cli.rtps.entities import decode_entities, NodeEntities, TOPIC
+from ros2cli.rtps.entities import (
+    decode_entities,
+    Endpoint,
+    endpoint_of,
+    guid_of,
+    NodeEntities,
+    TOPIC,
+)
 from ros2cli.rtps.identifiers import (
     ENTITIES_READER,
     PREFIX_BYTES,
@@ -15,10 +21,17 @@ from ros2cli.rtps.identifiers import (
     SUBSCRIPTIONS_READER,
     SUBSCRIPTIONS_WRITER,
 )
-from ros2cli.rtps.message import info_destination, message
+from ros2cli.rtps.message import (
+    Data,
+    Fragment,
+    Gap,
+    Heartbeat,
+    info_destination,
+    message,
+    Submessage,
+)
 from ros2cli.rtps.parameters import Address, decode_parameters, THIS_HOST
 from ros2cli.rtps.stream import Stream
-from ros2cli.rtps.wire import Data, Fragment, Gap, Heartbeat, Submessage
 
 PATIENCE_S = 0.13  # longer than the 0.1 s that Fast DDS takes to answer a request
 MAX_PATIENCE_S = 0.5

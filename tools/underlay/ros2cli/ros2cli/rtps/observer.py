@@ -18,9 +18,9 @@ from ros2cli.rtps.identifiers import (
     PID_LEASE_DURATION,
     PID_METATRAFFIC_UNICAST_LOCATOR,
 )
+from ros2cli.rtps.message import Data, sender, Submessage, submessages
 from ros2cli.rtps.neighbour import Neighbour
 from ros2cli.rtps.parameters import Address, decode_parameters, Parameters, THIS_HOST
-from ros2cli.rtps.wire import Data, sender, Submessage, submessages
 
 PACE_S = 0.004
 GREET_AGAIN_S = 0.1

@@ -8,9 +8,7 @@ import socket
 import struct
 from typing import NamedTuple
 
-from ros2cli.rtps.identifiers import PID_SENTINEL
-from ros2cli.rtps.text import text_of
-
+PID_SENTINEL = 0x01
 PL_CDR_LE = b'\x00\x03\x00\x00'
 UDP_V4 = 1
 MAX_PORT = 65535
@@ -294,3 +292,19 @@ def locator_value(address: Address) -> bytes:
     """
     host, port = address
     return struct.pack('<iI', UDP_V4, port) + bytes(12) + socket.inet_aton(host)
+
+
+def text_of(raw: bytes) -> str:
+    """
+    Decode a string from the network; control characters are escaped, to protect the terminal.
+
+    Parameters
+    ----------
+    raw
+        UTF-8, with or without trailing zeros.
+
+    """
+    text = raw.rstrip(b'\0').decode('utf-8', 'backslashreplace')
+    if text.isprintable():
+        return text
+    return ''.join(each if each.isprintable() else ascii(each)[1:-1] for each in text)

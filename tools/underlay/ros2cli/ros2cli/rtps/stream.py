@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""State of a reliable reader: received and missing samples of a writer (8.4.10)."""
+"""What a reliable reader has received, and what it requests again (8.4.10, 8.4.14.1)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros2cli.rtps.fragments import Fragments
-from ros2cli.rtps.message import acknack
-from ros2cli.rtps.wire import MAX_NUMBERS
+from ros2cli.rtps.message import acknack, Data, Fragment, MAX_NUMBERS
+from ros2cli.rtps.parameters import Parameters
 
 MAX_AHEAD = 10_000  # received samples that are tracked behind a missing one
+NO_QOS = Parameters({}, '<')
+MAX_SAMPLE_BYTES = 1 << 24
 
 
 class Stream:
@@ -135,3 +136,49 @@ class Stream:
         while self._next in self._ahead:
             self._ahead.remove(self._next)
             self._next += 1
+
+
+class Fragments:
+    """Fragments of a writer's latest sample; if one is lost, all are requested again."""
+
+    def __init__(self) -> None:
+        """Start without fragments."""
+        self._number = 0
+        self._parts: dict[int, bytes] = {}
+        self._missing = 0
+
+    def add(self, fragment: Fragment) -> Data | None:
+        """
+        Add a fragment, and reassemble the sample when it is complete.
+
+        Parameters
+        ----------
+        fragment
+            A fragment of a sample; the fragments of the previous sample are dropped when it
+            belongs to another one.
+
+        Returns
+        -------
+        Data or None
+            The whole sample if this was the last missing fragment.
+
+        Raises
+        ------
+        ValueError
+            The declared sample size is larger than 16 MiB.
+
+        """
+        if fragment.size > MAX_SAMPLE_BYTES:
+            raise ValueError(f'a sample of {fragment.size} bytes')
+        if fragment.number != self._number:
+            self._number, self._missing = fragment.number, fragment.size
+            self._parts.clear()
+        if fragment.payload and fragment.start not in self._parts:
+            self._parts[fragment.start] = fragment.payload
+            self._missing -= len(fragment.payload)
+        if self._missing > 0:
+            return None
+        self._number = 0
+        payload = b''.join(part for _, part in sorted(self._parts.items()))[: fragment.size]
+        self._parts.clear()
+        return Data(fragment.reader, fragment.writer, fragment.number, payload, NO_QOS, False)

@@ -7,8 +7,8 @@ import argparse
 
 from ros2cli.argument_types import node_name
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2component.api.load_arguments import add_load_arguments
 from ros2component.verb import VerbExtension
+from ros2component.verb.load import add_load_arguments
 
 DEFAULT_CONTAINER_NAME = 'standalone_container'
 
@@ -51,6 +51,6 @@ class StandaloneVerb(VerbExtension):
             The exit status of the container.
 
         """
-        from ros2component.api.standalone import run_standalone
+        from ros2component.standalone import run_standalone
 
         return run_standalone(args)

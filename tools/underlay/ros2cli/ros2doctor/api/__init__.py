@@ -7,9 +7,7 @@ with a class derived from DoctorCheck or DoctorReport.
 """
 
 from ros2doctor.api.examining import generate_reports, run_checks
-from ros2doctor.api.extension import DoctorCheck, DoctorReport
-from ros2doctor.api.finding import Finding, Result, Severity
-from ros2doctor.api.report import Report
+from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 
 __all__ = [
     'DoctorCheck',

@@ -1,17 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run all checks, and generate all reports."""
+"""The checks and reports in the order of their output, and their run."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
-from ros2cli.entry import Entry
-from ros2cli.entry_points import entries_of_group
-from ros2doctor.api.finding import Finding, Result, Severity
+from ros2cli.entry import entries_of_group, Entry
+from ros2doctor.api.extension import Finding, Report, Result, Severity
 from ros2doctor.api.format import doctor_warn, finding_text, format_print
-from ros2doctor.api.report import Report
-from ros2doctor.api.table import CHECK_GROUP, CHECKS, REPORT_GROUP, REPORTS, WORKSPACE
+
+CHECK_GROUP = 'ros2doctor.checks'
+REPORT_GROUP = 'ros2doctor.report'
+WORKSPACE = 'workspace'
+
+CHECKS = {
+    'environment': Entry('ros2doctor.check.environment:EnvironmentCheck', ''),
+    'wheels': Entry('ros2doctor.check.wheels:WheelsCheck', ''),
+    'libraries': Entry('ros2doctor.check.libraries:LibrariesCheck', ''),
+    'scripts': Entry('ros2doctor.check.scripts:ScriptsCheck', ''),
+    WORKSPACE: Entry('ros2doctor.check.workspace:WorkspaceCheck', ''),
+    'network': Entry('ros2doctor.check.network:NetworkCheck', ''),
+    'graphics': Entry('ros2doctor.check.graphics:GraphicsCheck', ''),
+    'rclpy': Entry('ros2doctor.check.graph:ClientLibraryCheck', ''),
+    'qos': Entry('ros2doctor.check.qos:QosCheck', ''),
+    'nodes': Entry('ros2doctor.check.nodes:NodesCheck', ''),
+    'neighbours': Entry('ros2doctor.check.nodes:NeighboursCheck', ''),
+    'clock': Entry('ros2doctor.check.clock:ClockCheck', ''),
+    'frames': Entry('ros2doctor.check.frames:FramesCheck', ''),
+    'diagnostics': Entry('ros2doctor.check.diagnostics:DiagnosticsCheck', ''),
+}
+REPORTS = {
+    'platform': Entry('ros2doctor.check.environment:PlatformReport', ''),
+    'environment': Entry('ros2doctor.check.environment:EnvironmentReport', ''),
+    'wheels': Entry('ros2doctor.check.wheels:WheelsReport', ''),
+    'libraries': Entry('ros2doctor.check.libraries:LibrariesReport', ''),
+    'scripts': Entry('ros2doctor.check.scripts:ScriptsReport', ''),
+    WORKSPACE: Entry('ros2doctor.check.workspace:WorkspaceReport', ''),
+    'network': Entry('ros2doctor.check.network:NetworkReport', ''),
+    'graphics': Entry('ros2doctor.check.graphics:GraphicsReport', ''),
+    'nodes': Entry('ros2doctor.check.nodes:NodesReport', ''),
+    'qos': Entry('ros2doctor.check.qos:QosReport', ''),
+    'frames': Entry('ros2doctor.check.frames:FramesReport', ''),
+}
 
 
 def examine(*, include_warnings: bool, exclude_packages: bool) -> set[str]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import warnings
 
-from ros2doctor.api.finding import Finding
-from ros2doctor.api.report import Report
+from ros2doctor.api.extension import Finding, Report
 
 INDENT = '    '
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the facts, one per module."""
+"""What is checked and reported, one subject per module: its facts, then the check and report."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.check.graph_check import GraphCheck
-from ros2doctor.facts.graph import Graph
+from ros2doctor.api.extension import Finding, Severity
+from ros2doctor.check.graph import Graph, GraphCheck
 
 
 class ClockCheck(GraphCheck):

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.check.graph_check import GraphCheck
-from ros2doctor.facts.diagnostics import Complaint, WARN
-from ros2doctor.facts.graph import Graph
+from ros2doctor.api.extension import Finding, Severity
+from ros2doctor.check.graph import Graph, GraphCheck
+from ros2doctor.check.listening import Complaint, WARN
 
 
 class DiagnosticsCheck(GraphCheck):

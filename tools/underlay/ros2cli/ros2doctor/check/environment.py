@@ -3,18 +3,108 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib.util import find_spec
 import os
+from pathlib import Path
+import platform
+import shlex
+import shutil
+import sys
 
-from ros2doctor.api.extension import DoctorCheck
-from ros2doctor.api.finding import Finding, Result, Severity
-from ros2doctor.facts.environment import Environment, PATH_VARIABLES, read_environment
+from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
+from ros2doctor.check.scripts import read_script, Script
+from ros2doctor.check.wheels import environment_prefix, is_own
 
+PATH_VARIABLES = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'PYTHONPATH')
 DISTRO = 'jazzy'
 MIDDLEWARE = 'rmw_fastrtps_cpp'
 SYSTEM_FOLDER = '/opt/ros/'
 PYTHON_RANGE = ((3, 10), (3, 13))
 NEW_TERMINAL = 'open a new terminal and run: '
+PREFIXES = ('ROS_', 'RMW_', 'RCUTILS_', 'FASTRTPS_', 'FASTDDS_', 'AMENT_', 'COLCON_', '_ROS_')
+NAMES = (*PATH_VARIABLES, 'LD_LIBRARY_PATH', 'PATH', 'VIRTUAL_ENV', 'CONDA_PREFIX', 'SHELL')
+
+
+@dataclass(frozen=True)
+class Environment:
+    """
+    Environment that a shell passes on to the programs that it starts.
+
+    :param python_version: major and minor version of the running Python
+    :param prefix: the virtual environment with the wheels
+    :param rclpy: path from which rclpy would be imported, if any
+    :param other_python: the program that `python3` runs, if not that of the environment
+    :param colcon: the program that `colcon` runs, if any
+    :param has_current_folder: whether the current folder has not been deleted
+    :param set_up: a command that sources or builds the nearest workspace
+    """
+
+    variables: Mapping[str, str]
+    python_version: tuple[int, int]
+    prefix: str
+    rclpy: str | None
+    other_python: str | None
+    colcon: Script | None
+    has_current_folder: bool
+    set_up: str
+
+    def folders(self, variable: str) -> list[str]:
+        """
+        List the folders in an environment variable such as PATH.
+
+        Parameters
+        ----------
+        variable
+            The name of the variable.
+
+        Returns
+        -------
+        list of str
+            The folders in their order, without empty ones; none if the variable is not set.
+
+        """
+        return [text for text in self.variables.get(variable, '').split(os.pathsep) if text]
+
+
+def read_environment() -> Environment:
+    """Return the environment of this process."""
+    spec = find_spec('rclpy')
+    colcon = shutil.which('colcon')
+    python = shutil.which('python3')
+    return Environment(
+        variables=dict(os.environ),
+        python_version=sys.version_info[:2],
+        prefix=environment_prefix(),
+        rclpy=spec.origin if spec else None,
+        other_python=python if python and not is_own(python) else None,
+        colcon=read_script(Path(colcon)) if colcon else None,
+        has_current_folder=_has_current_folder(),
+        set_up=set_up_command(),
+    )
+
+
+def _has_current_folder() -> bool:
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        return False
+    return True
+
+
+def set_up_command() -> str:
+    """Return the command that sources or builds the nearest workspace in a new shell."""
+    from ros_environment.workspace import workspaces
+
+    for workspace in workspaces():
+        script = workspace / 'install' / 'setup.bash'
+        if script.is_file():
+            return f'source {shlex.quote(str(script))}'
+        if (workspace / 'tools' / 'setup').is_dir():
+            folder = shlex.quote(str(workspace))
+            return f'cd {folder} && make build && source install/setup.bash'
+    return 'source install/setup.bash in the folder of your workspace'
 
 
 class EnvironmentCheck(DoctorCheck):
@@ -170,3 +260,42 @@ def _is_below(path: str, folder: str) -> bool:
 
 def _dotted(version: tuple[int, int]) -> str:
     return '.'.join(map(str, version))
+
+
+class EnvironmentReport(DoctorReport):
+    """Report of the shell's variables and programs."""
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'environment'
+
+    def report(self) -> Report:
+        """Return the section."""
+        facts = read_environment()
+        report = Report('ROS 2 INFORMATION')
+        report.add_to_report('distribution name', facts.variables.get('ROS_DISTRO', ''))
+        report.add_to_report('rclpy', facts.rclpy)
+        report.add_to_report('colcon', facts.colcon.path if facts.colcon else None)
+        for name, value in sorted(facts.variables.items()):
+            if name in NAMES or name.startswith(PREFIXES):
+                report.add_to_report(name, value)
+        return report
+
+
+class PlatformReport(DoctorReport):
+    """Report of the machine and its Python."""
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'platform'
+
+    def report(self) -> Report:
+        """Return the section."""
+        report = Report('PLATFORM INFORMATION')
+        report.add_to_report('system', platform.system())
+        report.add_to_report('platform info', platform.platform())
+        report.add_to_report('release', platform.release())
+        report.add_to_report('processor', f'{platform.machine()}, {os.cpu_count()} cores')
+        report.add_to_report('c library', ' '.join(platform.libc_ver()))
+        report.add_to_report('python', f'{platform.python_version()}, {sys.executable}')
+        return report

@@ -6,10 +6,9 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
-from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.check.graph_check import GraphCheck
-from ros2doctor.facts.graph import Graph
-from ros2doctor.facts.transforms import STATIC_SUFFIX, Transform, TRANSFORM_TYPE
+from ros2doctor.api.extension import Finding, Report, Severity
+from ros2doctor.check.graph import Graph, GraphCheck, GraphReport
+from ros2doctor.check.listening import STATIC_SUFFIX, Transform, TRANSFORM_TYPE
 
 FRAMES_OF_WORLD = ('earth', 'world', 'map', 'odom')  # the order of REP-105
 
@@ -164,3 +163,26 @@ def _loop(topic: str, frames: set[str]) -> Finding:
         'no transform between them can be looked up',
         f'stop one of the nodes that publish them: ros2 topic info --verbose {topic}',
     )
+
+
+class FramesReport(GraphReport):
+    """Report of the transforms."""
+
+    TITLE = 'TRANSFORMS'
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'frames'
+
+    def fill(self, report: Report, graph: Graph) -> None:
+        """
+        Add each transform as `parent -> child`, with its topic.
+
+        Parameters
+        ----------
+        report, graph
+            As for `GraphReport.fill`.
+
+        """
+        for tree, parent, child in sorted(graph.transforms):
+            report.add_to_report(tree, f'{parent} -> {child}')

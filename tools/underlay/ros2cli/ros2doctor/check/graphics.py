@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from ctypes.util import find_library
+from dataclasses import dataclass
+import os
+from pathlib import Path
 
-from ros2doctor.api.extension import DoctorCheck
-from ros2doctor.api.finding import Finding, Result, Severity
-from ros2doctor.facts.graphics import Graphics, read_graphics
+from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 
+DRIVER_FOLDERS = ('/etc/glvnd/egl_vendor.d', '/usr/share/glvnd/egl_vendor.d')
+LIBRARIES = ('GL', 'EGL', 'OSMesa')
 DEFAULT_BACKEND = 'egl'
 BACKENDS = {'egl': 'EGL', 'glfw': 'GL', 'osmesa': 'OSMesa'}
 PACKAGES = {
@@ -16,6 +20,35 @@ PACKAGES = {
     'GL': 'libgl1 libgl1-mesa-dri',
     'OSMesa': 'libosmesa6',
 }
+VARIABLES = ('DISPLAY', 'WAYLAND_DISPLAY', 'MUJOCO_GL', 'LIBGL_ALWAYS_SOFTWARE')
+
+
+@dataclass(frozen=True)
+class Graphics:
+    """
+    Libraries and devices for OpenGL.
+
+    :param libraries: file of each library, '' if it is missing
+    :param drivers: the drivers that libEGL knows
+    :param devices: devices of graphics cards, and whether they may be used
+    """
+
+    variables: Mapping[str, str]
+    libraries: Mapping[str, str]
+    drivers: tuple[str, ...]
+    devices: Mapping[str, bool]
+
+
+def read_graphics() -> Graphics:
+    """Return the OpenGL libraries, drivers and devices of this machine."""
+    drivers = [path.stem for folder in DRIVER_FOLDERS for path in Path(folder).glob('*.json')]
+    devices = [*Path('/dev/dri').glob('renderD*'), *Path('/dev').glob('nvidia[0-9]*')]
+    return Graphics(
+        variables=dict(os.environ),
+        libraries={name: find_library(name) or '' for name in LIBRARIES},
+        drivers=tuple(sorted(drivers)),
+        devices={str(path): os.access(path, os.R_OK | os.W_OK) for path in sorted(devices)},
+    )
 
 
 class GraphicsCheck(DoctorCheck):
@@ -110,3 +143,24 @@ def _has_display(facts: Graphics) -> bool:
 
 def _install(library: str) -> str:
     return f'sudo apt install {PACKAGES[library]}'
+
+
+class GraphicsReport(DoctorReport):
+    """Report of the rendering of a simulator."""
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'graphics'
+
+    def report(self) -> Report:
+        """Return the section."""
+        facts = read_graphics()
+        report = Report('GRAPHICS')
+        for name, file in facts.libraries.items():
+            report.add_to_report(f'lib{name}', file or 'missing')
+        report.add_to_report('drivers of libEGL', ', '.join(facts.drivers))
+        for device, is_accessible in facts.devices.items():
+            report.add_to_report(device, 'usable' if is_accessible else 'not for this user')
+        for name in VARIABLES:
+            report.add_to_report(name, facts.variables.get(name, ''))
+        return report

@@ -4,12 +4,63 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 import os
+from pathlib import Path
 
-from ros2doctor.api.extension import DoctorCheck
-from ros2doctor.api.finding import Finding, Result, Severity
-from ros2doctor.facts.environment import set_up_command
-from ros2doctor.facts.libraries import Libraries, read_libraries
+from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
+from ros2doctor.check.environment import set_up_command
+from ros2doctor.check.wheels import environment_prefix
+
+MIDDLEWARE_LIBRARIES = ('librcl.so', 'librmw.so', 'libfastrtps.so', 'libfastcdr.so')
+SYSTEM_LIBRARIES = ('libstdc++.so.6', 'libssl.so.3', 'libz.so.1')
+
+
+@dataclass(frozen=True)
+class LibraryFolder:
+    """
+    A folder of LD_LIBRARY_PATH.
+
+    :param has_ros: whether it contains libraries of ROS
+    :param system_libraries: system libraries that it shadows
+    """
+
+    path: str
+    has_ros: bool
+    system_libraries: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Libraries:
+    """
+    Search path of libraries.
+
+    :param own: the folder with the libraries of the wheels
+    :param search: the folders of LD_LIBRARY_PATH in their order
+    :param set_by_shell: whether Python relies on the shell for the path
+    """
+
+    own: str
+    search: tuple[LibraryFolder, ...]
+    set_by_shell: bool
+
+
+def read_libraries() -> Libraries:
+    """Return the library path of this process."""
+    texts = os.environ.get('LD_LIBRARY_PATH', '').split(os.pathsep)
+    return Libraries(
+        own=os.path.join(environment_prefix(), 'lib'),
+        search=tuple(_read_folder(Path(text)) for text in texts if text),
+        set_by_shell=os.environ.get('_ROS_WHEELS_BOOTSTRAP_COMPLETE') == '1',
+    )
+
+
+def _read_folder(path: Path) -> LibraryFolder:
+    return LibraryFolder(
+        path=str(path),
+        has_ros=any((path / name).exists() for name in MIDDLEWARE_LIBRARIES),
+        system_libraries=tuple(name for name in SYSTEM_LIBRARIES if (path / name).exists()),
+    )
 
 
 class LibrariesCheck(DoctorCheck):
@@ -73,3 +124,22 @@ def library_findings(facts: Libraries, set_up: str) -> Iterator[Finding]:
 
 def _without(folder: str) -> str:
     return f"take '{folder}' out of LD_LIBRARY_PATH (in ~/.bashrc, or: conda deactivate)"
+
+
+class LibrariesReport(DoctorReport):
+    """Report of the library folders."""
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'libraries'
+
+    def report(self) -> Report:
+        """Return the section."""
+        facts = read_libraries()
+        report = Report('LIBRARIES')
+        report.add_to_report('of the wheels', facts.own)
+        for folder in facts.search:
+            ros = ['ROS'] if folder.has_ros else []
+            contents = ', '.join([*ros, *folder.system_libraries])
+            report.add_to_report('searched', f'{folder.path} ({contents})'.replace(' ()', ''))
+        return report

@@ -3,22 +3,74 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 import os
+from pathlib import Path
 
+from ros2cli.graph.interfaces import Interface, read_interfaces
 from ros2cli.graph.reach import LOCALHOST, MAX_DOMAIN_ID, OFF, SUBNET, SYSTEM_DEFAULT
 from ros2cli.rtps.identifiers import multicast_port, PORT_BASE, PORTS_PER_DOMAIN
-from ros2doctor.api.extension import DoctorCheck
-from ros2doctor.api.finding import Finding, Result, Severity
-from ros2doctor.check.multicast import multicast_findings
-from ros2doctor.check.shared_memory import shared_memory_findings
-from ros2doctor.facts.network import Network, read_network
+from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
+from ros2doctor.check.multicast import (
+    has_multicast_route,
+    multicast_error,
+    multicast_findings,
+    multicast_state,
+)
+from ros2doctor.check.shared_memory import read_shared_memory, shared_memory_findings, SharedMemory
 
+PORT_RANGE = Path('/proc/sys/net/ipv4/ip_local_port_range')
+USUAL_PORT_RANGE = (32768, 60999)
 RANGES = (SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT)
 WITH_MULTICAST = (SUBNET, SYSTEM_DEFAULT)
 PROFILES_VARIABLE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 OWN_PROFILE = os.path.join('share', 'ros_environment', 'config', 'fastdds.xml')
 PEERS_VARIABLE, SERVER_VARIABLE = 'ROS_STATIC_PEERS', 'ROS_DISCOVERY_SERVER'
+
+
+@dataclass(frozen=True)
+class Network:
+    """
+    Facts that discovery depends on.
+
+    :param multicast: why multicast is not delivered, if it is not, by name of interface
+    :param has_multicast_route: whether it has a route if no interface is named, as in Fast DDS
+    :param ephemeral_ports: the range of ports that the kernel assigns automatically
+    :param shared_memory: the shared memory for messages on this machine; None without any
+    """
+
+    variables: Mapping[str, str]
+    interfaces: tuple[Interface, ...]
+    multicast: Mapping[str, OSError | None]
+    has_multicast_route: bool
+    ephemeral_ports: tuple[int, int]
+    shared_memory: SharedMemory | None
+
+
+def read_network() -> Network:
+    """Return the network facts of this process."""
+    interfaces = tuple(read_interfaces())
+    return Network(
+        variables=dict(os.environ),
+        interfaces=interfaces,
+        multicast={
+            each.name: multicast_error(each.address)
+            for each in interfaces
+            if each.is_up and each.address
+        },
+        has_multicast_route=has_multicast_route(),
+        ephemeral_ports=_ephemeral_ports(),
+        shared_memory=read_shared_memory(),
+    )
+
+
+def _ephemeral_ports() -> tuple[int, int]:
+    try:
+        first, last = PORT_RANGE.read_text(encoding='ascii').split()
+    except (OSError, ValueError):
+        return USUAL_PORT_RANGE
+    return int(first), int(last)
 
 
 class NetworkCheck(DoctorCheck):
@@ -188,7 +240,7 @@ def _interfaces(facts: Network) -> Iterator[Finding]:
             'sudo ip addr add 127.0.0.1/8 dev lo' if usable else 'sudo ip link set lo up',
         )
     elif discovery_range(facts) in WITH_MULTICAST:
-        yield from multicast_findings(facts)
+        yield from multicast_findings(facts.interfaces, facts.multicast, facts.has_multicast_route)
 
 
 def _profiles(facts: Network) -> Iterator[Finding]:
@@ -200,3 +252,36 @@ def _profiles(facts: Network) -> Iterator[Finding]:
             'nodes run with the defaults of DDS, with which camera images get lost',
             f'unset {PROFILES_VARIABLE}, then source the environment again',
         )
+
+
+class NetworkReport(DoctorReport):
+    """Report of interfaces and discovery."""
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'network'
+
+    def report(self) -> Report:
+        """Return the section."""
+        facts = read_network()
+        report = Report('NETWORK CONFIGURATION')
+        variables = facts.variables
+        report.add_to_report('discovery range', discovery_range(facts))
+        report.add_to_report('nodes are reached by', who_reaches(facts))
+        report.add_to_report('domain', variables.get('ROS_DOMAIN_ID') or '0')
+        report.add_to_report('static peers', variables.get('ROS_STATIC_PEERS', ''))
+        report.add_to_report('middleware', variables.get('RMW_IMPLEMENTATION', ''))
+        memory = facts.shared_memory
+        report.add_to_report('bytes free in /dev/shm', memory and memory.free)
+        report.add_to_report('bytes of killed processes', memory and memory.orphan_bytes)
+        report.add_to_report('multicast', 'routed' if facts.has_multicast_route else 'no route')
+        for interface in facts.interfaces:
+            report.add_to_report(interface.name, _state(facts, interface))
+        return report
+
+
+def _state(facts: Network, interface: Interface) -> str:
+    words = [interface.address or 'no IPv4 address', 'up' if interface.is_up else 'down']
+    if interface.name in facts.multicast:
+        words.append(multicast_state(facts.multicast[interface.name]))
+    return ', '.join(words)

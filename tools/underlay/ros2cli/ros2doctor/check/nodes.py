@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that node names are unique, and that topics follow the namespaces of nodes."""
+"""Check that names are unique, topics follow namespaces, and nodes elsewhere are meant."""
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 
-from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.check.graph_check import GraphCheck
-from ros2doctor.facts.graph import Endpoint, Graph
+from ros2doctor.api.extension import Finding, Report, Severity
+from ros2doctor.check.graph import Endpoint, Graph, GraphCheck, GraphReport
+from ros_environment.advice import listing
 
 # Topics that robots share on purpose.
 _COMMON = frozenset(
     ('/clock', '/diagnostics', '/parameter_events', '/rosout', '/tf', '/tf_static')
 )
+DEFAULT_DOMAIN = 0
 
 
 class NodesCheck(GraphCheck):
@@ -109,3 +110,63 @@ def _namespace_without_effect(topic: str, name: str, namespaces: list[str]) -> F
         f"'/{namespaces[0]}{topic}'; without touching the node, remap it: "
         f'--ros-args -r {topic}:={topic.lstrip("/")}',
     )
+
+
+class NeighboursCheck(GraphCheck):
+    """Check of the nodes on other machines."""
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'neighbours'
+
+    def findings(self, graph: Graph) -> Iterator[Finding]:
+        """
+        Check for nodes on other machines in the default domain.
+
+        Parameters
+        ----------
+        graph
+            As for `GraphCheck.findings`; its `elsewhere` and `domain_id` are examined.
+
+        Yields
+        ------
+        Finding
+            At most one warning, which names all these nodes.
+
+        """
+        if graph.elsewhere and graph.domain_id == DEFAULT_DOMAIN:
+            yield Finding(
+                Severity.WARNING,
+                f'nodes of other machines are in domain {DEFAULT_DOMAIN}, which everybody has '
+                f'who has not chosen one: {listing(list(graph.elsewhere))}',
+                'your commands may move the robot of a neighbour, and theirs may move yours',
+                'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, or agree on a domain: '
+                'export ROS_DOMAIN_ID=42',
+            )
+
+
+class NodesReport(GraphReport):
+    """Report of the running nodes and their topics."""
+
+    TITLE = 'NODES AND TOPICS'
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'nodes'
+
+    def fill(self, report: Report, graph: Graph) -> None:
+        """
+        Add the nodes, and the number of publishers and subscriptions of each topic.
+
+        Parameters
+        ----------
+        report, graph
+            As for `GraphReport.fill`.
+
+        """
+        for name in graph.nodes:
+            report.add_to_report('node', name)
+        counts = Counter((each.topic, each.is_publisher) for each in graph.endpoints)
+        for topic, name in sorted({(each.topic, each.type_name) for each in graph.endpoints}):
+            numbers = f'{counts[topic, True]} publishers, {counts[topic, False]} subscriptions'
+            report.add_to_report('topic', f'{topic} [{name}]: {numbers}')

@@ -7,9 +7,8 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.check.graph_check import GraphCheck
-from ros2doctor.facts.graph import Endpoint, Graph
+from ros2doctor.api.extension import Finding, Report, Severity
+from ros2doctor.check.graph import Endpoint, Graph, GraphCheck, GraphReport
 
 Pair = tuple[Endpoint, Endpoint]
 
@@ -164,3 +163,30 @@ def _other_qos(publisher: Endpoint, subscription: Endpoint, reason: str) -> Find
         "'volatile'), or the publisher offer more. To see both: "
         f'ros2 topic info --verbose {publisher.topic}',
     )
+
+
+class QosReport(GraphReport):
+    """Report of the compatibility of publishers and subscriptions."""
+
+    TITLE = 'QOS COMPATIBILITY LIST'
+
+    def category(self) -> str:
+        """Return the category."""
+        return 'qos'
+
+    def fill(self, report: Report, graph: Graph) -> None:
+        """
+        Add each pair of a publisher and a subscription, and whether they are compatible.
+
+        Parameters
+        ----------
+        report, graph
+            As for `GraphReport.fill`.
+
+        """
+        for publisher, subscription in pairs(graph.endpoints):
+            reason = why_nothing_passes(publisher, subscription)
+            report.add_to_report(
+                publisher.topic,
+                f'{publisher.node} -> {subscription.node}: {reason or "compatible"}',
+            )

@@ -5,7 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from ros2interface.api.kinds import add_kind_arguments, chosen_kinds, HEADINGS
+from ros2interface.api import (
+    add_kind_arguments,
+    chosen_kinds,
+    get_interface_packages,
+    get_interfaces,
+    HEADINGS,
+)
 from ros2interface.verb import VerbExtension
 
 
@@ -36,8 +42,6 @@ class ListVerb(VerbExtension):
             The parsed arguments.
 
         """
-        from ros2interface.api import get_interface_packages, get_interfaces
-
         packages = get_interface_packages()
         for kind in chosen_kinds(args):
             print(f'{HEADINGS[kind]}:')

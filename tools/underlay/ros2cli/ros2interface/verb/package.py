@@ -5,7 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from ros2interface.api.kinds import add_kind_arguments, chosen_kinds
+from ros2interface.api import (
+    add_kind_arguments,
+    chosen_kinds,
+    get_interface_packages,
+    get_interfaces,
+    unknown_package_text,
+)
 from ros2interface.verb import VerbExtension
 
 
@@ -42,8 +48,6 @@ class PackageVerb(VerbExtension):
             The error message if there is no such package, or it defines no interfaces.
 
         """
-        from ros2interface.api import get_interface_packages, get_interfaces, unknown_package_text
-
         if args.package_name not in get_interface_packages():
             return unknown_package_text(args.package_name)
         for name in get_interfaces(args.package_name, chosen_kinds(args)):

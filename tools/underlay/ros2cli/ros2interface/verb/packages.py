@@ -5,7 +5,12 @@ from __future__ import annotations
 
 import argparse
 
-from ros2interface.api.kinds import add_kind_arguments, chosen_kinds
+from ros2interface.api import (
+    add_kind_arguments,
+    chosen_kinds,
+    get_interface_packages,
+    get_interfaces,
+)
 from ros2interface.verb import VerbExtension
 
 
@@ -36,8 +41,6 @@ class PackagesVerb(VerbExtension):
             The parsed arguments.
 
         """
-        from ros2interface.api import get_interface_packages, get_interfaces
-
         for package in get_interface_packages():
             if get_interfaces(package, chosen_kinds(args)):
                 print(package)

@@ -44,7 +44,7 @@ class ProtoVerb(VerbExtension):
 
         """
         from ros2cli.messages.text import to_yaml
-        from ros2interface.api.prototype import create_prototype
+        from ros2interface.definition import create_prototype
 
         text = to_yaml(create_prototype(args.type))
         print(text if args.no_quotes else f'"{text}"')

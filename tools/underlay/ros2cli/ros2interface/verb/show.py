@@ -56,8 +56,7 @@ class ShowVerb(VerbExtension):
             There is no such interface, or standard input should name one and does not.
 
         """
-        from ros2interface.api.definition import read_definition
-        from ros2interface.api.expansion import expand
+        from ros2interface.definition import expand, read_definition
 
         lines = expand(
             read_definition(_type_or_stdin(args.type)),

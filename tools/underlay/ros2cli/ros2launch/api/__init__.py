@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from ros2launch.api.arguments import parse_launch_arguments
-    from ros2launch.api.running import launch_a_launch_file
-    from ros2launch.api.share_files import (
+    from ros2launch.api.arguments import (
         get_share_file_path_from_package,
         MultipleLaunchFilesError,
+        parse_launch_arguments,
     )
+    from ros2launch.api.running import launch_a_launch_file
     from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
 
 __all__ = [
@@ -29,8 +29,8 @@ __getattr__, __dir__ = lazy_exports(
     __name__,
     __all__,
     {
-        'MultipleLaunchFilesError': 'share_files',
-        'get_share_file_path_from_package': 'share_files',
+        'MultipleLaunchFilesError': 'arguments',
+        'get_share_file_path_from_package': 'arguments',
         'launch_a_launch_file': 'running',
         'parse_launch_arguments': 'arguments',
         'print_a_launch_file': 'showing',

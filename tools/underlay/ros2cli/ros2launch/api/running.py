@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ros2launch.api.arguments import parse_launch_arguments
+from ros2launch.api.arguments import parse_launch_arguments, UnknownArguments
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,6 @@ def make_service(path: str, argument_texts: Sequence[str], options: LaunchOption
 
 
 def _check_names(given: list[str], source: Any, before_start: Any) -> None:
-    from ros2launch.api.unknown_arguments import UnknownArguments
-
     check = UnknownArguments(given, source)
     before_start.checks.append(check)
     before_start.hints.append(check.hint)

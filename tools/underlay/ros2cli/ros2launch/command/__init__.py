@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command class."""
+"""The command `ros2 launch`."""

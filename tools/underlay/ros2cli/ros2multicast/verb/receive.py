@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2multicast.api.arguments import add_group_arguments
+from ros2multicast.api import add_group_arguments, receive
 from ros2multicast.verb import VerbExtension
 
 
@@ -41,8 +41,6 @@ class ReceiveVerb(VerbExtension):
             The group cannot be joined, or the port is taken.
 
         """
-        from ros2multicast.api import receive
-
         print('Waiting for UDP multicast datagram...')
         data, (host, port) = receive(group=args.group, port=args.port)
         print(f'Received from {host}:{port}: {data.decode("utf-8", "backslashreplace")!r}')

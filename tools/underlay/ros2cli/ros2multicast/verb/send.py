@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2multicast.api.arguments import add_group_arguments, DEFAULT_TTL, time_to_live
+from ros2multicast.api import add_group_arguments, DEFAULT_TTL, send, time_to_live
 from ros2multicast.verb import VerbExtension
 
 GREETING = b'Hello World!'
@@ -50,8 +50,6 @@ class SendVerb(VerbExtension):
             The packet cannot be sent.
 
         """
-        from ros2multicast.api import send
-
         print('Sending one UDP multicast datagram...')
         send(GREETING, group=args.group, port=args.port, ttl=args.ttl)
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reading of parameter files."""
+"""Parameter files: reading them, and the nesting of dotted names in them."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import re
 from typing import Any
 
 from rcl_interfaces.msg import ParameterValue
-from ros2param.api.nesting import flatten
 from ros2param.api.values import to_value
 import yaml
 
 PARAMETERS = 'ros__parameters'
 WILDCARD = '*'
+SEPARATOR = '.'
 
 
 def read_parameters(
@@ -138,3 +138,53 @@ def _value(name: str, value: Any) -> ParameterValue:
         return to_value(value, str(value))
     except RuntimeError as error:
         raise _Mistake(f"has a wrong value for the parameter '{name}': {error}") from error
+
+
+def nest(values: Mapping[str, Any]) -> dict[str, Any]:
+    """
+    Nest values by their dotted names: `a.b` becomes `b` within `a`.
+
+    A name stays as it is if one of its prefixes is a parameter itself.
+
+    Parameters
+    ----------
+    values
+        The values by their dotted names.
+
+    """
+    root: dict[str, Any] = {}
+    for name, value in values.items():
+        parts = name.split(SEPARATOR)
+        prefixes = {SEPARATOR.join(parts[:count]) for count in range(1, len(parts))}
+        if prefixes & values.keys():
+            root[name] = value
+            continue
+        inner = root
+        for part in parts[:-1]:
+            inner = inner.setdefault(part, {})
+        inner[parts[-1]] = value
+    return root
+
+
+def flatten(nested: Mapping[Any, Any], prefix: str = '') -> Iterator[tuple[str, Any]]:
+    """
+    Flatten nested mappings into dotted names.
+
+    Parameters
+    ----------
+    nested
+        Values or mappings by name; mappings may be nested to any depth.
+    prefix
+        The prefix of each name, with its final dot.
+
+    Yields
+    ------
+    tuple of str and Any
+        A dotted name and its value.
+
+    """
+    for name, value in nested.items():
+        if isinstance(value, Mapping):
+            yield from flatten(value, f'{prefix}{name}{SEPARATOR}')
+        else:
+            yield f'{prefix}{name}', value

@@ -1,18 +1,72 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node whose parameters a command accesses."""
+"""The node whose parameters a command accesses: its arguments, and how it is found."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
-from ros2cli.graph.graph import Graph
-from ros2cli.node.direct import DirectNode
-from ros2cli.node.lookup import find_node
+from ros2cli.argument_types import positive_number
+from ros2cli.node.arguments import add_hidden_nodes_argument, add_strategy_arguments
 from ros2cli.patience import Patience
+from ros2node.api import find_node
 from ros2param.api import LIST_SERVICE
+
+if TYPE_CHECKING:
+    from ros2cli.graph.graph import Graph
+
+DEFAULT_TIMEOUT_S = 1.0
+
+
+def add_param_arguments(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the options for discovery, hidden nodes and the timeout.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    add_strategy_arguments(parser)
+    add_hidden_nodes_argument(parser)
+    parser.add_argument(
+        '--timeout',
+        metavar='N',
+        type=positive_number,
+        default=DEFAULT_TIMEOUT_S,
+        help='Wait for N seconds until node becomes available (default: %(default)s)',
+    )
+
+
+def add_node_name_argument(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
+    """
+    Add the positional argument `node_name`.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    optional
+        Whether it may be left out; `node_name` is None then.
+
+    """
+    parser.add_argument('node_name', nargs='?' if optional else None, help='Name of the ROS node')
+
+
+def add_parameter_name_argument(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the positional argument `parameter_name`.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    parser.add_argument('parameter_name', help='Name of the parameter')
 
 
 @contextmanager
@@ -36,6 +90,8 @@ def remote_node(args: argparse.Namespace) -> Iterator[tuple[Any, str]]:
         The other node does not appear in time, or has no parameter services.
 
     """
+    from ros2cli.node.direct import DirectNode
+
     with DirectNode(args) as node:
         name = find_node(node.watch, args.node_name, args.timeout)
         _require_services(node, name, args.timeout)

@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ros2param.api.arguments import (
+from ros2param.api import set_parameter, unknown_parameter_hint
+from ros2param.api.remote import (
     add_node_name_argument,
     add_param_arguments,
     add_parameter_name_argument,
+    remote_node,
 )
 from ros2param.verb import VerbExtension
 
@@ -46,8 +48,6 @@ class DeleteVerb(VerbExtension):
 
         """
         from rcl_interfaces.msg import ParameterValue
-        from ros2param.api import set_parameter, unknown_parameter_hint
-        from ros2param.api.remote import remote_node
 
         with remote_node(args) as (node, name):
             result = set_parameter(node, name, args.parameter_name, ParameterValue())

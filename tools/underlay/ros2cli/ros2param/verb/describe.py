@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 import sys
 
-from ros2param.api.arguments import add_node_name_argument, add_param_arguments
+from rcl_interfaces.msg import ParameterDescriptor
+from ros2param.api import describe_parameters, list_parameters, unknown_parameter_text
+from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
 from ros2param.verb import VerbExtension
 
 
@@ -39,21 +42,46 @@ class DescribeVerb(VerbExtension):
             The parsed arguments.
 
         """
-        from ros2param.api import (
-            describe_parameters,
-            list_parameters,
-            unknown_parameter_text,
-        )
-        from ros2param.api.description import description_lines
-        from ros2param.api.remote import remote_node
-
         with remote_node(args) as (node, name):
             known = set(list_parameters(node, name))
             wanted = [each for each in args.parameter_names if each in known]
             descriptors = describe_parameters(node, name, wanted) if wanted else []
         for descriptor in descriptors:
-            print('\n'.join(description_lines(descriptor)))
+            print('\n'.join(_description_lines(descriptor)))
         for each in args.parameter_names:
             if each not in known:
                 print(unknown_parameter_text(name, each, known), file=sys.stderr)
         return None
+
+
+def _description_lines(descriptor: ParameterDescriptor) -> Iterator[str]:
+    """
+    Format a parameter descriptor as lines: name, type, description and constraints.
+
+    Parameters
+    ----------
+    descriptor
+        The descriptor that the node returns.
+
+    Yields
+    ------
+    str
+        One line, without the line break.
+
+    """
+    from ros2param.api.values import type_name
+
+    yield f'Parameter name: {descriptor.name}'
+    yield f'  Type: {type_name(descriptor.type)}'
+    if descriptor.description:
+        yield f'  Description: {descriptor.description}'
+    yield '  Constraints:'
+    if descriptor.read_only:
+        yield '    Read only: true'
+    for limits in (*descriptor.integer_range, *descriptor.floating_point_range):
+        yield f'    Min value: {limits.from_value}'
+        yield f'    Max value: {limits.to_value}'
+        if limits.step:
+            yield f'    Step: {limits.step}'
+    if descriptor.additional_constraints:
+        yield f'    Additional constraints: {descriptor.additional_constraints}'

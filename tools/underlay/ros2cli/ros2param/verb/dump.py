@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import argparse
 
-from ros2param.api.arguments import add_node_name_argument, add_param_arguments
+from ros2param.api import get_parameters, list_parameters
+from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
 from ros2param.verb import VerbExtension
 
 
@@ -38,10 +39,7 @@ class DumpVerb(VerbExtension):
 
         """
         from ros2cli.messages.text import plain_to_yaml
-        from ros2param.api import get_parameters, list_parameters
-        from ros2param.api.file import PARAMETERS
-        from ros2param.api.nesting import nest
-        from ros2param.api.remote import remote_node
+        from ros2param.api.file import nest, PARAMETERS
         from ros2param.api.values import to_plain_value, TYPES
 
         with remote_node(args) as (node, name):

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import argparse
 
-from ros2param.api.arguments import (
+from ros2param.api import get_parameters, unknown_parameter_hint
+from ros2param.api.remote import (
     add_node_name_argument,
     add_param_arguments,
     add_parameter_name_argument,
+    remote_node,
 )
 from ros2param.verb import VerbExtension
 
@@ -48,8 +50,6 @@ class GetVerb(VerbExtension):
             The error message if the parameter is not set.
 
         """
-        from ros2param.api import get_parameters, unknown_parameter_hint
-        from ros2param.api.remote import remote_node
         from ros2param.api.values import to_plain_value, TYPES
 
         with remote_node(args) as (node, name):

@@ -4,10 +4,16 @@
 from __future__ import annotations
 
 import argparse
+import re
+import sys
+from typing import Any
 
-from ros2param.api.arguments import add_node_name_argument, add_param_arguments
-from ros2param.api.list_arguments import add_list_arguments
+from ros2node.api import nodes_with_service
+from ros2param.api import describe_parameters, list_parameters, LIST_SERVICE, LIST_TYPE
+from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
 from ros2param.verb import VerbExtension
+
+ANSWER_TIMEOUT_S = 5.0
 
 
 class ListVerb(VerbExtension):
@@ -27,7 +33,7 @@ class ListVerb(VerbExtension):
         """
         add_param_arguments(parser)
         add_node_name_argument(parser, optional=True)
-        add_list_arguments(parser)
+        _add_list_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
@@ -40,13 +46,102 @@ class ListVerb(VerbExtension):
 
         """
         from ros2cli.node.direct import DirectNode
-        from ros2param.api.listing import print_all, print_one
-        from ros2param.api.remote import remote_node
 
         if args.node_name is None:
             with DirectNode(args) as node:
-                print_all(node, args)
+                _print_all(node, args)
             return None
         with remote_node(args) as (node, name):
-            print_one(node, name, args)
+            _print_one(node, name, args)
         return None
+
+
+def _add_list_arguments(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the options that filter the parameters and show their types.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    parser.add_argument(
+        '--param-prefixes',
+        nargs='+',
+        default=[],
+        help='Only list parameters with the provided prefixes',
+    )
+    parser.add_argument(
+        '--param-type', action='store_true', help='Print parameter types with parameter names'
+    )
+    parser.add_argument(
+        '--filter',
+        type=_regular_expression,
+        metavar='REGEX',
+        help='Only list parameters matching the provided regex',
+    )
+
+
+def _regular_expression(text: str) -> re.Pattern[str]:
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f'{text!r} is no regular expression: {error}') from error
+
+
+def _print_all(node: Any, args: argparse.Namespace) -> None:
+    """
+    Print the parameters of all nodes, each node's below its name.
+
+    A node that does not respond within 5 s is reported on stderr and skipped.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    args : argparse.Namespace
+        The parsed command line of `ros2 param list`.
+
+    """
+    names = nodes_with_service(
+        node.graph, LIST_SERVICE, LIST_TYPE, include_hidden_nodes=args.include_hidden_nodes
+    )
+    for name in names:
+        try:
+            lines = _lines(node, name, args, ANSWER_TIMEOUT_S)
+        except RuntimeError as error:
+            print(f"The parameters of '{name}' are not listed: {error}", file=sys.stderr)
+            continue
+        print(f'{name}:')
+        for line in lines:
+            print(line)
+
+
+def _print_one(node: Any, name: str, args: argparse.Namespace) -> None:
+    """
+    Print the parameters of one node.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that calls.
+    name
+        Full name of the node.
+    args : argparse.Namespace
+        The parsed command line of `ros2 param list`.
+
+    """
+    for line in _lines(node, name, args, float('inf')):
+        print(line)
+
+
+def _lines(node: Any, name: str, args: argparse.Namespace, timeout_s: float) -> list[str]:
+    from ros2param.api.values import type_name
+
+    found = list_parameters(node, name, args.param_prefixes, timeout_s)
+    chosen = [each for each in found if not args.filter or args.filter.search(each)]
+    if not args.param_type:
+        return [f'  {each}' for each in chosen]
+    types = {each.name: each.type for each in describe_parameters(node, name, chosen)}
+    return [f'  {each} (type: {type_name(types.get(each, 0))})' for each in chosen]

@@ -7,7 +7,8 @@ import argparse
 import sys
 from typing import Any
 
-from ros2param.api.arguments import add_node_name_argument, add_param_arguments
+from ros2param.api import refusal_hint, set_parameter
+from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
 from ros2param.verb import VerbExtension
 
 
@@ -46,7 +47,6 @@ class LoadVerb(VerbExtension):
 
         """
         from ros2param.api.file import read_parameters
-        from ros2param.api.remote import remote_node
 
         with remote_node(args) as (node, name):
             values = read_parameters(
@@ -58,9 +58,6 @@ class LoadVerb(VerbExtension):
 
 
 def _set(node: Any, node_name: str, parameter: str, value: Any) -> None:
-    from ros2param.api import set_parameter
-    from ros2param.api.refusal import refusal_hint
-
     result = set_parameter(node, node_name, parameter, value)
     reason = f': {result.reason}' if result.reason else ''
     if result.successful:

@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ros2param.api.arguments import (
+from ros2param.api import refusal_hint, set_parameter
+from ros2param.api.remote import (
     add_node_name_argument,
     add_param_arguments,
     add_parameter_name_argument,
+    remote_node,
 )
 from ros2param.verb import VerbExtension
 
@@ -46,9 +48,6 @@ class SetVerb(VerbExtension):
             The parsed arguments.
 
         """
-        from ros2param.api import set_parameter
-        from ros2param.api.refusal import refusal_hint
-        from ros2param.api.remote import remote_node
         from ros2param.api.values import parse_value
 
         value = parse_value(args.value)

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from ros2pkg.create.description import PackageDescription
-from ros2pkg.create.writer import Writer
+from ros2pkg.create.package import PackageDescription, Writer
 
 HEAD = """\
 cmake_minimum_required(VERSION 3.10)

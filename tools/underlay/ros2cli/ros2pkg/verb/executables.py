@@ -9,6 +9,7 @@ import os
 from ros2pkg.api import (
     get_executable_paths,
     get_executable_paths_of_all,
+    missing_package_by_name,
     PackageNotFoundError,
 )
 from ros2pkg.verb import VerbExtension
@@ -53,8 +54,6 @@ class ExecutablesVerb(VerbExtension):
         try:
             found = {name: get_executable_paths(package_name=name)} if name is not None else None
         except PackageNotFoundError:
-            from ros2pkg.api.missing import missing_package_by_name
-
             return missing_package_by_name(name)
         for package, paths in (found or get_executable_paths_of_all()).items():
             for path in paths:

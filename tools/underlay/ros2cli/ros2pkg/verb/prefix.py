@@ -5,7 +5,12 @@ from __future__ import annotations
 
 import argparse
 
-from ros2pkg.api import get_package_prefix, get_share_directory, PackageNotFoundError
+from ros2pkg.api import (
+    get_package_prefix,
+    get_share_directory,
+    missing_package,
+    PackageNotFoundError,
+)
 from ros2pkg.verb import VerbExtension
 
 
@@ -48,7 +53,5 @@ class PrefixVerb(VerbExtension):
         try:
             print(find(args.package_name))
         except PackageNotFoundError:
-            from ros2pkg.api.missing import missing_package
-
             return missing_package(args.package_name)
         return None

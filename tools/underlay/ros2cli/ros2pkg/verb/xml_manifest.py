@@ -7,8 +7,7 @@ import argparse
 from pathlib import Path
 from xml.etree import ElementTree
 
-from ros2pkg.api import get_share_directory, PackageNotFoundError
-from ros2pkg.api.missing import missing_package
+from ros2pkg.api import get_share_directory, missing_package, PackageNotFoundError
 from ros2pkg.verb import VerbExtension
 
 

@@ -7,8 +7,7 @@ import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2service.verb import VerbExtension
-from ros2topic.api.echo_arguments import add_form_arguments
-from ros2topic.api.qos_arguments import add_qos_arguments
+from ros2topic.api.arguments import add_form_arguments, add_qos_arguments
 
 
 class EchoVerb(VerbExtension):
@@ -49,7 +48,7 @@ class EchoVerb(VerbExtension):
         """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
-        from ros2service.api.echo import echo
+        from ros2service.echo import echo
 
         with DirectNode(args) as node:
             echo(node, absolute(args.service_name, 'service'), args)

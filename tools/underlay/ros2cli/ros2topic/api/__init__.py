@@ -1,13 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Topics in the graph."""
+"""Topics in the graph, and their types."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from ros2cli.names import closest, is_hidden
 
-__all__ = ['closest_topic', 'get_topic_names_and_types', 'get_topic_types', 'unknown_topic_text']
+if TYPE_CHECKING:
+    from ros2cli.graph.graph import Graph
+
+__all__ = [
+    'closest_topic',
+    'get_topic_names_and_types',
+    'get_topic_types',
+    'type_mismatch',
+    'unknown_topic_text',
+]
 
 
 def get_topic_names_and_types(
@@ -93,3 +102,31 @@ def closest_topic(node: Any, topic: str) -> str:
     """
     known = [name for name, _ in get_topic_names_and_types(node=node)]
     return closest(topic, [name for name in known if name != topic])
+
+
+def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:
+    """
+    Check whether a topic is only used with types other than one's own.
+
+    Parameters
+    ----------
+    graph
+        The graph, which does not contain the calling node.
+    topic
+        Full name of the topic.
+    message_type
+        The class of one's own messages.
+
+    Returns
+    -------
+    str
+        The message, or '' if the topic is used with this type or not at all.
+
+    """
+    from ros2cli.messages.lookup import type_name
+
+    types = get_topic_types(graph, topic)
+    name = type_name(message_type)
+    if not types or name in types:
+        return ''
+    return f"'{topic}' has the type {', '.join(types)}, so that no {name} passes."

@@ -1,24 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Print the messages of a topic as they arrive."""
+"""Print the messages of a topic as they arrive, and how many are lost."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 import sys
 import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2cli.messages.lookup import field_hint
+from ros2cli.messages.plain import Shortening
+from ros2cli.messages.text import to_csv, to_yaml
 from ros2cli.patience import Patience
 from ros2topic.api import closest_topic
-from ros2topic.api.draining import drain
-from ros2topic.api.incompatibility import Incompatibility
-from ros2topic.api.losses import LossCounter, lost_text
-from ros2topic.api.printing import formatter
-from ros2topic.api.qos import choose_qos
+from ros2topic.api.qos import choose_qos, Incompatibility
+from ros2topic.api.subscribing import drain
 
 PERIOD_S = 0.1
+SEPARATOR = '---'
 
 
 def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> None:
@@ -166,3 +167,165 @@ class Listener:
 
 def _accept_all(message: Any) -> bool:
     return True
+
+
+def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
+    """
+    Create the function that formats messages according to the options.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line of `ros2 topic echo`.
+
+    Returns
+    -------
+    callable
+        Accepts a message, as bytes if `raw` is set, and its message info; returns the text with
+        the separator. It raises RuntimeError if the messages lack the chosen field.
+
+    """
+    shortening = chosen_shortening(args)
+    end = '\n' if args.csv and not args.raw else f'{SEPARATOR}\n'
+
+    def format_message(message: Any, info: Any) -> str:
+        value = nested_field(message, args.field) if args.field else message
+        texts = [to_yaml(info)] if args.include_message_info else []
+        return ''.join([*texts, value_text(value, shortening, args), end])
+
+    return format_message
+
+
+def chosen_shortening(args: argparse.Namespace) -> Shortening:
+    """
+    Read the limits for strings and arrays from the options.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The parsed command line with the options of `add_form_arguments`.
+
+    """
+    length = None if args.full_length else args.truncate_length
+    return Shortening(length, args.no_arr, args.no_str)
+
+
+def nested_field(message: Any, path: str) -> Any:
+    """
+    Get the value of a nested field of a message.
+
+    Parameters
+    ----------
+    message
+        The message.
+    path
+        The names of the nested fields, joined by dots, such as `pose.position`.
+
+    Raises
+    ------
+    RuntimeError
+        The message has no such field; the error suggests one if a name is close.
+
+    """
+    value = message
+    for name in path.split('.'):
+        if name not in getattr(value, 'get_fields_and_field_types', dict)():
+            text = f"'{type(value).__name__}' object has no attribute '{name}'"
+            error = AttributeError(text, name=name, obj=value)
+            lines = [f"Invalid field '{path}': {error}", field_hint(error)]
+            raise RuntimeError('\n'.join(lines).rstrip())
+        value = getattr(value, name)
+    return value
+
+
+def value_text(value: Any, shortening: Shortening, args: argparse.Namespace) -> str:
+    """
+    Format a message or the value of a field as YAML or CSV.
+
+    Parameters
+    ----------
+    value
+        The message, the value of a field, or the bytes of a serialized message.
+    shortening
+        The limits for strings and arrays.
+    args : argparse.Namespace
+        The parsed command line: `csv`, `raw` and `flow_style` choose the format.
+
+    Returns
+    -------
+    str
+        The text, with a final line break unless it is CSV.
+
+    """
+    if args.csv and not args.raw:
+        return to_csv(value, shortening)
+    if isinstance(value, bytes):
+        return f'{value!r}\n'
+    if isinstance(value, (bool, int, float, str)):
+        return f'{value}\n'
+    return to_yaml(value, shortening, flow_style=args.flow_style)
+
+
+class LossCounter:
+    """
+    Counter of the gaps in the sequence numbers of a publisher.
+
+    A queue that overflows because the reader is slow drops messages without an event. The sequence
+    numbers reveal this, as long as they all come from one publisher.
+
+    Parameters
+    ----------
+    has_one_publisher
+        Whether the topic has exactly one publisher; only called when there is a gap.
+
+    Attributes
+    ----------
+    total
+        The number of messages lost so far.
+
+    """
+
+    def __init__(self, has_one_publisher: Callable[[], bool]) -> None:
+        self._has_one_publisher = has_one_publisher
+        self._last: int | None = None
+        self.total = 0
+
+    def report_gap(self, info: Mapping[str, Any]) -> str:
+        """
+        Count the messages missing before this one, and format the report.
+
+        Call once for each message, in the order of arrival.
+
+        Parameters
+        ----------
+        info
+            The message info of rclpy, with `publication_sequence_number`, which may be None.
+
+        Returns
+        -------
+        str
+            The report, or '' if nothing is known to be missing.
+
+        """
+        number = info['publication_sequence_number']
+        if number is None:
+            return ''
+        lost = 0 if self._last is None else number - self._last - 1
+        self._last = number
+        if lost <= 0 or not self._has_one_publisher():
+            return ''
+        self.total += lost
+        return lost_text(lost, self.total)
+
+
+def lost_text(change: int, total: int) -> str:
+    """
+    Format the report of lost messages that is printed between messages.
+
+    Parameters
+    ----------
+    change, total
+        The number of messages lost since the last report, and in total.
+
+    """
+    return f'A message was lost!!!\n\ttotal count change:{change}\n\ttotal count: {total}---\n'

@@ -10,12 +10,10 @@ from typing import Any
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import QoSPresetProfiles
 from ros2cli.messages.outgoing import OutgoingMessage
-from ros2cli.node.waiting import spin_until
+from ros2cli.node.spinning import spin_until
 from ros2cli.patience import Patience
-from ros2topic.api import closest_topic
-from ros2topic.api.incompatibility import Incompatibility
-from ros2topic.api.qos import copy_profile, override
-from ros2topic.api.type_mismatch import type_mismatch
+from ros2topic.api import closest_topic, type_mismatch
+from ros2topic.api.qos import copy_profile, Incompatibility, override
 
 ANNOUNCE_S = 1.0
 PERIOD_S = 0.02

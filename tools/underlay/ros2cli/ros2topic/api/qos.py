@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Selection of a QoS profile compatible with the publishers of a topic."""
+"""The QoS profile of a publisher or subscription, and the nodes that it cannot connect to."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
-from rclpy.duration import Duration
+from rclpy.duration import Duration, Infinite
 from rclpy.qos import (
     DurabilityPolicy,
     HistoryPolicy,
     LivelinessPolicy,
+    qos_check_compatible,
+    QoSCompatibility,
     QoSPresetProfiles,
     QoSProfile,
     ReliabilityPolicy,
@@ -23,6 +26,7 @@ POLICY_TYPES: dict[str, Any] = {
     'durability': DurabilityPolicy,
     'liveliness': LivelinessPolicy,
 }
+DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
 
 
 def choose_qos(args: argparse.Namespace, publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
@@ -144,3 +148,117 @@ def copy_profile(profile: Any) -> QoSProfile:
         'avoid_ros_namespace_conventions',
     )
     return QoSProfile(**{name: getattr(profile, name) for name in names})
+
+
+class Incompatibility:
+    """
+    Report on stderr about nodes that cannot connect because of incompatible QoS.
+
+    Nothing is looked up before the middleware reports a mismatch: pass `on_event` to rclpy as the
+    callback for incompatible QoS, and call `check` regularly.
+
+    Parameters
+    ----------
+    node
+        The `DirectNode` that has the publisher or subscription.
+    topic
+        Full name of the topic.
+    profile
+        The profile of the publisher or subscription.
+    publishes
+        Whether it is a publisher.
+
+    """
+
+    def __init__(
+        self, node: Any, topic: str, profile: QoSProfile, *, publishes: bool = False
+    ) -> None:
+        self._node = node
+        self._topic = topic
+        self._profile = as_discovered(profile)
+        self._publishes = publishes
+        self._told: set[bytes] = set()
+        self._is_due = False
+
+    def on_event(self, _: Any) -> None:
+        """
+        Record a mismatch reported by the middleware, for the next `check`.
+
+        Parameters
+        ----------
+        _
+            The event of rclpy; unused, since it does not identify the other node.
+
+        """
+        self._is_due = True
+
+    def check(self) -> None:
+        """Report the nodes of a mismatch as soon as they are known."""
+        if not self._is_due:
+            return
+        reasons = [(info, self._reason(info)) for info in self._others()]
+        # A node with several endpoints is reached through a compatible one.
+        reached = {_full_name(info) for info, reason in reasons if not reason}
+        for info, reason in reasons:
+            is_apart = reason and _full_name(info) not in reached
+            if is_apart and bytes(info.endpoint_gid) not in self._told:
+                self._told.add(bytes(info.endpoint_gid))
+                self._is_due = False
+                print(self._text(info, reason), file=sys.stderr)
+
+    def _others(self) -> list[Any]:
+        from ros2cli.graph.endpoint_info import UNKNOWN_NODE
+
+        graph = self._node.watch.updated()
+        find = (
+            graph.get_subscriptions_info_by_topic
+            if self._publishes
+            else graph.get_publishers_info_by_topic
+        )
+        return [info for info in find(self._topic) if info.node_name != UNKNOWN_NODE.name]
+
+    def _reason(self, info: Any) -> str:
+        pair = (self._profile, info.qos_profile)
+        status, reason = qos_check_compatible(*(pair if self._publishes else reversed(pair)))
+        if status != QoSCompatibility.ERROR:
+            return ''
+        return '; '.join(str(reason).replace('ERROR: ', '').strip(' ;').split(';'))
+
+    def _text(self, info: Any, reason: str) -> str:
+        ends = [f"'/{self._node.get_name()}'", f"'{_full_name(info)}'"]
+        publisher, subscriber = ends if self._publishes else reversed(ends)
+        cure = 'Change the --qos options' + (
+            '.' if self._publishes else ', or leave them away to follow the publisher.'
+        )
+        return (
+            f'WARNING: no message passes from {publisher} to {subscriber} on '
+            f"'{self._topic}': {reason}. {cure}"
+        )
+
+
+def _full_name(info: Any) -> str:
+    return f'{info.node_namespace.rstrip("/")}/{info.node_name}'
+
+
+def as_discovered(profile: QoSProfile) -> QoSProfile:
+    """
+    Complete a QoS profile to the form that other nodes discover.
+
+    Parameters
+    ----------
+    profile
+        The profile of a publisher or subscription; it is not changed.
+
+    Returns
+    -------
+    QoSProfile
+        A copy: unset durations become infinite, and the system default liveliness automatic.
+
+    """
+    seen = copy_profile(profile)
+    for name in DURATIONS:
+        if getattr(seen, name) == Duration():
+            setattr(seen, name, Infinite)
+    if seen.liveliness == LivelinessPolicy.SYSTEM_DEFAULT:
+        seen.liveliness = LivelinessPolicy.AUTOMATIC
+    return seen

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The verb `ros2 topic delay`."""
+"""The verb `ros2 topic delay`, and how it measures delays."""
 
 from __future__ import annotations
 
 import argparse
+from collections import deque
+from math import sqrt
 from typing import Any
 
 from ros2cli.argument_types import positive_int
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2topic.api.delay import DelayMeter
 from ros2topic.verb import VerbExtension
 
 DEFAULT_WINDOW = 10000
@@ -53,8 +54,7 @@ class DelayVerb(VerbExtension):
         """
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
-        from ros2topic.api.reporting import report_for_ever
-        from ros2topic.api.watching import subscribe_when_published
+        from ros2topic.api.subscribing import report_for_ever, subscribe_when_published
 
         topic = absolute(args.topic_name)
         meter = DelayMeter(args.window)
@@ -79,3 +79,45 @@ def _require_header(message_type: Any) -> None:
 def _stamp_s(message: Any) -> float:
     stamp = message.header.stamp
     return float(stamp.sec + stamp.nanosec / 1e9)
+
+
+class DelayMeter:
+    """
+    Measures the mean, extremes and standard deviation of the last delays.
+
+    Parameters
+    ----------
+    window
+        The number of delays to keep.
+
+    """
+
+    def __init__(self, window: int) -> None:
+        self._delays_s: deque[float] = deque(maxlen=window)
+        self._changed = False
+
+    def add(self, delay_s: float) -> None:
+        """
+        Count a message.
+
+        Parameters
+        ----------
+        delay_s
+            From its header's time stamp to its arrival, in s.
+
+        """
+        self._delays_s.append(delay_s)
+        self._changed = True
+
+    def report(self) -> str:
+        """Return the two lines of a report, or '' without new messages since the last one."""
+        if not self._changed:
+            return ''
+        self._changed = False
+        delays = self._delays_s
+        mean = sum(delays) / len(delays)
+        spread = sqrt(sum((delay - mean) ** 2 for delay in delays) / len(delays))
+        return (
+            f'average delay: {mean:.3f}\n\tmin: {min(delays):.3f}s max: {max(delays):.3f}s '
+            f'std dev: {spread:.5f}s window: {len(delays)}'
+        )

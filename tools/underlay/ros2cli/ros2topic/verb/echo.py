@@ -6,8 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2topic.api.echo_arguments import add_echo_arguments
-from ros2topic.api.qos_arguments import add_qos_arguments
+from ros2topic.api.arguments import add_echo_arguments, add_qos_arguments
 from ros2topic.verb import VerbExtension
 
 
@@ -49,7 +48,7 @@ class EchoVerb(VerbExtension):
         from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.echo import echo
-        from ros2topic.api.subscription_type import resolve_type
+        from ros2topic.api.subscribing import resolve_type
 
         topic = absolute(args.topic_name)
         with DirectNode(args) as node:

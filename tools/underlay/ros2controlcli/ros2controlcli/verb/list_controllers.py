@@ -6,8 +6,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2controlcli.manager import add_manager_arguments, ask
-from ros2controlcli.printing import print_lines
+from ros2controlcli.manager import add_manager_arguments, ask, print_lines
 from ros2controlcli.verb import VerbExtension
 
 PARTS = {

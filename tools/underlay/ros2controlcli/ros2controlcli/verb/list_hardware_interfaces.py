@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2controlcli.manager import add_manager_arguments, ask
-from ros2controlcli.printing import command_line, print_lines
+from ros2controlcli.manager import add_manager_arguments, ask, command_line, print_lines
 from ros2controlcli.verb import VerbExtension
 
 
