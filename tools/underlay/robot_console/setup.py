@@ -26,7 +26,7 @@ setup(
     tests_require=['pytest'],
     entry_points={
         'rviz_common.displays': [
-            'robot_console/CommandedRobot = robot_console.displays.commanded_robot:CommandedRobot',
+            'robot_console/CommandedRobot = robot_console.commanded_robot:CommandedRobot',
         ],
         'rviz_common.panels': [
             COMMAND,

@@ -28,39 +28,37 @@ setup(
         'rviz_common.tools': [
             'rviz_default_plugins/Measure = rviz_default_plugins.tools.measure:Measure',
             'rviz_default_plugins/PublishPoint = '
-            'rviz_default_plugins.tools.publish_point:PublishPoint',
-            'rviz_default_plugins/SetGoal = rviz_default_plugins.tools.set_goal:SetGoal',
+            'rviz_default_plugins.tools.publishing:PublishPoint',
+            'rviz_default_plugins/SetGoal = rviz_default_plugins.tools.pose_tools:SetGoal',
             'rviz_default_plugins/SetInitialPose = '
-            'rviz_default_plugins.tools.set_initial_pose:SetInitialPose',
+            'rviz_default_plugins.tools.pose_tools:SetInitialPose',
         ],
         'rviz_common.displays': [
-            'rviz_default_plugins/Axes = rviz_default_plugins.displays.axes:Axes',
-            'rviz_default_plugins/Grid = rviz_default_plugins.displays.grid:Grid',
+            'rviz_default_plugins/Axes = rviz_default_plugins.displays.grid_and_axes:Axes',
+            'rviz_default_plugins/Grid = rviz_default_plugins.displays.grid_and_axes:Grid',
             'rviz_default_plugins/RobotModel = '
             'rviz_default_plugins.displays.robot_model:RobotModel',
             'rviz_default_plugins/TF = rviz_default_plugins.displays.tf:TF',
             'rviz_default_plugins/Camera = rviz_default_plugins.displays.camera:Camera',
             'rviz_default_plugins/Image = rviz_default_plugins.displays.image:Image',
-            'rviz_default_plugins/LaserScan = rviz_default_plugins.displays.laser_scan:LaserScan',
+            'rviz_default_plugins/LaserScan = rviz_default_plugins.displays.clouds:LaserScan',
             'rviz_default_plugins/Map = rviz_default_plugins.displays.map:Map',
             'rviz_default_plugins/Marker = rviz_default_plugins.displays.marker:Marker',
-            'rviz_default_plugins/MarkerArray = '
-            'rviz_default_plugins.displays.marker_array:MarkerArray',
+            'rviz_default_plugins/MarkerArray = rviz_default_plugins.displays.marker:MarkerArray',
             'rviz_default_plugins/Odometry = rviz_default_plugins.displays.odometry:Odometry',
             'rviz_default_plugins/Path = rviz_default_plugins.displays.path:Path',
-            'rviz_default_plugins/PointCloud2 = '
-            'rviz_default_plugins.displays.point_cloud2:PointCloud2',
+            'rviz_default_plugins/PointCloud2 = rviz_default_plugins.displays.clouds:PointCloud2',
             'rviz_default_plugins/PointStamped = '
             'rviz_default_plugins.displays.point_stamped:PointStamped',
             'rviz_default_plugins/Polygon = rviz_default_plugins.displays.polygon:Polygon',
             'rviz_default_plugins/Pose = rviz_default_plugins.displays.pose:Pose',
             'rviz_default_plugins/PoseArray = rviz_default_plugins.displays.pose_array:PoseArray',
             'rviz_default_plugins/PoseWithCovariance = '
-            'rviz_default_plugins.displays.pose_with_covariance:PoseWithCovariance',
+            'rviz_default_plugins.displays.pose:PoseWithCovariance',
             'rviz_default_plugins/Range = rviz_default_plugins.displays.range:Range',
             'rviz_default_plugins/TwistStamped = '
-            'rviz_default_plugins.displays.twist_stamped:TwistStamped',
-            'rviz_default_plugins/Wrench = rviz_default_plugins.displays.wrench:Wrench',
+            'rviz_default_plugins.displays.twist_and_wrench:TwistStamped',
+            'rviz_default_plugins/Wrench = rviz_default_plugins.displays.twist_and_wrench:Wrench',
             'rviz_imu_plugin/Imu = rviz_default_plugins.displays.imu:Imu',
             *(f'vision_msgs_rviz_plugins/{name} = {DETECTIONS}:{name}' for name in BOXES),
         ],

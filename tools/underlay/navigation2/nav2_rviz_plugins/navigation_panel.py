@@ -10,17 +10,17 @@ from nav2_rviz_plugins.goal_tool import GoalTool
 from nav2_rviz_plugins.interfaces import is_built, MISSING
 from nav2_rviz_plugins.managers import COMMANDS
 from nav2_rviz_plugins.session import NavigationSession, session_of
-from robot_console.live import LivePanel, Viewer
+from robot_console.live_panel import LivePanel, Viewer
 from robot_console.namespaces import below
 from rviz_common.pace import Pace
 from rviz_common.status import Statuses
-from rviz_default_plugins.displays.marker_array import MarkerArray
+from rviz_default_plugins.displays.marker import MarkerArray
 from rviz_default_plugins.markers.marker_scene import MarkerScene
-from rviz_default_plugins.tools.set_initial_pose import SetInitialPose
+from rviz_default_plugins.tools.pose_tools import SetInitialPose
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from robot_console.live.channel import Action
+    from robot_console.live_panel import Action
     from rviz_common.tool import Tool
 
 __all__ = ['NavigationPanel']

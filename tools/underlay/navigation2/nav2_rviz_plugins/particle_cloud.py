@@ -10,12 +10,11 @@ from nav2_rviz_plugins.particles import ParticleMessage, read_particles
 import numpy as np
 from numpy.typing import NDArray
 from rviz_common.canvas import Canvas
-from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties
 from rviz_common.status import Level
+from rviz_common.topic_display import MessageDisplay
+from rviz_default_plugins.bodies import add_copies, add_lines, arrow
 from rviz_default_plugins.decoding.geometry import matrices_of, Points
-from rviz_default_plugins.drawing.bodies import add_copies, add_lines
-from rviz_default_plugins.drawing.surfaces import arrow
 
 __all__ = ['ParticleCloud', 'lengths_of']
 

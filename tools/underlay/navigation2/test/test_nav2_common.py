@@ -10,8 +10,7 @@ from typing import Any
 from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.actions import OpaqueFunction
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, TextSubstitution
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.substitutions import LaunchConfiguration, SubstitutionFailure, TextSubstitution
 from nav2_common.launch import HasNodeParams, ParseMultiRobotPose, ReplaceString, RewrittenYaml
 import pytest
 import yaml

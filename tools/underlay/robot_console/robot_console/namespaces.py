@@ -8,7 +8,7 @@ import re
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.properties import Text
-from rviz_common.topic_names import full_topic_name
+from rviz_common.topics import full_topic_name
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Link from the console to a robot: emergency stop and heartbeat."""
+"""What all pages of a robot share: emergency stop, control, user names and heartbeat."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Hashable
+from dataclasses import dataclass
 import time
 from weakref import WeakKeyDictionary
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from robot_console.control import Control
-from robot_console.emergency_stop import EmergencyStop
 from robot_console.namespaces import below
-from robot_console.people import People
 from rviz_common.context import Context
 from rviz_common.page import Page
 from std_msgs.msg import Bool, String
 
-__all__ = ['COMMAND', 'LATCHED', 'RobotLink', 'link_of']
+__all__ = ['COMMAND', 'LATCHED', 'Control', 'EmergencyStop', 'People', 'RobotLink', 'link_of']
 
 LATCHED = QoSProfile(
     depth=1,
@@ -27,6 +27,188 @@ LATCHED = QoSProfile(
 COMMAND = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 BEAT_PERIOD_S = 0.08
+
+
+@dataclass
+class EmergencyStop:
+    """State of the emergency stop, and who last changed it."""
+
+    pressed: bool = False
+    by: str = ''
+    """The user of this console who last changed it; empty if another node did, or no one."""
+    heard: bool = False
+    """Whether any state was received or set yet."""
+
+    def say(self, pressed: bool, by: str) -> None:
+        """
+        Record that a user of this console presses or releases the emergency stop.
+
+        Parameters
+        ----------
+        pressed
+            The new state: whether it is pressed.
+        by
+            The name of the user.
+
+        """
+        self.pressed, self.by, self.heard = pressed, by, True
+
+    def hear(self, pressed: bool) -> None:
+        """
+        Update the state of the emergency stop from its topic, whichever node has published.
+
+        The echo of a message published by this console keeps the name of the user.
+
+        Parameters
+        ----------
+        pressed
+            Whether the message reports that it is pressed.
+
+        """
+        if pressed != self.pressed or not self.heard:
+            self.say(pressed, '')
+
+
+class Control:
+    """
+    Arbitrates the control of a robot: held by no one, or by one user with one or more pages.
+
+    A user takes control with each of these pages, releases it, or loses it when the connection to
+    one of them is lost. Then no one is in control, but the robot must not be told that this was
+    intentional.
+
+    """
+
+    def __init__(self) -> None:
+        self.person = ''
+        self.lost = ''
+        """The user who lost the connection while in control; empty once someone takes control."""
+        self._seats: set[Hashable] = set()
+
+    def take(self, person: str, seat: Hashable) -> bool:
+        """
+        Take control of the robot from one page.
+
+        Parameters
+        ----------
+        person
+            The user who requests control.
+        seat
+            The page from which it is taken, for example its session.
+
+        Returns
+        -------
+        bool
+            False if another person is in control.
+
+        """
+        if self.person and self.person != person:
+            return False
+        self.person, self.lost = person, ''
+        self._seats.add(seat)
+        return True
+
+    def holds(self, seat: Hashable) -> bool:
+        """
+        Check whether a page holds control.
+
+        Parameters
+        ----------
+        seat
+            The page, as passed to `take`.
+
+        """
+        return seat in self._seats
+
+    def give(self, seat: Hashable) -> bool:
+        """
+        Release the control held by one page.
+
+        Parameters
+        ----------
+        seat
+            The page, as passed to `take`.
+
+        Returns
+        -------
+        bool
+            True if it was the last page of the user in control, so that no one is in control now.
+
+        """
+        if seat not in self._seats:
+            return False
+        self._seats.remove(seat)
+        if self._seats:
+            return False
+        self.person = ''
+        return True
+
+    def lose(self, seat: Hashable) -> bool:
+        """
+        Release control when the connection to a page is lost, for all pages of the user.
+
+        Parameters
+        ----------
+        seat
+            The page that was lost, as passed to `take`.
+
+        Returns
+        -------
+        bool
+            False if the page did not hold control; then nothing changes.
+
+        """
+        if seat not in self._seats:
+            return False
+        self._seats.clear()
+        self.person, self.lost = '', self.person
+        return True
+
+
+class People:
+    """Registry of names such as `browser 2 (127.0.0.1)`, one for all connections of a page."""
+
+    def __init__(self) -> None:
+        self._names: dict[str, str] = {}
+        self._connections: Counter[str] = Counter()
+        self._count = 0
+
+    def arrive(self, key: str, address: str) -> str:
+        """
+        Register a connection of a page, and assign a name to the page.
+
+        Parameters
+        ----------
+        key
+            The identifier generated by the page, the same for all of its connections.
+        address
+            The IP address of the browser.
+
+        Returns
+        -------
+        str
+            The name; a page that is already connected keeps its name.
+
+        """
+        self._connections[key] += 1
+        if key not in self._names:
+            self._count += 1
+            self._names[key] = f'browser {self._count} ({address})'
+        return self._names[key]
+
+    def leave(self, key: str) -> None:
+        """
+        Unregister a connection of a page; the name is released with the last one.
+
+        Parameters
+        ----------
+        key
+            The identifier, as for `arrive`.
+
+        """
+        self._connections[key] -= 1
+        if not self._connections[key]:
+            del self._connections[key], self._names[key]
 
 
 class RobotLink:

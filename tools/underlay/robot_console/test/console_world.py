@@ -22,8 +22,8 @@ from robot_console.panels.drive import Drive
 from robot_console.panels.safety import Safety
 from robot_console.robot_link import LATCHED
 from rviz_common.context import Context
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import Bool
 from websockets.sync.client import ClientConnection, connect
 

@@ -17,7 +17,7 @@ import rclpy
 from rclpy.context import Context as RosContext
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from robot_console.live import LivePanel
+from robot_console.live_panel import LivePanel
 from robot_console.panels.command import Command
 from robot_console.panels.diagnostics import Diagnostics
 from robot_console.panels.log import Log
@@ -26,8 +26,8 @@ from robot_console.panels.parameters import Parameters
 from robot_console.panels.services import Services
 from robot_console.panels.topics import Topics
 from rviz_common.context import Context
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.work_queue import WorkQueue
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 

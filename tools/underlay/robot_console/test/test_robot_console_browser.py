@@ -9,9 +9,9 @@ from unittest import mock
 
 from console_world import World, world_of
 import pytest
-from robot_console import connections, small_page
-from robot_console.panels.badge import Badge
+from robot_console import control_page, small_page
 from robot_console.panels.safety import Safety
+from robot_console.recordings.play_folder import Badge
 from robot_console.robot_link import LATCHED
 from robot_console.small_page import page_text
 from rviz_common.page import Route
@@ -50,7 +50,7 @@ def patience() -> Iterator[None]:
         return text
 
     with (
-        mock.patch.object(connections, 'SILENCE_S', 100.0),
+        mock.patch.object(control_page, 'SILENCE_S', 100.0),
         mock.patch.object(small_page, 'page_text', patient_text),
     ):
         yield

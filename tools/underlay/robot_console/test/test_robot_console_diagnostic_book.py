@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from robot_console.diagnostics import DiagnosticBook, ERROR, OK, STALE, WARN
-from robot_console.diagnostics.condition import condition
+from robot_console.panels.diagnostics import condition, DiagnosticBook, ERROR, OK, STALE, WARN
 
 
 def test_worst_first() -> None:

@@ -9,9 +9,9 @@ import time
 from typing import Any
 
 import pytest
-from robot_console.live import Channel, Viewer
+from robot_console.live_panel import Channel, Viewer
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings, Route
-from rviz_common.work_queue import WorkQueue
 from websockets.exceptions import ConnectionClosed, ConnectionClosedError
 from websockets.sync.client import ClientConnection, connect
 

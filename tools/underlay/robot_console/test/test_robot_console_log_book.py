@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from robot_console.log import Interruptions, LogBook, LogLine
+from robot_console.panels.log import Interruptions, LogBook, LogLine
 
 
 def line(text: str = 'x', level: int = 20, node: str = 'arm') -> LogLine:

@@ -13,8 +13,13 @@ from rcl_interfaces.msg import (
     ParameterType,
     ParameterValue,
 )
-from robot_console.parameters.conversions import described, parameter_value, value_text
-from robot_console.parameters.typed_value import Limits, typed_value
+from robot_console.parameter_values import (
+    described,
+    Limits,
+    parameter_value,
+    typed_value,
+    value_text,
+)
 
 
 @pytest.mark.parametrize(

@@ -14,10 +14,10 @@ import rclpy
 from rclpy.context import Context as RosContext
 from rclpy.node import Node
 from rviz_common.context import Context
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.panels.order import ALWAYS_ORDER
+from rviz_common.panel import ALWAYS_ORDER
 from rviz_common.panels.panel_tabs import PanelTabs
-from rviz_common.work_queue import WorkQueue
 
 FILE = [
     {'Class': 'robot_console/Safety', 'Name': 'Stop', 'Robot': 'real'},

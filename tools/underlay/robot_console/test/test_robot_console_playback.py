@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 from recorded_samples import MS, S, START_NS, Tape
-from robot_console.recordings.playback import Playback
+from robot_console.recordings.programs.playback import Playback
 from ros2bag.storage.latched import RecordedMessage
 
 

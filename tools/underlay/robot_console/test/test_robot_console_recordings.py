@@ -10,13 +10,12 @@ from typing import Any
 
 import pytest
 from recorded_samples import find_definition, LATCHED, MS, S, START_NS, text, topic, write_bag
-from robot_console.recordings.bag_names import bag_folder, regex_of_robot, topics_in
+from robot_console.recordings.bags import Bag, BagTopic, commands_among, Shelf
 from robot_console.recordings.child import last_sentence
-from robot_console.recordings.commands_left_out import commands_among
-from robot_console.recordings.message_memory import MessageMemory
-from robot_console.recordings.message_memory import write_bag as write_kept
-from robot_console.recordings.shelf import Bag, BagTopic, Shelf
-from robot_console.recordings.words import (
+from robot_console.recordings.programs.remember import MessageMemory
+from robot_console.recordings.programs.remember import write_bag as write_kept
+from robot_console.recordings.record_folder import bag_folder, regex_of_robot, topics_in
+from robot_console.recordings.widgets import (
     about,
     clock_text,
     listed,

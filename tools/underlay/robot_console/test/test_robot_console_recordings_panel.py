@@ -25,13 +25,13 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from recorded_samples import write_bag
 from robot_console.panels.recordings import Recordings
+from robot_console.recordings.bags import Bag, Shelf
 from robot_console.recordings.child import Child
-from robot_console.recordings.scene_tape import SceneTape, TooLarge
-from robot_console.recordings.shelf import Bag, Shelf
+from robot_console.recordings.scene_folder import SceneTape, TooLarge
 from rviz_common.context import Context
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.status import Statuses
-from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import String
 
 PARENT = """
@@ -347,7 +347,7 @@ def test_scene_tape_is_bounded() -> None:
     """Old reels go, and no more memory is used than allowed."""
     with (
         Page('test', PageSettings(token=NO_TOKEN)) as page,
-        mock.patch('robot_console.recordings.scene_tape.time') as clock,
+        mock.patch('robot_console.recordings.scene_folder.time') as clock,
     ):
         clock.monotonic.return_value = 0.0
         frame = page.viser.scene.add_frame('/robot')

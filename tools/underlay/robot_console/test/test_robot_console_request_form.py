@@ -6,7 +6,7 @@ from __future__ import annotations
 from builtin_interfaces.msg import Time
 import pytest
 from rcl_interfaces.srv import SetParameters
-from robot_console.services.request_form import (
+from robot_console.panels.services import (
     fields_text,
     filled,
     response_text,

@@ -6,11 +6,18 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from robot_console.control import Control
-from robot_console.drive_session import AGAIN, DriveSession, stalled, STOP_ENDED, STOPPED
-from robot_console.emergency_stop import EmergencyStop
-from robot_console.safety_session import Facts, SafetySession
-from robot_console.speed_limits import SpeedLimits, STILL, Velocity
+from robot_console.panels.drive import (
+    AGAIN,
+    DriveSession,
+    SpeedLimits,
+    stalled,
+    STILL,
+    STOP_ENDED,
+    STOPPED,
+    Velocity,
+)
+from robot_console.panels.safety import Facts, SafetySession
+from robot_console.robot_link import Control, EmergencyStop
 
 
 class Link:

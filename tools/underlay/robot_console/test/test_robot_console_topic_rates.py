@@ -8,9 +8,8 @@ from typing import Any
 from builtin_interfaces.msg import Time
 import pytest
 from rclpy.serialization import serialize_message
-from robot_console.topics.decoding import decoded, has_lists_of_messages
-from robot_console.topics.rate_window import RateWindow
-from robot_console.topics.survey import Measured, Survey
+from robot_console.topic_rates import Measured, Survey
+from robot_console.topic_watch import decoded, has_lists_of_messages, RateWindow
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Float64MultiArray, String
 from visualization_msgs.msg import Marker

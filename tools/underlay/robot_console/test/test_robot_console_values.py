@@ -4,14 +4,24 @@
 from __future__ import annotations
 
 import math
+import time
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from robot_console.emergency_stop import EmergencyStop
 from robot_console.namespaces import below, NAMESPACE
-from robot_console.people import People
-from robot_console.robot_kind import AUTO, REAL, robot_kind, SIMULATED, UNKNOWN
-from robot_console.speed_limits import SpeedLimits
+from robot_console.panels.drive import SpeedLimits
+from robot_console.panels.safety import (
+    AUTO,
+    REAL,
+    RealTimeFactor,
+    robot_kind,
+    SIMULATED,
+    STALE_S,
+    UNKNOWN,
+)
+from robot_console.robot_link import Control, EmergencyStop, People
+from std_msgs.msg import Float64
 
 LIMITS = SpeedLimits(0.5, 0.3, 2.0)
 
@@ -101,3 +111,65 @@ def test_number_that_fits_no_float() -> None:
     """A whole number may be as long as it likes; the limit holds."""
     assert LIMITS.velocity([10**400, 0, 0], [1, 1]) == (0.5, 0.0, 0.0)
     assert LIMITS.velocity([-(10**400), 0, 0], [10**400, 1]) == (-0.5, 0.0, 0.0)
+
+
+def test_one_at_a_time() -> None:
+    """A second person gets control only when the first one has given it back."""
+    control = Control()
+    assert control.take('ann', 1)
+    assert not control.take('bob', 2)
+    assert control.person == 'ann' and control.holds(1) and not control.holds(2)
+    assert control.give(1)
+    assert control.take('bob', 2)
+
+
+def test_several_pages_of_one_person() -> None:
+    """A person who has control with two pages has it until both gave it back."""
+    control = Control()
+    assert control.take('ann', 1) and control.take('ann', 2)
+    assert not control.give(1)
+    assert control.person == 'ann'
+    assert control.give(2)
+    assert control.person == '' and control.lost == ''
+
+
+def test_lost() -> None:
+    """Who is lost with one page is not in control any more, and this is known."""
+    control = Control()
+    control.take('ann', 1)
+    control.take('ann', 2)
+    assert control.lose(1)
+    assert (control.person, control.lost) == ('', 'ann')
+    assert not control.holds(2)
+    assert control.take('bob', 3)
+    assert control.lost == ''
+
+
+def test_bystanders() -> None:
+    """Pages without control have nothing to give back or to lose."""
+    control = Control()
+    control.take('ann', 1)
+    assert not control.give(2) and not control.lose(2)
+    assert control.person == 'ann'
+
+
+@pytest.fixture(name='factor')
+def _factor() -> RealTimeFactor:
+    node = SimpleNamespace(create_subscription=lambda *arguments: None)
+    return RealTimeFactor(node)  # type: ignore[arg-type]
+
+
+def test_the_newest_factor_counts(factor: RealTimeFactor) -> None:
+    """What was said last is true, until nobody says anything for a while."""
+    now_s = time.monotonic()
+    assert factor.factor(now_s) is None
+    factor._hear(Float64(data=0.5))
+    factor._hear(Float64(data=0.25))
+    assert factor.factor(now_s + 1.0) == 0.25
+    assert factor.factor(now_s + 2 * STALE_S) is None
+
+
+def test_what_is_no_number_is_left_out(factor: RealTimeFactor) -> None:
+    """A page could not read it."""
+    factor._hear(Float64(data=math.nan))
+    assert factor.factor(time.monotonic()) is None

@@ -6,15 +6,15 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 import sys
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
-from rviz2.arguments import parse
 from rviz_common.config import ConfigError, Configuration
 from tf2_ros.program import run, spin
 
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rviz_common.page import Page
+    from rviz_common.page.address import PageSettings
 
 __all__ = ['main']
 
@@ -46,7 +46,7 @@ def _job(words: list[str]) -> Job:
     An unreadable file ends the program before anything starts. A missing file does not, as in the
     genuine RViz: launch files in books name some that are never printed there.
     """
-    arguments = parse(words)
+    arguments = _parse(words)
     if not arguments.display_config:  # launch files pass '' for none
         return arguments, Configuration.default(), ''
     try:
@@ -59,22 +59,107 @@ def _job(words: list[str]) -> Job:
         sys.exit(1)
 
 
+def _parse(words: Sequence[str]) -> argparse.Namespace:
+    """
+    Parse the command line of rviz2.
+
+    Options of RViz that mean nothing in a browser are accepted and ignored. Invalid arguments and
+    `--help` end the program, as `argparse` does.
+
+    Parameters
+    ----------
+    words
+        The arguments without the name of the program, and without those for ROS.
+
+    Returns
+    -------
+    argparse.Namespace
+        `display_config` is the path of a .rviz file and `fixed_frame` the name of a frame, each
+        None if not given.
+
+    """
+    parser = argparse.ArgumentParser(
+        prog='rviz2',
+        allow_abbrev=False,
+        description='Show in a browser what a robot says and knows. The address is printed.',
+        epilog='Parameters of the node, after --ros-args -p: host:=ADDRESS (default '
+        '127.0.0.1), port:=NUMBER (default: the first free one from 8080 on), '
+        'token:=TEXT (made up, and part of the address; none: whoever is on this machine), '
+        'use_sim_time:=true.',
+    )
+    parser.add_argument('-d', '--display-config', metavar='FILE', help='a .rviz file to show')
+    parser.add_argument(
+        '-f', '--fixed-frame', metavar='FRAME', help='the fixed frame, instead of that of the file'
+    )
+    ignored = parser.add_argument_group('without meaning in a browser, and ignored')
+    ignored.add_argument('-l', '--ogre-log', action='store_true')
+    ignored.add_argument('-s', '-t', '--splash-screen', metavar='FILE')
+    ignored.add_argument('--fullscreen', action='store_true')
+    return parser.parse_args(words)
+
+
 def _show(job: Job) -> int:
     """Show the configuration until a signal arrives; return the exit status."""
     from rclpy.exceptions import ParameterException
-    from rviz2.page_parameters import page_settings
     from rviz_common.guarded_node import GuardedNode
     from rviz_common.page import Page, PortError
 
     node = GuardedNode('rviz2')
     try:
-        page = Page('RViz', page_settings(node))
+        page = Page('RViz', _page_settings(node))
     except (ValueError, ParameterException, PortError) as error:
         sys.stderr.write(f'{error}\n')
         return 1
     _visualize(node, page, *job)
     node.destroy_node()
     return 0
+
+
+def _page_settings(node: Node) -> PageSettings:
+    """
+    Declare the parameters `host`, `port` and `token`, and read the settings of the page from them.
+
+    Parameters
+    ----------
+    node
+        The node that declares them, read-only. A `port` of 0 stands for the first free one.
+
+    Raises
+    ------
+    ValueError
+        The host is not an IP address, the port is outside 1 to 65535, or the token is `none` on an
+        address that other machines reach.
+    rclpy.exceptions.ParameterException
+        A parameter has been overridden with a value of another type.
+
+    """
+    from rviz_common.page.address import PageSettings, PARAMETERS
+
+    values = {name: _declare(node, name, *about) for name, about in PARAMETERS.items()}
+    return PageSettings(values['host'], values['port'] or None, values['token'])
+
+
+def _unknown_parameters(node: Node) -> list[str]:
+    """
+    Format a warning for each parameter override that the node has not declared.
+
+    Parameters
+    ----------
+    node
+        The node, once it has declared all its parameters.
+
+    """
+    from robot_state_publisher.node_arguments import unknown_parameters
+
+    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public API for them
+    return unknown_parameters(given, node.get_parameters_by_prefix('').keys())
+
+
+def _declare(node: Node, name: str, default: str | int, text: str) -> Any:
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    descriptor = ParameterDescriptor(description=text, read_only=True)
+    return node.declare_parameter(name, default, descriptor).value
 
 
 def _visualize(
@@ -84,16 +169,15 @@ def _visualize(
     configuration: Configuration,
     warning: str,
 ) -> None:
-    from rviz2.page_parameters import unknown_parameters
     from rviz_common.visualizer import Visualizer
-    from rviz_common.visualizer.options import FIXED_FRAME
+    from rviz_common.visualizer.global_options import FIXED_FRAME
 
     visualizer = Visualizer(
         node, page, configuration, arguments.display_config or '', may_rest=True
     )
     if arguments.fixed_frame is not None:
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
-    for sentence in filter(None, [warning, *unknown_parameters(node)]):
+    for sentence in filter(None, [warning, *_unknown_parameters(node)]):
         node.get_logger().warning(sentence)
     node.get_logger().info(f'RViz is at {" and ".join(page.urls)}')
     spin(node)

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.frames import Frames
-from rviz_common.inputs import on_click, on_input
-from rviz_common.work_queue import WorkQueue
+from rviz_common.inputs import on_click, on_input, WorkQueue
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from rviz_common.context import Context
+from rviz_common.plugins import name_of
 from rviz_common.properties import Flag, Property, Values
 from rviz_common.status import Level, Statuses
 
-__all__ = ['Display', 'name_of']
+__all__ = ['Display']
 
 COMMON = ('Class', 'Name', 'Value')
 
@@ -97,18 +98,3 @@ class Display:
         """
         self.stop()
         self.start()
-
-
-def name_of(given: Mapping[str, Any] | None, class_name: str) -> str:
-    """
-    Return the name of an entry of a .rviz file.
-
-    Parameters
-    ----------
-    given
-        The entry, None for a new one.
-    class_name
-        Its class, such as `rviz_default_plugins/Grid`, whose last part is the default name.
-
-    """
-    return str((given or {}).get('Name') or class_name.partition('/')[2])

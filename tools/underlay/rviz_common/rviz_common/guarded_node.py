@@ -10,9 +10,9 @@ import time
 from typing import Any
 
 from rclpy.node import Node
-from rviz_common.described_error import described_error
 from rviz_common.pace import Pace
 from rviz_common.polled_topic import WaitingGroup
+from rviz_common.status import described_error
 
 __all__ = ['GuardedNode']
 

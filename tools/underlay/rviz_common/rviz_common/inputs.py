@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-User input from widgets, transferred to another thread.
+User input from widgets, and the queue that transfers it to another thread.
 
 Widget callbacks run in other threads, and are also called for values set by a program.
 """
@@ -8,12 +8,15 @@ Widget callbacks run in other threads, and are also called for values set by a p
 from __future__ import annotations
 
 from collections.abc import Callable
+import queue
 from typing import Any
 
-__all__ = ['Post', 'on_choice', 'on_click', 'on_input']
+__all__ = ['Post', 'WorkQueue', 'on_choice', 'on_click', 'on_input']
 
 Post = Callable[[Callable[[], None]], None]
 """Runs a callable in the right thread, such as `WorkQueue.post`."""
+
+Work = Callable[[], None]
 
 
 def on_input(post: Post, widget: Any, take: Callable[[Any], None]) -> None:
@@ -74,3 +77,41 @@ def _passing_on(post: Post, take: Callable[[Any], None]) -> Callable[[Any], None
             post(lambda: take(value))
 
     return pass_on
+
+
+class WorkQueue:
+    """
+    Thread-safe queue of callables, which one thread runs in the order of their arrival.
+
+    Parameters
+    ----------
+    on_post
+        Called after each `post`, in the thread of the caller, to wake the worker thread.
+
+    """
+
+    def __init__(self, on_post: Work = lambda: None) -> None:
+        self._waiting: queue.SimpleQueue[Work] = queue.SimpleQueue()
+        self._on_post = on_post
+
+    def post(self, work: Work) -> None:
+        """
+        Queue work; any thread may call it.
+
+        Parameters
+        ----------
+        work
+            Called without arguments by the thread that calls `run`.
+
+        """
+        self._waiting.put(work)
+        self._on_post()
+
+    def run(self) -> None:
+        """Run all queued work."""
+        while True:
+            try:
+                work = self._waiting.get_nowait()
+            except queue.Empty:
+                return
+            work()

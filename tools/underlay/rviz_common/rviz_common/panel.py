@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of panels."""
+"""The base class of panels, and the order of the widgets in the page."""
 
 from __future__ import annotations
 
@@ -7,15 +7,22 @@ from collections.abc import Mapping
 from typing import Any, ClassVar, TYPE_CHECKING
 
 from rviz_common.context import Context
-from rviz_common.display import name_of
+from rviz_common.plugins import name_of
 from rviz_common.properties import Property, Values
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ['Panel']
+__all__ = ['ALWAYS_ORDER', 'FILE_ORDER', 'STATUS_ORDER', 'TABS_ORDER', 'TOOLS_ORDER', 'Panel']
 
 COMMON = ('Class', 'Name')
+
+# The vertical order of the widgets in the page; those not listed are numbered from 0.
+ALWAYS_ORDER = -50.0
+STATUS_ORDER = -40.0
+FILE_ORDER = -30.0
+TOOLS_ORDER = -20.0
+TABS_ORDER = -10.0
 
 
 class Panel:

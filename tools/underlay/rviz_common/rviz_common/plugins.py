@@ -1,13 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plugin classes, which installed packages offer as entry points."""
+"""The classes that installed packages offer as entry points, and the names of their entries."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import entry_points
 from typing import Any
 
-__all__ = ['DISPLAYS', 'PANELS', 'PANELS_ON_DEMAND', 'TOOLS', 'load_plugin', 'plugin_names']
+__all__ = [
+    'DISPLAYS',
+    'PANELS',
+    'PANELS_ON_DEMAND',
+    'TOOLS',
+    'load_plugin',
+    'name_of',
+    'plugin_names',
+]
 
 DISPLAYS = 'rviz_common.displays'
 PANELS = 'rviz_common.panels'
@@ -62,6 +71,21 @@ def load_plugin(group: str, name: str) -> Any:
         return _plugins(group)[name].load()
     except KeyError:
         raise LookupError(name) from None
+
+
+def name_of(given: Mapping[str, Any] | None, class_name: str) -> str:
+    """
+    Return the name of an entry of a .rviz file.
+
+    Parameters
+    ----------
+    given
+        The entry, None for a new one.
+    class_name
+        Its class, such as `rviz_default_plugins/Grid`, whose last part is the default name.
+
+    """
+    return str((given or {}).get('Name') or class_name.partition('/')[2])
 
 
 @cache

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from ros2cli.graph.interfaces import Interface
-from rviz_common.page import listening, NO_TOKEN, Page, PageSettings, PortError, Route
+from rviz_common.page import address, NO_TOKEN, Page, PageSettings, PortError, Route
 import viser
 from viser._messages import SetOrientationMessage
 from viser.infra._async_message_buffer import AsyncMessageBuffer
@@ -68,9 +68,9 @@ def test_listens_here_only(page: Page) -> None:
 
 def test_port_is_taken_at_once() -> None:
     """Of two programs that start at the same time, one gets the port and the other a sentence."""
-    with listening.listen(PageSettings()) as first:
+    with address.listen(PageSettings()) as first:
         with pytest.raises(PortError, match='cannot be taken: Address already in use'):
-            listening.listen(PageSettings(port=first.getsockname()[1]))
+            address.listen(PageSettings(port=first.getsockname()[1]))
 
 
 def test_evil_origin(page: Page) -> None:
@@ -147,16 +147,16 @@ def test_reachable_addresses(monkeypatch: pytest.MonkeyPatch) -> None:
         Interface('eth1', '10.9.0.2', False, False, True),
         Interface('can0', '', True, False, False),
     ]
-    monkeypatch.setattr(listening, 'read_interfaces', lambda: iter(interfaces))
-    monkeypatch.setattr(listening, '_address_to_other_networks', lambda version: '')
-    assert listening.reachable('0.0.0.0') == ['10.1.0.2', '192.168.3.4']
-    assert listening.reachable('127.0.0.1') == ['127.0.0.1']
-    monkeypatch.setattr(listening, '_address_to_other_networks', lambda version: '192.168.3.4')
-    assert listening.reachable('0.0.0.0') == ['192.168.3.4', '10.1.0.2']
-    monkeypatch.setattr(listening, 'read_interfaces', lambda: iter(interfaces[:1]))
-    monkeypatch.setattr(listening, '_address_to_other_networks', lambda version: '')
-    assert listening.reachable('0.0.0.0') == ['127.0.0.1']
-    assert listening.reachable('::') == ['::1']
+    monkeypatch.setattr(address, 'read_interfaces', lambda: iter(interfaces))
+    monkeypatch.setattr(address, '_address_to_other_networks', lambda version: '')
+    assert address.reachable('0.0.0.0') == ['10.1.0.2', '192.168.3.4']
+    assert address.reachable('127.0.0.1') == ['127.0.0.1']
+    monkeypatch.setattr(address, '_address_to_other_networks', lambda version: '192.168.3.4')
+    assert address.reachable('0.0.0.0') == ['192.168.3.4', '10.1.0.2']
+    monkeypatch.setattr(address, 'read_interfaces', lambda: iter(interfaces[:1]))
+    monkeypatch.setattr(address, '_address_to_other_networks', lambda version: '')
+    assert address.reachable('0.0.0.0') == ['127.0.0.1']
+    assert address.reachable('::') == ['::1']
     with Page('test', PageSettings(host='0.0.0.0', token='mine')) as page:
         assert page.urls == [f'http://127.0.0.1:{page.port}/?token=mine']
 

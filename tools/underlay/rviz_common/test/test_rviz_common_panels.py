@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from rviz_common.context import Context
 from rviz_common.frames import Frames
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import Page
-from rviz_common.panels.entry_folder import EntryFolder
-from rviz_common.panels.marks import escaped, status_text
+from rviz_common.panels.displays_panel import EntryFolder
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.panels.property_editor import PropertyEditor
 from rviz_common.properties import (
@@ -23,9 +23,8 @@ from rviz_common.properties import (
     Vector,
     Whole,
 )
-from rviz_common.status import Level, Statuses
+from rviz_common.status import escaped, Level, status_text, Statuses
 from rviz_common.visualizer import Visualizer
-from rviz_common.work_queue import WorkQueue
 from tf2_ros import Buffer
 
 ALL = (

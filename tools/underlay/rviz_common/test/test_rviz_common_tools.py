@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from rviz_common.tool import Point, Tool
 from rviz_common.visualizer import Visualizer
-from rviz_common.visualizer.ground import ground_point
-from rviz_common.visualizer.tool_box import ToolBox
+from rviz_common.visualizer.tool_box import ground_point, ToolBox
 
 Show = Callable[..., Visualizer]
 

@@ -15,7 +15,7 @@ from rviz_common.page import Page
 from rviz_common.properties import Number
 from rviz_common.status import Level
 from rviz_common.visualizer import Group, Visualizer
-from rviz_common.visualizer.unknown_entry import UnknownEntry
+from rviz_common.visualizer.display_tree import UnknownEntry
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
 
@@ -87,7 +87,7 @@ def probe(name: str, **more: Any) -> dict[str, Any]:
 
 def text_of(*displays: dict[str, Any], **options: Any) -> str:
     """Return the text of a file."""
-    from rviz_common.config.yaml_writing import write_yaml
+    from rviz_common.config.writing import write_yaml
 
     manager = {'Displays': list(displays), 'Global Options': {'Fixed Frame': 'map', **options}}
     return write_yaml({'Visualization Manager': manager})

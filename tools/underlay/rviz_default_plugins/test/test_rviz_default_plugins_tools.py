@@ -13,14 +13,12 @@ from rclpy.logging import get_logger
 from rclpy.qos import DurabilityPolicy
 from rviz_common.context import Context
 from rviz_common.frames import Frames
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.plugins import load_plugin, plugin_names, TOOLS
-from rviz_common.work_queue import WorkQueue
 from rviz_default_plugins.tools.measure import Measure
-from rviz_default_plugins.tools.pose_arrow import heading
-from rviz_default_plugins.tools.publish_point import PublishPoint
-from rviz_default_plugins.tools.set_goal import SetGoal
-from rviz_default_plugins.tools.set_initial_pose import SetInitialPose
+from rviz_default_plugins.tools.pose_tools import heading, SetGoal, SetInitialPose
+from rviz_default_plugins.tools.publishing import PublishPoint
 from tf2_ros import Buffer
 
 ROOT = '/world/tools/1'

@@ -20,12 +20,11 @@ from slam_toolbox.srv import (
     ToggleInteractive,
 )
 from slam_toolbox_py.conversions import make_map
-from slam_toolbox_py.map_files import save_map
-from slam_toolbox_py.storage import PoseGraphFileError
+from slam_toolbox_py.storage import PoseGraphFileError, save_map
 from std_srvs.srv import Empty
 
 if TYPE_CHECKING:
-    from slam_toolbox_py.slam_node import SlamToolbox
+    from slam_toolbox_py.nodes import SlamToolbox
 
 __all__ = ['SlamServices']
 

@@ -12,9 +12,8 @@ import time
 import numpy as np
 from slam_toolbox_py.localizer import Localizer
 from slam_toolbox_py.loop_closure import close_loops
-from slam_toolbox_py.map_drawing import MapDrawing
 from slam_toolbox_py.mapper import Mapper, Placement
-from slam_toolbox_py.occupancy import Grid
+from slam_toolbox_py.occupancy import Grid, MapDrawing
 from slam_toolbox_py.poses import compose, FloatArray
 from slam_toolbox_py.scans import Scan
 from slam_toolbox_py.settings import MapperSettings

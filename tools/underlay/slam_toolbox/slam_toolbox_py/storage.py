@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Serialization of a mapper, to continue mapping or to localize with it later.
+How maps are written to files, and read again.
 
-`NAME.posegraph` is a ZIP archive of NumPy arrays (`numpy.load` reads it), all lengths in m and
-angles in rad, little-endian:
+A map is saved for `nav2_map_server` as an image with its description. A mapper is serialized, to
+continue mapping or to localize with it later: `NAME.posegraph` is a ZIP archive of NumPy arrays
+(`numpy.load` reads it), all lengths in m and angles in rad, little-endian:
 
 - `version` (1), `poses` (N, 3), `odometry` (N, 3), `stamps` (N,), `travelled` (N,)
 - `point_counts` (N,), `points` and `normals` (sum of the counts, 2), in the base of each keyframe
@@ -16,19 +17,22 @@ angles in rad, little-endian:
 from __future__ import annotations
 
 import io
+import os
 from pathlib import Path
 import zipfile
 
 import numpy as np
 import numpy.typing as npt
-from slam_toolbox_py.map_files import full_path, write_atomically
 from slam_toolbox_py.mapper import Keyframe, Mapper
+from slam_toolbox_py.occupancy import FREE, Grid, OCCUPIED
 from slam_toolbox_py.pose_graph import Edge
 from slam_toolbox_py.poses import FloatArray
 from slam_toolbox_py.scans import Scan
 from slam_toolbox_py.settings import MapperSettings
 
-__all__ = ['PoseGraphFileError', 'load_pose_graph', 'save_pose_graph']
+__all__ = ['PoseGraphFileError', 'load_pose_graph', 'save_map', 'save_pose_graph']
+
+_BLACK, _WHITE, _GREY = 0, 254, 205
 
 _VERSION = 1
 _EXTENSIONS = ('.posegraph', '.data')
@@ -48,6 +52,88 @@ _SHAPES = {
     'edge_information': (3, 3),
     'edge_is_loop': (),
 }
+
+
+def _full_path(name: str, *extensions: str) -> Path:
+    """
+    Make an absolute path from the name of a file, without its extension.
+
+    Parameters
+    ----------
+    name
+        The name, which may start with `~`.
+    *extensions
+        The extensions to remove, with their dots; others are kept as part of the name.
+
+    """
+    path = Path(os.path.abspath(os.path.expanduser(name)))
+    return path.with_suffix('') if path.suffix in extensions else path
+
+
+def _write_atomically(path: Path, content: bytes) -> None:
+    """
+    Write a file atomically, so that no reader sees a partial file.
+
+    Parameters
+    ----------
+    path
+        The file, which is replaced if it exists.
+    content
+        Its content.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+
+    """
+    draft = path.with_name(f'.{path.name}.{os.getpid()}')
+    try:
+        draft.write_bytes(content)
+        os.replace(draft, path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def save_map(grid: Grid, name: str) -> Path:
+    """
+    Write a map as `name.pgm` and `name.yaml`.
+
+    Parameters
+    ----------
+    grid
+        The map.
+    name
+        The path without extension; `map` if it is empty.
+
+    Returns
+    -------
+    The absolute path of the description.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+
+    """
+    path = _full_path(name or 'map', '.pgm', '.yaml')
+    image = np.full(grid.cells.shape, _GREY, dtype=np.uint8)
+    image[grid.cells == FREE] = _WHITE
+    image[grid.cells == OCCUPIED] = _BLACK
+    rows, columns = len(image), len(image[0])
+    header = f'P5\n{columns} {rows}\n255\n'.encode()
+    picture = path.with_name(f'{path.name}.pgm')
+    _write_atomically(picture, header + image[::-1].tobytes())
+    description = path.with_name(f'{path.name}.yaml')
+    x, y = (round(float(each), 6) for each in grid.origin)
+    _write_atomically(
+        description,
+        (
+            f'image: {picture.name}\nmode: trinary\nresolution: {grid.resolution_m:g}\n'
+            f'origin: [{x:g}, {y:g}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n'
+        ).encode(),
+    )
+    return description
 
 
 class PoseGraphFileError(Exception):
@@ -97,10 +183,10 @@ def save_pose_graph(mapper: Mapper, name: str) -> Path:
     }
     content = io.BytesIO()
     np.savez(content, allow_pickle=False, **arrays)
-    path = full_path(name or 'map', *_EXTENSIONS)
+    path = _full_path(name or 'map', *_EXTENSIONS)
     file = path.with_name(f'{path.name}.posegraph')
-    write_atomically(file, content.getvalue())
-    write_atomically(
+    _write_atomically(file, content.getvalue())
+    _write_atomically(
         path.with_name(f'{path.name}.data'), f'All of this map is in {file.name}.\n'.encode()
     )
     return file
@@ -123,7 +209,7 @@ def load_pose_graph(name: str, settings: MapperSettings) -> Mapper:
         It cannot be read, or is not a pose graph.
 
     """
-    path = full_path(name, *_EXTENSIONS)
+    path = _full_path(name, *_EXTENSIONS)
     path = path.with_name(f'{path.name}.posegraph')
     try:
         with np.load(path, allow_pickle=False) as file:

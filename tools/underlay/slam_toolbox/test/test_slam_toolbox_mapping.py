@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from slam_toolbox_py.localizer import Localizer
 from slam_toolbox_py.loop_closure import close_loops, find_chains
-from slam_toolbox_py.map_drawing import MapDrawing
 from slam_toolbox_py.mapper import Mapper
-from slam_toolbox_py.occupancy import FREE, OCCUPIED
+from slam_toolbox_py.occupancy import FREE, MapDrawing, OCCUPIED
 from slam_toolbox_py.poses import compose, wrap
 from slam_toolbox_py.session import Session, SessionSettings
 from slam_toolbox_py.settings import MapperSettings

@@ -21,11 +21,11 @@ import pytest
 from rclpy.serialization import serialize_message
 from rviz_common.context import Context
 from rviz_common.frames import Frames
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.status import Level
 from rviz_common.visualizer import Visualizer
 from rviz_common.visualizer.display_entry import DisplayEntry
-from rviz_common.work_queue import WorkQueue
 from rviz_fakes import navigation_world
 from tf2_ros import Buffer
 

@@ -12,7 +12,7 @@ import json
 import time
 from typing import Any, TYPE_CHECKING
 
-from robot_console.live import LivePanel, Viewer
+from robot_console.live_panel import Action, LivePanel, Viewer
 from robot_console.namespaces import NAMESPACE
 from robot_console.robot_link import LATCHED
 from rviz_common.properties import Topic
@@ -20,7 +20,6 @@ from std_msgs.msg import String
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from robot_console.live.channel import Action
 
 __all__ = ['Command']
 

@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Panel with the log messages of nodes."""
+"""Panel with the log messages of nodes, and notifications of errors."""
 
 from __future__ import annotations
 
+from collections import Counter, deque
 from collections.abc import Mapping
+from itertools import islice
 import time
-from typing import Any, TYPE_CHECKING
+from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import Log as LogMessage
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from robot_console.live import LivePanel, Viewer
-from robot_console.log import Interruptions, LogBook, LogLine
+from robot_console.live_panel import Action, LivePanel, Viewer
 from robot_console.namespaces import NAMESPACE
 from rviz_common.properties import Flag, Topic, Whole
 
-if TYPE_CHECKING:
-    from robot_console.live.channel import Action
+__all__ = ['Interruption', 'Interruptions', 'Log', 'LogBook', 'LogLine']
 
-__all__ = ['Log']
+DEBUG, ERROR, FATAL = 10, 40, 50
+LONGEST_LINE = 2000
+
+NOTIFICATION_PERIOD_S = 5.0
+LONGEST_NOTIFICATION = 300
 
 ALL_OF_BEFORE = QoSProfile(
     depth=1000,
@@ -25,6 +29,195 @@ ALL_OF_BEFORE = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 SHOWN_S = 10.0
+
+
+class LogLine(NamedTuple):
+    """Log line of a node; the level is 10 (debug), 20, 30, 40 or 50 (fatal)."""
+
+    time_s: float
+    level: int
+    node: str
+    text: str
+    where: str = ''
+
+
+class LogBook:
+    """
+    The latest log lines, with counts of all lines.
+
+    Parameters
+    ----------
+    kept
+        The number of lines to keep.
+    namespace
+        Lines of nodes outside this namespace are ignored; '' for all nodes.
+
+    Attributes
+    ----------
+    count
+        The total number of added lines.
+    counts
+        The number of added lines by level.
+    nodes
+        The names of the loggers seen so far.
+
+    """
+
+    def __init__(self, kept: int = 500, namespace: str = '') -> None:
+        self._lines: deque[LogLine] = deque(maxlen=kept)
+        self._namespace = namespace.strip('/').replace('/', '.')
+        self.count = 0
+        self.counts: Counter[int] = Counter()
+        self.nodes: set[str] = set()
+
+    def add(self, line: LogLine) -> LogLine | None:
+        """
+        Add a line to the log.
+
+        Parameters
+        ----------
+        line
+            The line, with the logger name, such as `robot1.camera`, as its node.
+
+        Returns
+        -------
+        LogLine or None
+            The stored line: the level rounded down to one of the five, a long text truncated. None
+            if it is from another namespace.
+
+        """
+        if not self._is_ours(line.node):
+            return None
+        kept = line._replace(level=_level(line.level), text=_shortened(line.text))
+        self._lines.append(kept)
+        self.count += 1
+        self.counts[kept.level] += 1
+        self.nodes.add(kept.node)
+        return kept
+
+    def since(self, count: int) -> list[LogLine]:
+        """
+        Return the lines added after a count that are still kept.
+
+        Parameters
+        ----------
+        count
+            A previous value of `count`; 0 for all.
+
+        """
+        fresh = min(self.count - count, len(self._lines))
+        return list(islice(self._lines, len(self._lines) - fresh, None))
+
+    def news(self, count: int) -> dict[str, Any]:
+        """
+        Return the lines added after a count, with the counts by level and the nodes, for the page.
+
+        Parameters
+        ----------
+        count
+            As for `since`.
+
+        """
+        return {
+            'lines': self.since(count),
+            'counts': dict(self.counts),
+            'nodes': sorted(self.nodes),
+        }
+
+    def _is_ours(self, node: str) -> bool:
+        space = self._namespace
+        return not space or node == space or node.startswith(f'{space}.')
+
+
+def _level(level: int) -> int:
+    """Round a level down to one of the five levels."""
+    return min(max(level // 10 * 10, DEBUG), FATAL)
+
+
+def _shortened(text: str) -> str:
+    if len(text) <= LONGEST_LINE:
+        return text
+    return f'{text[:LONGEST_LINE]} ... ({len(text) - LONGEST_LINE} letters more)'
+
+
+class Interruption(NamedTuple):
+    """Notification shown to users of other tabs."""
+
+    title: str
+    text: str
+
+
+class Interruptions:
+    """
+    Collects errors of the log, and limits the rate of their notifications.
+
+    Parameters
+    ----------
+    period_s
+        The minimum time between two notifications, in s.
+    silence_s
+        The time since a text was last logged by a node after which it is shown again, in s.
+
+    """
+
+    def __init__(self, period_s: float = NOTIFICATION_PERIOD_S, silence_s: float = 60.0) -> None:
+        self._period_s = period_s
+        self._silence_s = silence_s
+        self._waiting: list[LogLine] = []
+        self._next_s = 0.0
+        self._said_s: dict[tuple[str, str], float] = {}
+
+    def add(self, line: LogLine, now_s: float) -> None:
+        """
+        Queue a log line if it is an error that should be shown.
+
+        Parameters
+        ----------
+        line
+            The line; levels below ERROR are ignored.
+        now_s
+            The current time, from `time.monotonic`.
+
+        """
+        if line.level < ERROR:
+            return
+        key = (line.node, line.text)
+        last_s = self._said_s.get(key)
+        self._said_s[key] = now_s
+        if last_s is None or now_s - last_s > self._silence_s:
+            self._waiting.append(line)
+
+    def due(self, now_s: float) -> Interruption | None:
+        """
+        Return the notification to show now, and empty the queue.
+
+        Parameters
+        ----------
+        now_s
+            The current time, from `time.monotonic`.
+
+        Returns
+        -------
+        Interruption or None
+            The first queued error with the number of the others; None if the queue is empty or the
+            last notification was too recent.
+
+        """
+        if not self._waiting or now_s < self._next_s:
+            return None
+        first, count = self._waiting[0], len(self._waiting)
+        self._waiting.clear()
+        self._next_s = now_s + self._period_s
+        self._forget(now_s)
+        is_long = len(first.text) > LONGEST_NOTIFICATION
+        text = first.text[:LONGEST_NOTIFICATION] + (' ...' if is_long else '')
+        more = f' ({count - 1} more: see Log)' if count > 1 else ''
+        return Interruption(f'Error of {first.node}', f'{text}{more}')
+
+    def _forget(self, now_s: float) -> None:
+        self._said_s = {
+            key: said_s for key, said_s in self._said_s.items() if now_s - said_s < self._silence_s
+        }
 
 
 class Log(LivePanel):

@@ -1,31 +1,61 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Panel with plots of numeric message fields."""
+"""Panel with plots of numeric message fields, which can be exported as CSV."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
+import csv
+import io
 import time
 from typing import Any
 
-from robot_console.message_types import fields_of
 from robot_console.namespaces import NAMESPACE, topic_of_robot
-from robot_console.panels.plot_chart import PlotChart
-from robot_console.panels.series_chooser import SeriesChooser
-from robot_console.plots.csv_text import csv_text
-from robot_console.plots.field_path import PathError
 from robot_console.plots.plot_board import MAX_WINDOW_S, PlotBoard
-from robot_console.plots.plot_legend import legend_html, STYLE
-from robot_console.plots.series import parse_all
-from robot_console.topic_listener import TopicListener
+from robot_console.plots.plot_chart import legend_html, PlotChart, STYLE
+from robot_console.plots.series import parse_all, PathError
+from robot_console.plots.series_chooser import SeriesChooser
+from robot_console.plots.topic_listener import fields_of, TopicListener
+from robot_console.plots.traces import Numbers
 from rviz_common.pace import Pace
 from rviz_common.panel import Panel
 from rviz_common.properties import Number, Text
 
-__all__ = ['PlotsPanel']
+__all__ = ['PlotsPanel', 'csv_text']
+
+Columns = Mapping[str, tuple[Numbers, Numbers]]
 
 DRAW_S, WRITE_S, LOOK_S = 0.1, 0.2, 1.0
 MIN_WINDOW_S = 2.0
 PAUSE, GO_ON, CLEAR, CSV = 'Pause', 'Continue', 'Clear', 'Save CSV'
+
+
+def csv_text(columns: Columns) -> str:
+    """
+    Format the curves of a plot as CSV.
+
+    Parameters
+    ----------
+    columns
+        Times (n,) in s and values (n,), by series name.
+
+    Returns
+    -------
+    str
+        A header, and a row for each time at which a series has a value; other cells are empty.
+
+    """
+    rows: dict[float, dict[str, float]] = {}
+    for name, (times, values) in columns.items():
+        for time_s, value in zip(times.tolist(), values.tolist()):
+            rows.setdefault(time_s, {})[name] = value
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator='\n')
+    writer.writerow(['time_s', *columns])
+    for time_s in sorted(rows):
+        row = rows[time_s]
+        writer.writerow([f'{time_s:.6f}', *(row.get(name, '') for name in columns)])
+    return stream.getvalue()
 
 
 class PlotsPanel(Panel):

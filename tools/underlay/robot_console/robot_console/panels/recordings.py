@@ -6,11 +6,11 @@ from __future__ import annotations
 import os
 
 from robot_console.namespaces import NAMESPACE
-from robot_console.panels.memory_folder import MemoryFolder
-from robot_console.panels.play_folder import PlayFolder
-from robot_console.panels.record_folder import RecordFolder
-from robot_console.panels.scene_folder import SceneFolder
-from robot_console.recordings.commands_left_out import COMMANDS
+from robot_console.recordings.bags import COMMANDS
+from robot_console.recordings.memory_folder import MemoryFolder
+from robot_console.recordings.play_folder import PlayFolder
+from robot_console.recordings.record_folder import RecordFolder
+from robot_console.recordings.scene_folder import SceneFolder
 from rviz_common.pace import Pace
 from rviz_common.panel import Panel
 from rviz_common.properties import Flag, Number, Text

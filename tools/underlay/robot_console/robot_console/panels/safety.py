@@ -1,27 +1,169 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Panel with the emergency stop and the state relevant to safety."""
+"""Panel with the emergency stop, and whether the robot is real, listens and keeps up."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass
+import math
 import time
 from typing import Any
 
-from robot_console.connections import Connections
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from robot_console.control_page import Connections, Session
 from robot_console.namespaces import NAMESPACE
-from robot_console.real_time_factor import RealTimeFactor
-from robot_console.robot_kind import AUTO, KINDS, robot_kind
-from robot_console.robot_link import link_of
-from robot_console.safety_session import Facts, SafetySession
+from robot_console.robot_link import link_of, RobotLink
 from robot_console.small_page import SmallPage
-from rviz_common.panel import Panel
-from rviz_common.panels.order import ALWAYS_ORDER
+from rviz_common.panel import ALWAYS_ORDER, Panel
 from rviz_common.properties import Choice
+from std_msgs.msg import Float64
 
-__all__ = ['Safety']
+__all__ = [
+    'AUTO',
+    'REAL',
+    'SIMULATED',
+    'UNKNOWN',
+    'Facts',
+    'RealTimeFactor',
+    'Safety',
+    'SafetySession',
+    'robot_kind',
+]
+
+AUTO, REAL, SIMULATED, UNKNOWN = 'auto', 'real', 'simulated', 'unknown'
+KINDS = (AUTO, REAL, SIMULATED)
+
+TOPIC = 'real_time_factor'
+STALE_S = 3.0
+"""Simulators publish once a second; one that is silent for longer is paused or gone."""
 
 NO_ROBOTS = ('_', 'rosbag2_')
 PERIOD_S = 0.5
+
+
+def robot_kind(told: str, clock_publishers: int) -> str:
+    """
+    Determine whether a robot is reported as real or simulated.
+
+    Parameters
+    ----------
+    told
+        One of `KINDS`; any value except `AUTO` is set by the user, and returned unchanged.
+    clock_publishers
+        The number of publishers of `/clock`; simulators publish it.
+
+    Returns
+    -------
+    str
+        `REAL`, `SIMULATED` or `UNKNOWN`; `AUTO` never results in `REAL`.
+
+    """
+    if told != AUTO:
+        return told
+    return SIMULATED if clock_publishers else UNKNOWN
+
+
+class RealTimeFactor:
+    """
+    Subscribes to the real-time factor that a simulator publishes on `real_time_factor`.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes; the topic is relative to its namespace.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._heard: tuple[float, float] | None = None
+        newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self._subscription = node.create_subscription(Float64, TOPIC, self._hear, newest)
+
+    def factor(self, now_s: float) -> float | None:
+        """
+        Return the current real-time factor.
+
+        Parameters
+        ----------
+        now_s
+            The current time, from `time.monotonic`.
+
+        Returns
+        -------
+        float or None
+            Simulated seconds per real second; None if no message was received for 3 s.
+
+        """
+        if self._heard is None or now_s - self._heard[0] > STALE_S:
+            return None
+        return self._heard[1]
+
+    def close(self) -> None:
+        """Destroy the subscription."""
+        self._node.destroy_subscription(self._subscription)
+
+    def _hear(self, message: Float64) -> None:
+        if math.isfinite(message.data):
+            self._heard = time.monotonic(), message.data
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Facts about a robot, for its page."""
+
+    kind: str = UNKNOWN
+    listeners: tuple[str, ...] = ()
+    """The nodes that subscribe to the emergency stop."""
+    speakers: tuple[str, ...] = ()
+    """The other nodes that publish the emergency stop."""
+    says: str | None = None
+    """The reason why the robot holds still, empty if it moves; None if it does not report it."""
+    pace: float | None = None
+    """The real-time factor of the simulator; None if it is not published."""
+
+
+class SafetySession(Session):
+    """
+    Presses and releases the emergency stop, takes and releases control.
+
+    Parameters
+    ----------
+    link
+        The link to the robot.
+    person
+        The user of the page, as shown to others.
+    facts
+        Returns the current facts about the robot.
+
+    """
+
+    def __init__(self, link: RobotLink, person: str, facts: Callable[[], Facts]) -> None:
+        super().__init__(link, person)
+        self._facts = facts
+
+    @property
+    def actions(self) -> Mapping[str, Callable[[Mapping[str, Any]], None]]:
+        """Return the actions that the page may request."""
+        return {
+            'beat': lambda message: None,
+            'stop': lambda message: self.link.say_stop(True, self.person),
+            'release': self._release,
+            'take': lambda message: self._take(),
+            'give': lambda message: self.give(),
+        }
+
+    def state(self) -> dict[str, Any]:
+        """Return the state that the page shows."""
+        return {**super().state(), 'stop': asdict(self.link.stop), **asdict(self._facts())}
+
+    def _release(self, message: Mapping[str, Any]) -> None:
+        self.link.say_stop(False, self.person)
+        self.link.control.lost = ''
+
+    def _take(self) -> None:
+        self.link.control.take(self.person, self)
 
 
 class Safety(Panel):

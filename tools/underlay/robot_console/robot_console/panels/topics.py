@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Panel with the topics of a robot."""
+"""Panel with the topics of a robot, their publishers and subscribers, and QoS mismatches."""
 
 from __future__ import annotations
 
@@ -7,15 +7,145 @@ from collections.abc import Mapping
 import time
 from typing import Any, TYPE_CHECKING
 
-from robot_console.live import LivePanel, Viewer
-from robot_console.topics.rate_listener import RateListener
-from robot_console.topics.topic_graph import ends_of, mismatches, rows_of, types_of
-from robot_console.topics.topic_watch import TopicWatch
+from rclpy.qos import qos_check_compatible, QoSCompatibility
+from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.topic_rates import RateListener
+from robot_console.topic_watch import TopicWatch
+from rviz_common.topics import is_full_topic_name
 
 if TYPE_CHECKING:
-    from robot_console.live.channel import Action
+    from rclpy.node import Node
 
 __all__ = ['Topics']
+
+_Row = tuple[str, str, int, int]
+SHORT = {
+    'RELIABLE': 'reliable',
+    'BEST_EFFORT': 'best effort',
+    'TRANSIENT_LOCAL': 'transient local',
+    'VOLATILE': 'volatile',
+}
+MOST = 5
+
+
+def _types_of(node: Node) -> dict[str, list[str]]:
+    """
+    List the topics that nodes can subscribe to, with their types.
+
+    Parameters
+    ----------
+    node
+        The node that is queried for the graph.
+
+    """
+    return {
+        name: list(types)
+        for name, types in node.get_topic_names_and_types()
+        if is_full_topic_name(name)
+    }
+
+
+def _rows_of(node: Node, types: dict[str, list[str]]) -> list[_Row]:
+    """
+    Build the rows of the topic list, sorted by name.
+
+    Parameters
+    ----------
+    node
+        The node that is queried for the graph.
+    types
+        The types of the topics, by name.
+
+    Returns
+    -------
+    list of Row
+        Name, types, number of publishers and number of subscribers of each topic.
+
+    """
+    return [
+        (name, ', '.join(kinds), node.count_publishers(name), node.count_subscribers(name))
+        for name, kinds in sorted(types.items())
+    ]
+
+
+def _ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
+    """
+    List the publishers and subscribers of a topic.
+
+    Parameters
+    ----------
+    node
+        The node that is queried for the graph.
+    topic
+        The fully qualified name of the topic.
+
+    Returns
+    -------
+    dict
+        `publishers` and `subscribers`, each as pairs of node name and QoS.
+
+    """
+    return {
+        'publishers': _named(node.get_publishers_info_by_topic(topic)),
+        'subscribers': _named(node.get_subscriptions_info_by_topic(topic)),
+    }
+
+
+def _mismatches(node: Node, topic: str) -> list[str]:
+    """
+    Find pairs of nodes with incompatible QoS, between which no messages are exchanged.
+
+    A node may have several endpoints, of which one compatible endpoint suffices.
+
+    Parameters
+    ----------
+    node
+        The node that is queried for the graph.
+    topic
+        The fully qualified name of the topic.
+
+    Returns
+    -------
+    list of str
+        At most 5 messages; none if there are more than 1000 pairs of endpoints.
+
+    """
+    publishers = node.get_publishers_info_by_topic(topic)
+    subscribers = node.get_subscriptions_info_by_topic(topic)
+    if len(publishers) * len(subscribers) > 1000:
+        return []
+    reasons: dict[tuple[str, str], set[str]] = {}
+    for publisher in publishers:
+        for subscriber in subscribers:
+            ends = (_name(publisher), _name(subscriber))
+            reasons.setdefault(ends, set()).add(_reason(publisher, subscriber))
+    return sorted(
+        f'Nothing passes from {publisher} to {subscriber}: {reason}.'
+        for (publisher, subscriber), found in reasons.items()
+        if '' not in found
+        for reason in found
+    )[:MOST]
+
+
+def _named(ends: list[Any]) -> list[tuple[str, str]]:
+    return sorted((_name(end), _quality(end.qos_profile)) for end in ends)
+
+
+def _name(end: Any) -> str:
+    return f'{end.node_namespace.rstrip("/")}/{end.node_name}'
+
+
+def _quality(profile: Any) -> str:
+    names = (profile.reliability.name, profile.durability.name)
+    return ', '.join(SHORT.get(name, name.lower()) for name in names)
+
+
+def _reason(publisher: Any, subscriber: Any) -> str:
+    """Format the reason for incompatible QoS profiles; '' if they are compatible."""
+    status, reason = qos_check_compatible(publisher.qos_profile, subscriber.qos_profile)
+    if status != QoSCompatibility.ERROR:
+        return ''
+    return '; '.join(str(reason).replace('ERROR: ', '').strip(' ;').split(';'))
 
 
 class Topics(LivePanel):
@@ -57,7 +187,7 @@ class Topics(LivePanel):
             As for `LivePanel.greet`.
 
         """
-        self._types = types_of(self.context.node)
+        self._types = _types_of(self.context.node)
         self._told = self._state()
         viewer.tell(**self._told)
 
@@ -66,7 +196,7 @@ class Topics(LivePanel):
         viewers = self.channel.viewers
         self._want.intersection_update(viewers)
         if viewers:
-            self._types = types_of(self.context.node)
+            self._types = _types_of(self.context.node)
         self._measure()
         self._follow({viewer.wish for viewer in viewers if viewer.wish})
         if not viewers:
@@ -85,7 +215,7 @@ class Topics(LivePanel):
     def _state(self) -> dict[str, Any]:
         measured = self._rates.survey.measured
         rates = {topic: _rate_text(*measured[topic]) for topic in self._types if topic in measured}
-        return {'rows': rows_of(self.context.node, self._types), 'rates': rates}
+        return {'rows': _rows_of(self.context.node, self._types), 'rates': rates}
 
     def _measure(self) -> None:
         if self._want:
@@ -121,8 +251,8 @@ class Topics(LivePanel):
             'count': watch.window.count,
             'size': watch.size,
             'text': watch.text,
-            'reasons': [watch.reason] if watch.reason else mismatches(node, topic),
-            **ends_of(node, topic),
+            'reasons': [watch.reason] if watch.reason else _mismatches(node, topic),
+            **_ends_of(node, topic),
         }
 
     def _choose(self, viewer: Viewer, message: Mapping[str, Any]) -> None:

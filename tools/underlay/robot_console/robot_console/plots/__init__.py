@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plots of numeric message fields: paths, values, decimation and legend; without ROS."""
+"""Plots of numeric message fields: series, values, drawing and widgets."""

@@ -1,16 +1,132 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plotted series: a numeric message field, or the difference of two."""
+"""How plotted series are written, such as `imu.angular_velocity.z`, and presets of them."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite
+import re
+from typing import Union
 
-from robot_console.plots.field_path import FieldPath, parse_path, PathError
+__all__ = [
+    'MAX_PRESET_JOINTS',
+    'MAX_SERIES',
+    'Element',
+    'Field',
+    'FieldPath',
+    'PathError',
+    'Series',
+    'Step',
+    'effort',
+    'imu',
+    'parse_all',
+    'parse_path',
+    'parse_series',
+    'tracking_error',
+]
 
-__all__ = ['MAX_SERIES', 'Series', 'parse_all', 'parse_series']
+EXAMPLE = 'A path is like joint_states.position[left_knee] or imu.angular_velocity.z.'
+TOPIC = re.compile(r'(~/|/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*')
+STEP = re.compile(r'\.([A-Za-z]\w*)|\[([^\[\]]+)\]')
+WHOLE = re.compile(r'-?\d+')
 
 MAX_SERIES = 8
 MINUS = ' - '
+
+MAX_PRESET_JOINTS = 6
+
+
+class PathError(ValueError):
+    """Raised, with the reason, if a path does not lead to a number."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """A path step to a field of a message."""
+
+    name: str
+
+    def __str__(self) -> str:
+        """Return the step in path notation."""
+        return f'.{self.name}'
+
+
+@dataclass(frozen=True)
+class Element:
+    """A path step to an element of a list, by index or name."""
+
+    key: int | str
+
+    def __str__(self) -> str:
+        """Return the step in path notation."""
+        return f'[{self.key}]'
+
+
+Step = Union[Field, Element]
+
+
+@dataclass(frozen=True)
+class FieldPath:
+    """A topic and the path steps to a number in its messages."""
+
+    topic: str
+    steps: tuple[Step, ...]
+
+    def __str__(self) -> str:
+        """Return the path as text."""
+        return self.topic + ''.join(map(str, self.steps))
+
+
+def parse_path(text: str) -> FieldPath:
+    """
+    Parse the path of a number in the messages of a topic.
+
+    Parameters
+    ----------
+    text
+        For example `joint_states.position[left_knee]`; leading and trailing whitespace is ignored.
+
+    Raises
+    ------
+    PathError
+        The text has no topic, no field, or a syntax error; whether the field exists is not
+        checked.
+
+    """
+    text = text.strip()
+    topic = TOPIC.match(text)
+    if topic is None:
+        raise PathError(f"'{text}' does not begin with the name of a topic. {EXAMPLE}")
+    steps: list[Step] = []
+    at = topic.end()
+    while at < len(text):
+        found = STEP.match(text, at)
+        if found is None:
+            raise PathError(f"'{text}' goes wrong at '{text[at:]}': {_why(text[at:])} {EXAMPLE}")
+        steps.append(_step(found))
+        at = found.end()
+    if not steps or isinstance(steps[0], Element):
+        raise PathError(f"'{text}' names no field of the messages of a topic. {EXAMPLE}")
+    return FieldPath(topic[0], tuple(steps))
+
+
+def _step(found: re.Match[str]) -> Step:
+    if found[1]:
+        return Field(found[1])
+    key = found[2].strip()
+    return Element(int(key) if WHOLE.fullmatch(key) else key)
+
+
+def _why(rest: str) -> str:
+    """Explain a syntax error in a step."""
+    if rest.startswith('['):
+        return 'brackets hold a number or a name, and are closed.'
+    if rest.startswith('/'):
+        return 'in the name of a topic a letter or an underscore follows each slash.'
+    if rest.startswith('.'):
+        return 'after a dot comes the name of a field.'
+    return 'a dot or a bracket is expected.'
 
 
 @dataclass(frozen=True)
@@ -76,3 +192,77 @@ def parse_all(text: str) -> list[Series]:
     if len(series) > MAX_SERIES:
         raise PathError(f'{len(series)} series are too many for a plot: {MAX_SERIES} at most.')
     return series
+
+
+def tracking_error(
+    commands_topic: str,
+    states_topic: str,
+    commanded: Mapping[str, float],
+    measured: Mapping[str, float],
+) -> list[str]:
+    """
+    List series of the position error of the joints with the largest tracking errors.
+
+    Parameters
+    ----------
+    commands_topic, states_topic
+        The topics of commanded and of measured joint states.
+    commanded, measured
+        Positions by joint name, in rad or m; joints that are missing from either are ignored.
+
+    Returns
+    -------
+    list of str
+        At most 6 series, in the order of `commanded`.
+
+    """
+    errors = {name: commanded[name] - measured[name] for name in commanded if name in measured}
+    return [
+        f'{commands_topic}.position[{name}] - {states_topic}.position[{name}]'
+        for name in _largest(errors)
+    ]
+
+
+def effort(states_topic: str, efforts: Mapping[str, float]) -> list[str]:
+    """
+    List series of the joints with the largest efforts.
+
+    Parameters
+    ----------
+    states_topic
+        The topic of joint states.
+    efforts
+        Efforts by joint name, in N m or N.
+
+    Returns
+    -------
+    list of str
+        At most 6 series, in the order of `efforts`.
+
+    """
+    return [f'{states_topic}.effort[{name}]' for name in _largest(efforts)]
+
+
+def imu(topic: str) -> list[str]:
+    """
+    List the series of an IMU: its angular velocity and linear acceleration.
+
+    Parameters
+    ----------
+    topic
+        A topic of `sensor_msgs/msg/Imu`.
+
+    """
+    return [
+        f'{topic}.{field}.{axis}'
+        for field in ('angular_velocity', 'linear_acceleration')
+        for axis in 'xyz'
+    ]
+
+
+def _largest(values: Mapping[str, float]) -> Sequence[str]:
+    """Return the names with the largest absolute values, in the order of the mapping."""
+    finite = {name: abs(value) for name, value in values.items() if isfinite(value)}
+    by_size = sorted(finite, key=lambda name: finite[name], reverse=True)
+    largest = set(by_size[:MAX_PRESET_JOINTS])
+    return [name for name in finite if name in largest]

@@ -8,7 +8,7 @@ from typing import Any
 
 from console_stage import Stage
 import pytest
-from robot_console.displays.commanded_robot import CommandedRobot
+from robot_console.commanded_robot import CommandedRobot
 from rviz_common.status import Level
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String

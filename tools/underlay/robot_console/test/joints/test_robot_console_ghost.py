@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from robot_console.ghost.commanded_joints import CommandedJoints
+from robot_console.commanded_robot import CommandedJoints
 from urdf import parse_urdf
 
 URDF = """<robot name="r"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>

@@ -6,11 +6,9 @@ from __future__ import annotations
 import math
 
 import pytest
-from robot_console.joints.joint_html import notes_html, table_html
-from robot_console.joints.joint_row import JointRow, load_level, position_level
-from robot_console.joints.joint_state import JointState, JointStates
-from robot_console.joints.joint_table import JointTable
-from robot_console.joints.topic_sentence import TopicWatch
+from robot_console.joint_states import JointState, JointStates, TopicWatch
+from robot_console.joint_table import JointRow, JointTable, load_level, position_level
+from robot_console.panels.joints_panel import notes_html, table_html
 from rviz_common.status import Level
 from urdf import Joint, Limits, parse_urdf
 

@@ -14,9 +14,9 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rviz_common.context import Context
 from rviz_common.frames import Frames
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.panel import Panel
-from rviz_common.work_queue import WorkQueue
 from tf2_ros import Buffer
 
 PATIENCE_S = 100.0

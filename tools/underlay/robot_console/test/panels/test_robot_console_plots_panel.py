@@ -11,9 +11,9 @@ import msgspec
 import pytest
 from rclpy.node import Node
 from robot_console.panels.plots_panel import CLEAR, CSV, PAUSE, PlotsPanel
-from robot_console.panels.preset_buttons import EFFORT, IMU, TRACKING
-from robot_console.topic_listener import TopicListener
-from rviz_common.work_queue import WorkQueue
+from robot_console.plots.series_chooser import EFFORT, IMU, TRACKING
+from robot_console.plots.topic_listener import TopicListener
+from rviz_common.inputs import WorkQueue
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import String
 

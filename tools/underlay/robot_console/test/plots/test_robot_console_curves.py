@@ -8,14 +8,18 @@ import math
 import numpy as np
 from plot_messages import schema, state
 import pytest
-from robot_console.plots.csv_text import csv_text
-from robot_console.plots.field_path import PathError
+from robot_console.panels.plots_panel import csv_text
 from robot_console.plots.plot_board import PlotBoard
-from robot_console.plots.plot_legend import legend_html
-from robot_console.plots.presets import effort, imu, MOST, tracking_error
-from robot_console.plots.series import parse_series
-from robot_console.plots.thinning import slice_times, SLICES, thinned
-from robot_console.plots.value_trace import MAX_CAPACITY, Trace
+from robot_console.plots.plot_chart import legend_html
+from robot_console.plots.series import (
+    effort,
+    imu,
+    MAX_PRESET_JOINTS,
+    parse_series,
+    PathError,
+    tracking_error,
+)
+from robot_console.plots.traces import MAX_CAPACITY, slice_times, SLICES, thinned, Trace
 
 WINDOW_S = 10.0
 NAN = math.nan
@@ -203,7 +207,7 @@ def test_presets() -> None:
     commanded = {name: float(index) for index, name in enumerate(names)}
     measured = dict.fromkeys(names[:8], 0.0)
     error = tracking_error('jc', 'js', commanded, measured)
-    assert error[0] == 'jc.position[j2] - js.position[j2]' and len(error) == MOST
+    assert error[0] == 'jc.position[j2] - js.position[j2]' and len(error) == MAX_PRESET_JOINTS
     assert effort('js', {'a': NAN, 'b': -2.0}) == ['js.effort[b]']
     assert imu('imu')[0] == 'imu.angular_velocity.x' and len(imu('imu')) == 6
     for text in (*error, *imu('imu')):

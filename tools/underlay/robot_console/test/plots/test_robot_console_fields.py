@@ -8,10 +8,9 @@ from typing import Any
 
 from plot_messages import schema, state, transforms, vector
 import pytest
-from robot_console.plots.completion import completions
-from robot_console.plots.field_path import parse_path, PathError
 from robot_console.plots.field_reader import FieldReader
-from robot_console.plots.series import parse_all, parse_series
+from robot_console.plots.fields import completions
+from robot_console.plots.series import parse_all, parse_path, parse_series, PathError
 
 IMU = SimpleNamespace(turn=vector(1.5, 2.5), covariance=(0.1, 0.2), is_on=True, raw=b'\x07')
 TRAJECTORY = SimpleNamespace(

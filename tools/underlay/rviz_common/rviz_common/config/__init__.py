@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Configuration files (.rviz): reading, editing and writing them."""
 
-from rviz_common.config.config_error import ConfigError
 from rviz_common.config.configuration import Configuration
-from rviz_common.config.document import Document, Place
+from rviz_common.config.reading import ConfigError, Document, Place
 
 __all__ = ['ConfigError', 'Configuration', 'Document', 'Place']

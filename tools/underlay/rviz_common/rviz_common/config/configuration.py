@@ -8,12 +8,9 @@ import os
 import stat
 from typing import Any
 
-from rviz_common.config.config_error import ConfigError
 from rviz_common.config.default import default_values
-from rviz_common.config.document import Document, Place
-from rviz_common.config.saving import replace_file
-from rviz_common.config.yaml_reading import read_yaml
-from rviz_common.config.yaml_writing import write_yaml
+from rviz_common.config.reading import ConfigError, Document, Place, read_yaml
+from rviz_common.config.writing import replace_file, write_yaml
 
 __all__ = [
     'DISPLAYS',

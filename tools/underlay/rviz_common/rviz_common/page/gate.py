@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Access control for the viser server, which has none."""
+"""How the viser server of a page is secured, which has no access control of its own."""
 
 from __future__ import annotations
 
@@ -7,16 +7,15 @@ import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
 import functools
+import gzip
+from html import escape
 from http import HTTPStatus
 import socket
 from typing import Any
 
-from rviz_common.page.admission import Admission, Refusal, without_token
-from rviz_common.page.complaints import complain_about_task, LOGGER
+from rviz_common.page.admission import Admission, Refusal, sign_in_page, without_token
+from rviz_common.page.message_filter import complain_about_task, LOGGER, OptionsOf, Strained
 from rviz_common.page.routes import Route, Routes
-from rviz_common.page.sign_in import sign_in_page
-from rviz_common.page.strainer import OptionsOf, Strained
-from rviz_common.page.title import entitle
 from rviz_common.page.uploads import Uploads
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
@@ -29,6 +28,8 @@ __all__ = ['gated']
 LARGEST_BYTES = 2_000_000
 # What a page may load and do: only from this origin, and not framed by other pages.
 POLICY = "frame-ancestors 'self'"
+
+OF_VISER = b'<title>Viser</title>'
 
 
 @contextmanager
@@ -133,7 +134,7 @@ def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
         response: Response | None = answer(connection, request)
         if response is not None:
             response.headers['Content-Security-Policy'] = POLICY
-            entitle(response, title)
+            _entitle(response, title)
         return response
 
     return process_request
@@ -171,3 +172,30 @@ def _with_cookie(path: str, admission: Admission) -> Response:
     )
     headers['Connection'] = 'close'
     return Response(HTTPStatus.SEE_OTHER, HTTPStatus.SEE_OTHER.phrase, headers)
+
+
+def _entitle(response: Response, title: str) -> None:
+    """
+    Replace the title of the page in a response; responses that are not HTML stay as they are.
+
+    Parameters
+    ----------
+    response
+        The response of viser, possibly compressed with gzip; it is changed in place.
+    title
+        The title of the browser's tab, as plain text.
+
+    """
+    if not response.headers.get('Content-Type', '').startswith('text/html'):
+        return
+    is_packed = response.headers.get('Content-Encoding') == 'gzip'
+    response.body = _entitled(bytes(response.body), title, is_packed)
+    del response.headers['Content-Length']
+    response.headers['Content-Length'] = str(len(response.body))
+
+
+@functools.lru_cache(maxsize=4)
+def _entitled(body: bytes, title: str, is_packed: bool) -> bytes:
+    text = gzip.decompress(body) if is_packed else body
+    text = text.replace(OF_VISER, f'<title>{escape(title)}</title>'.encode())
+    return gzip.compress(text, 6) if is_packed else text

@@ -9,17 +9,12 @@ from types import TracebackType
 from urllib.parse import urlencode
 
 import rich
+from rviz_common.page.address import listen, NO_TOKEN, PageSettings, reachable
 from rviz_common.page.admission import Admission
-from rviz_common.page.listening import listen, reachable
 from rviz_common.page.routes import Routes
-from rviz_common.page.settings import NO_TOKEN, PageSettings
 from rviz_common.page.uploads import Uploads
 import viser
-from viser._messages import (
-    FileTransferPartAck,
-    FileTransferStartUpload,
-    RemoveNotificationMessage,
-)
+from viser._messages import FileTransferPartAck, FileTransferStartUpload, RemoveNotificationMessage
 
 __all__ = ['Page']
 

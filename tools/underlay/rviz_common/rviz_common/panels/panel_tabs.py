@@ -9,12 +9,10 @@ import copy
 from typing import Any
 
 from rviz_common.context import Context
-from rviz_common.described_error import described_error
 from rviz_common.pace import Pace
-from rviz_common.panel import Panel
-from rviz_common.panels.marks import escaped
-from rviz_common.panels.order import TABS_ORDER
+from rviz_common.panel import Panel, TABS_ORDER
 from rviz_common.plugins import load_plugin, PANELS, PANELS_ON_DEMAND, plugin_names
+from rviz_common.status import described_error, escaped
 
 __all__ = ['BUILT_IN', 'PanelTabs']
 

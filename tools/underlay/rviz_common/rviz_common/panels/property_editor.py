@@ -1,22 +1,36 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Widgets to edit properties."""
+"""Which widgets edit properties, and when a value that was entered takes effect."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
+from itertools import islice
+import math
 import time
 from typing import Any
 
 from rviz_common.context import Context
-from rviz_common.panels.flags_folder import FlagsFolder
-from rviz_common.panels.widgets import add_widget
-from rviz_common.properties import Choice, Flag, Flags, Property, Values
+from rviz_common.properties import (
+    Choice,
+    ColorOf,
+    Flag,
+    Flags,
+    Number,
+    Property,
+    Values,
+    Vector,
+    Whole,
+)
+from viser import GuiApi
 
-__all__ = ['PropertyEditor']
+__all__ = ['FlagsFolder', 'PropertyEditor']
 
 QUIET_S = 0.6
 """Debounce time in s: a typed value takes effect once it has been stable for this long."""
+
+MOST = 200
+"""The maximum number of names with a checkbox."""
 
 
 class PropertyEditor:
@@ -75,7 +89,7 @@ class PropertyEditor:
             names = of.path.split('/')[:-1]
             for depth in range(len(names)):
                 above.enter_context(self._folder('/'.join(names[: depth + 1])))
-            widget = add_widget(self._context.gui, of, self._values[of.path])
+            widget = _add_widget(self._context.gui, of, self._values[of.path])
         delay_s = 0.0 if isinstance(of, (Flag, Choice)) else QUIET_S
         self._context.on_input(widget, lambda value: self._take(of.path, value, delay_s))
         return widget
@@ -98,3 +112,99 @@ class PropertyEditor:
             self._said[path] = value
         else:
             self._said[path] = self._values[path]
+
+
+class FlagsFolder:
+    """
+    A folder with a checkbox for each name of a property.
+
+    Parameters
+    ----------
+    context
+        The page.
+    of
+        The property.
+    values
+        Holds its value.
+    change
+        Called with the path of the property and the new flags by name when a user clicks one.
+
+    """
+
+    def __init__(
+        self, context: Context, of: Flags, values: Values, change: Callable[[str, Any], None]
+    ) -> None:
+        self._context = context
+        self._path = of.path
+        self._values = values
+        self._change = change
+        label = of.path.rpartition('/')[2]
+        self._folder = context.gui.add_folder(label, expand_by_default=False)
+        self._boxes: dict[str, Any] = {}
+        self.update()
+
+    def update(self) -> None:
+        """Add checkboxes for new names, and show values changed by a program."""
+        for name, is_on in islice(self._values[self._path].items(), MOST):
+            box = self._boxes.get(name)
+            if box is None:
+                self._add(name, is_on)
+            elif box.value != is_on:
+                box.value = is_on
+
+    def _add(self, name: str, is_on: bool) -> None:
+        with self._folder:
+            box = self._context.gui.add_checkbox(name or '(no name)', is_on)
+        self._boxes[name] = box
+        self._context.on_input(box, lambda value: self._set(name, value))
+
+    def _set(self, name: str, is_on: bool) -> None:
+        self._change(self._path, {**self._values[self._path], name: is_on})
+
+
+def _add_widget(gui: GuiApi, of: Property, value: Any) -> Any:
+    """
+    Add the widget for a kind of property.
+
+    Parameters
+    ----------
+    gui
+        Where to add it.
+    of
+        The property, whose type determines the kind of widget.
+    value
+        Its value.
+
+    Returns
+    -------
+    Any
+        The handle that viser has for the widget.
+
+    """
+    label, hint = of.path.rpartition('/')[2], of.description or None
+    if isinstance(of, Flag):
+        return gui.add_checkbox(label, value, hint=hint)
+    if isinstance(of, Choice):
+        return gui.add_dropdown(label, of.choices, initial_value=value, hint=hint)
+    if isinstance(of, ColorOf):
+        return gui.add_rgb(label, value, hint=hint)
+    if isinstance(of, Vector):
+        return gui.add_vector3(label, value, step=0.01, hint=hint)
+    if isinstance(of, Number):
+        return _add_number(gui, of, value, label, hint)
+    return gui.add_text(label, str(value), hint=hint)
+
+
+def _add_number(gui: GuiApi, of: Number, value: float, label: str, hint: str | None) -> Any:
+    return gui.add_number(
+        label,
+        value,
+        min=_limit(of.minimum),
+        max=_limit(of.maximum),
+        step=1 if isinstance(of, Whole) else 0.01,
+        hint=hint,
+    )
+
+
+def _limit(limit: float) -> float | None:
+    return limit if math.isfinite(limit) else None

@@ -6,10 +6,9 @@ from __future__ import annotations
 from typing import Any
 
 from rviz_common.panel import Panel
-from rviz_common.panels.marks import escaped, MARKS
 from rviz_common.panels.property_editor import PropertyEditor
-from rviz_common.status import Level
-from rviz_common.views import KINDS, View
+from rviz_common.status import escaped, Level, MARKS
+from rviz_common.view import KINDS, View
 
 __all__ = ['ViewsPanel']
 

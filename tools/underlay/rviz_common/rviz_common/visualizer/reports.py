@@ -6,14 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any, TYPE_CHECKING
 
-from rviz_common.config import Configuration
+from rviz_common.config import Configuration, Place
 from rviz_common.config.configuration import DISPLAYS
-from rviz_common.config.document import Place
 from rviz_common.visualizer.display_entry import DisplayEntry
-from rviz_common.visualizer.entry import Entry
-from rviz_common.visualizer.group import Group
-from rviz_common.visualizer.options import UNUSED_OPTIONS
-from rviz_common.visualizer.unknown_entry import UnknownEntry
+from rviz_common.visualizer.display_tree import Entry, Group, UnknownEntry
+from rviz_common.visualizer.global_options import UNUSED_OPTIONS
 
 if TYPE_CHECKING:
     from rviz_common.visualizer.visualizer import Visualizer

@@ -6,47 +6,31 @@ from __future__ import annotations
 import os
 from typing import Any, TYPE_CHECKING
 
-from rviz_common.config import ConfigError, Configuration
-from rviz_common.config.configuration import (
-    DISPLAYS,
-    PANELS,
-    SAVED_VIEWS,
-    TOOLS,
-    VIEW,
-)
-from rviz_common.config.configuration import (
-    OPTIONS as OPTIONS_PLACE,
-)
-from rviz_common.config.document import Place
+from rviz_common.config import ConfigError, Configuration, Place
+from rviz_common.config.configuration import DISPLAYS, PANELS, SAVED_VIEWS, TOOLS, VIEW
+from rviz_common.config.configuration import OPTIONS as OPTIONS_PLACE
 from rviz_common.context import Context
-from rviz_common.described_error import described_error
-from rviz_common.frame_listener import FrameListener
-from rviz_common.frames import Frames
+from rviz_common.frames import FrameListener, Frames
+from rviz_common.inputs import WorkQueue
 from rviz_common.pace import Pace
-from rviz_common.panels.file_folder import FileFolder
-from rviz_common.panels.head import Head
-from rviz_common.panels.marks import printable
+from rviz_common.panels.head import FileFolder, Head
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
-from rviz_common.status import Statuses
-from rviz_common.views import View
-from rviz_common.visualizer.attention import Attention, REST_HZ
-from rviz_common.visualizer.background import Background
-from rviz_common.visualizer.cameras import Cameras, WORLD
-from rviz_common.visualizer.entry import Entry
-from rviz_common.visualizer.frame_loop import FrameLoop
-from rviz_common.visualizer.global_status import FrameWatch
-from rviz_common.visualizer.group import Group
-from rviz_common.visualizer.making import Maker
-from rviz_common.visualizer.options import (
+from rviz_common.status import described_error, printable, Statuses
+from rviz_common.view import View
+from rviz_common.visualizer.cameras import Background, Cameras, WORLD
+from rviz_common.visualizer.display_entry import Maker
+from rviz_common.visualizer.display_tree import Entry, Group
+from rviz_common.visualizer.frame_loop import Attention, FrameLoop, REST_HZ
+from rviz_common.visualizer.global_options import (
     BACKGROUND,
     FIXED_FRAME,
     FRAME_RATE,
+    FrameWatch,
     OPTIONS,
 )
 from rviz_common.visualizer.reports import surprises
 from rviz_common.visualizer.tool_box import ToolBox
-from rviz_common.work_queue import WorkQueue
 from tf2_ros import Buffer
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from rviz_default_plugins.decoding.cloud import Cloud
+from rviz_default_plugins.decoding.clouds import Cloud
 
 __all__ = ['Colors', 'Scale', 'colors_rgb8', 'colors_rgbf32', 'rainbow']
 

@@ -1,22 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decoding of `sensor_msgs/msg/Image` to RGB, downsampled for the page."""
+"""How messages with images, raw or compressed, are decoded to RGB, downsampled for the page."""
 
 from __future__ import annotations
 
+import io
 import math
+import re
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from rviz_default_plugins.decoding.brightness import Brightness
-from rviz_default_plugins.decoding.pixels import Layout, layout_of, raw_pixels
 
-__all__ = ['MOST_PIXELS', 'Picture', 'decode_image', 'step_for']
+__all__ = ['MOST_PIXELS', 'Picture', 'decode_compressed_image', 'decode_image']
 
 Bytes = NDArray[np.uint8]
 
 MOST_PIXELS = 1_300_000
 """The maximum number of pixels that are shown; larger images are downsampled."""
+
+MOST_COMPRESSED = 100_000_000
+"""The maximum number of pixels; larger images may be decompression bombs."""
+
+_COLORS = {'rgb': 3, 'bgr': 3, 'rgba': 4, 'bgra': 4, 'mono': 1}
+_KINDS = {'U': 'u', 'S': 'i', 'F': 'f'}
+_YUV = {
+    'yuv422': 'uyvy',
+    'uyvy': 'uyvy',
+    'yuv422_yuy2': 'yuy2',
+    'yuyv': 'yuy2',
+}
 
 
 class Picture(NamedTuple):
@@ -26,7 +39,7 @@ class Picture(NamedTuple):
     step: int = 1
 
 
-def step_for(width: int, height: int) -> int:
+def _step_for(width: int, height: int) -> int:
     """
     Compute the step of downsampling at which about `MOST_PIXELS` of an image remain, or less.
 
@@ -61,9 +74,9 @@ def decode_image(message: Any, brightness: Brightness) -> Picture:
         The encoding is unknown, the image is empty or too small for it, or data is missing.
 
     """
-    layout = layout_of(message.encoding, bool(message.is_bigendian))
-    raw = raw_pixels(message, layout)
-    step = step_for(message.width, message.height)
+    layout = _layout_of(message.encoding, bool(message.is_bigendian))
+    raw = _raw_pixels(message, layout)
+    step = _step_for(message.width, message.height)
     if layout.order in ('uyvy', 'yuy2'):
         return Picture(_from_yuv(raw[::step], layout.order)[:, ::step], step)
     if len(layout.order) == 4 and layout.channels == 1 and layout.order != 'mono':
@@ -71,7 +84,7 @@ def decode_image(message: Any, brightness: Brightness) -> Picture:
     return Picture(_from_colors(raw[::step, ::step], layout, brightness), step)
 
 
-def _from_colors(raw: NDArray[Any], layout: Layout, brightness: Brightness) -> Bytes:
+def _from_colors(raw: NDArray[Any], layout: _Layout, brightness: Brightness) -> Bytes:
     if layout.order == 'mono':
         gray = raw[:, :, 0]
         # Eight-bit values are displayed as they are; depths and the like have no fixed range.
@@ -91,7 +104,7 @@ def _eight_bits(raw: NDArray[Any]) -> Bytes:
     return small
 
 
-def _from_bayer(raw: NDArray[Any], layout: Layout, step: int) -> Picture:
+def _from_bayer(raw: NDArray[Any], layout: _Layout, step: int) -> Picture:
     """Return one RGB pixel per 2 x 2 block of the Bayer pattern."""
     height, width = (length // 2 * 2 for length in raw.shape)
     if not height or not width:
@@ -120,3 +133,147 @@ def _from_yuv(raw: Bytes, order: str) -> Bytes:
     blue = 1.164 * y + 2.017 * u
     colors: Bytes = np.clip(np.stack([red, green, blue], axis=2), 0, 255).round().astype(np.uint8)
     return colors
+
+
+def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
+    """
+    Decode a JPEG or PNG of `sensor_msgs/msg/CompressedImage`, small enough for a page.
+
+    Parameters
+    ----------
+    message
+        The message.
+    brightness
+        Maps images of 16 or 32 bits to greys.
+
+    Raises
+    ------
+    ValueError
+        The image is too large, broken or of another format, such as a compressed depth image.
+
+    """
+    from PIL import Image, UnidentifiedImageError
+
+    if 'compressedDepth' in message.format:
+        raise ValueError(
+            f"its format is '{message.format}', which has a depth image inside; show the topic of "
+            'the raw depth image.'
+        )
+    try:
+        with Image.open(io.BytesIO(bytes(message.data)), formats=('JPEG', 'PNG')) as opened:
+            return _small(opened, brightness)
+    except UnidentifiedImageError:
+        raise ValueError(
+            f"its {len(message.data)} bytes with the format '{message.format}' are neither a JPEG "
+            'nor a PNG.'
+        ) from None
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
+        raise ValueError(f'it is broken: {error}.') from None
+
+
+def _small(opened: Any, brightness: Brightness) -> Picture:
+    """Decode an opened image, downsampled for the page."""
+    width, height = opened.size
+    if width * height > MOST_COMPRESSED:
+        raise ValueError(f'it is too great with {width} x {height} pixels.')
+    step = _step_for(width, height)
+    opened.draft(None, (width // step, height // step))  # JPEG can be decoded at a reduced size
+    left = max(1, round(step * opened.size[0] / width))
+    if opened.mode in ('I', 'I;16', 'I;16B', 'F'):
+        gray = brightness.apply(np.asarray(opened)[::left, ::left])
+        return Picture(np.repeat(gray[:, :, None], 3, axis=2), step)
+    return Picture(np.asarray(opened.convert('RGB'))[::left, ::left], step)
+
+
+class _Layout(NamedTuple):
+    """The layout of a pixel: the order of its colours, its channel count and data type."""
+
+    order: str
+    channels: int
+    kind: np.dtype[Any]
+
+
+def _layout_of(encoding: str, is_bigendian: bool = False) -> _Layout:
+    """
+    Parse an image encoding, such as `rgb8`, `16UC1` or `bayer_rggb8`.
+
+    Parameters
+    ----------
+    encoding
+        The encoding, as in `sensor_msgs/image_encodings`.
+    is_bigendian
+        Whether multi-byte values are big-endian.
+
+    Raises
+    ------
+    ValueError
+        The encoding is unknown.
+
+    """
+    end = '>' if is_bigendian else '<'
+    if found := re.fullmatch(r'(rgb|bgr|rgba|bgra|mono)(8|16)', encoding):
+        kind = np.dtype(f'{end}u{int(found[2]) // 8}')
+        return _Layout(found[1], _COLORS[found[1]], kind)
+    if found := re.fullmatch(r'(8|16|32|64)([USF])C([134])?', encoding):
+        size, channels = int(found[1]) // 8, int(found[3] or 1)
+        if found[2] == 'F' and size < 4:
+            raise _unknown(encoding)
+        kind = np.dtype(f'{end}{_KINDS[found[2]]}{size}')
+        return _Layout({1: 'mono', 3: 'bgr', 4: 'bgra'}[channels], channels, kind)
+    if found := re.fullmatch(r'bayer_(rggb|bggr|gbrg|grbg)(8|16)', encoding):
+        return _Layout(found[1], 1, np.dtype(f'{end}u{int(found[2]) // 8}'))
+    if encoding in _YUV:
+        return _Layout(_YUV[encoding], 2, np.dtype('u1'))
+    raise _unknown(encoding)
+
+
+def _raw_pixels(message: Any, layout: _Layout) -> NDArray[Any]:
+    """
+    View the data of an image as an array, without a copy.
+
+    Parameters
+    ----------
+    message
+        The message, of the type `sensor_msgs/msg/Image`.
+    layout
+        The layout of its pixels.
+
+    Returns
+    -------
+    NDArray[Any]
+        The pixels (height, width, channels), of the type of the layout.
+
+    Raises
+    ------
+    ValueError
+        There are no pixels, or the rows or the data are too short.
+
+    """
+    width, height, step = message.width, message.height, message.step
+    if not width or not height:
+        raise ValueError(f'it has no pixels: it is {width} wide and {height} high.')
+    pixel = layout.channels * layout.kind.itemsize
+    if step < width * pixel:
+        raise ValueError(
+            f"its rows of {step} bytes are too short for {width} pixels of '{message.encoding}', "
+            f'which need {width * pixel}.'
+        )
+    data = np.frombuffer(message.data, dtype=np.uint8)
+    needed = step * (height - 1) + width * pixel
+    if len(data) < needed:
+        raise ValueError(
+            f'it has {len(data)} bytes of data, but {height} rows of {step} bytes need '
+            f'{step * height}.'
+        )
+    strides = (step, pixel, layout.kind.itemsize)
+    pixels: NDArray[Any] = np.ndarray(
+        (height, width, layout.channels), layout.kind, data, strides=strides
+    )
+    return pixels
+
+
+def _unknown(encoding: str) -> ValueError:
+    return ValueError(
+        f"its encoding '{encoding}' is not known; known are rgb8, bgr8, rgba8, bgra8, mono8, "
+        'mono16, 16UC1, 32FC1, yuv422, bayer_rggb8 and their like.'
+    )

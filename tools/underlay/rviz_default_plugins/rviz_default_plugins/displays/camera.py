@@ -11,7 +11,7 @@ from rviz_common.frames import FrameError
 from rviz_common.properties import Number
 from rviz_common.status import Level
 from rviz_default_plugins.decoding.images import Picture
-from rviz_default_plugins.displays.image_topic import IMAGE_TOPIC, ImageTopicDisplay
+from rviz_default_plugins.displays.image import IMAGE_TOPIC, ImageTopicDisplay
 from sensor_msgs.msg import CameraInfo
 
 __all__ = ['Camera']

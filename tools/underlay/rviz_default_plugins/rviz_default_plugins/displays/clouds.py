@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of displays of point clouds, coloured by their channels."""
+"""The displays of laser scans and point clouds, coloured by their channels."""
 
 from __future__ import annotations
 
@@ -10,13 +10,24 @@ from numpy.typing import NDArray
 from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
-from rviz_common.properties import Choice, ColorOf, Flag, Number, Property, Text, Whole
+from rviz_common.properties import (
+    Choice,
+    ColorOf,
+    Flag,
+    Number,
+    Property,
+    Text,
+    topic_properties,
+    Whole,
+)
 from rviz_common.status import Level
-from rviz_default_plugins.decoding.cloud import Cloud
 from rviz_default_plugins.decoding.cloud_colors import colors_rgb8, colors_rgbf32, Scale
+from rviz_default_plugins.decoding.clouds import Cloud, decode_cloud, decode_scan
 from rviz_default_plugins.decoding.geometry import rotated
+from sensor_msgs.msg import LaserScan as LaserScanMessage
+from sensor_msgs.msg import PointCloud2 as PointCloud2Message
 
-__all__ = ['CLOUD', 'CloudDisplay']
+__all__ = ['LaserScan', 'PointCloud2']
 
 STYLES = ('Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles')
 INTENSITY, AXIS, FLAT, RGB8, RGBF32 = 'Intensity', 'AxisColor', 'FlatColor', 'RGB8', 'RGBF32'
@@ -174,3 +185,43 @@ class CloudDisplay(HistoryDisplay):
             self.values['Invert Rainbow'],
             (self.values['Min Color'], self.values['Max Color']),
         )
+
+
+class LaserScan(CloudDisplay):
+    """The last scans of a topic."""
+
+    CLASS = 'rviz_default_plugins/LaserScan'
+    MESSAGE = LaserScanMessage
+    PROPERTIES = (*topic_properties('sensor_msgs/msg/LaserScan', '/scan'), *CLOUD)
+
+    def decode(self, message: Any) -> Cloud:
+        """
+        Convert a scan to points.
+
+        Parameters
+        ----------
+        message
+            As for `CloudDisplay.decode`.
+
+        """
+        return decode_scan(message)
+
+
+class PointCloud2(CloudDisplay):
+    """The last clouds of a topic."""
+
+    CLASS = 'rviz_default_plugins/PointCloud2'
+    MESSAGE = PointCloud2Message
+    PROPERTIES = (*topic_properties('sensor_msgs/msg/PointCloud2', '/points'), *CLOUD)
+
+    def decode(self, message: Any) -> Cloud:
+        """
+        Convert a message to points.
+
+        Parameters
+        ----------
+        message
+            As for `CloudDisplay.decode`.
+
+        """
+        return decode_cloud(message)

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
-from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import ColorOf, Flag, Number, topic_properties
 from rviz_common.status import Level
+from rviz_common.topic_display import MessageDisplay
+from rviz_default_plugins.bodies import add_arrow_to, opacity_of
 from rviz_default_plugins.decoding.geometry import position, Quaternion, rotated, rotation
-from rviz_default_plugins.drawing.bodies import add_arrow_to, opacity_of
 from sensor_msgs.msg import Imu as ImuMessage
 
 __all__ = ['Imu']

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The display of an occupancy grid."""
+"""The display of an occupancy grid, as an image in the scene that is updated often."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from weakref import WeakKeyDictionary
 from map_msgs.msg import OccupancyGridUpdate
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
-from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import Choice, Flag, Number, topic_properties, Whole
 from rviz_common.status import Level
-from rviz_default_plugins.decoding.geometry import position, rotated, rotation
+from rviz_common.topic_display import MessageDisplay
+from rviz_default_plugins.decoding.geometry import position, Quaternion, rotated, rotation, Triple
 from rviz_default_plugins.decoding.occupancy import (
     apply_update,
     binary,
@@ -22,7 +22,6 @@ from rviz_default_plugins.decoding.occupancy import (
     png_of,
     thinned,
 )
-from rviz_default_plugins.drawing.flat_picture import FlatPicture
 
 __all__ = ['Map']
 
@@ -34,6 +33,8 @@ LOOK = ('Alpha', 'Color Scheme', 'Binary representation', 'Binary threshold')
 MOST_WAITING = 1000
 MOST_WAITING_CELLS = 100_000_000
 """The maximum number of cells, of a byte each, in the queued updates."""
+
+NOTHING = np.zeros((1, 1, 4), np.uint8)
 
 
 class Map(MessageDisplay):
@@ -59,7 +60,7 @@ class Map(MessageDisplay):
         taken = self._layers.setdefault(self.context.scene, set())
         self._layer = next(layer for layer in range(len(taken) + 1) if layer not in taken)
         taken.add(self._layer)
-        self._picture = FlatPicture(self.context.scene, f'{self.root}/map')
+        self._picture = _FlatPicture(self.context.scene, f'{self.root}/map')
         self._shown_as: tuple[Any, ...] = ()
         self._shown_cells: Cells = np.empty((0, 0), np.int8)
         self._of: Any = None
@@ -182,3 +183,61 @@ class _Updates:
         """Clear the queue."""
         self._waiting: deque[Any] = deque()
         self._cells = self.lost = 0
+
+
+class _FlatPicture:
+    """
+    A flat image in the scene, given as a PNG file.
+
+    The scene of viser accepts pixels and encodes them itself, with three bytes of colour each; a
+    palette of 256 colours is encoded in a seventh of the time, to a sixth of the size.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the image in the scene; no node exists before `show`.
+
+    """
+
+    def __init__(self, scene: Any, path: str) -> None:
+        self._scene, self._path = scene, path
+        self._handle: Any = None
+        self._place: tuple[Any, ...] = ()
+
+    def show(
+        self, png: bytes, size_m: tuple[float, float], position: Triple, wxyz: Quaternion
+    ) -> None:
+        """
+        Show an image, replacing the previous one.
+
+        Parameters
+        ----------
+        png
+            The contents of a PNG file.
+        size_m
+            Width and height, in m.
+        position
+            The centre of the image, in m in the frame of the parent node.
+        wxyz
+            Its rotation, as w, x, y and z.
+
+        """
+        place = (size_m, position, wxyz)
+        if self._handle is None:
+            width, height = size_m
+            self._handle = self._scene.add_image(
+                self._path, NOTHING, width, height, format='png', position=position, wxyz=wxyz
+            )
+        elif place != self._place:
+            self._handle.render_width, self._handle.render_height = size_m
+            self._handle.position, self._handle.wxyz = position, wxyz
+        self._place = place
+        self._handle._data = png
+
+    def remove(self) -> None:
+        """Remove the image."""
+        if self._handle is not None:
+            self._handle.remove()
+            self._handle = None

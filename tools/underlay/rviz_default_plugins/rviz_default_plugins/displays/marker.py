@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The display of single markers."""
+"""The displays of markers, single or in arrays."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from rviz_common.status import Level
 from rviz_common.topic_display import TopicDisplay
 from rviz_default_plugins.markers.marker_scene import MarkerScene
 from visualization_msgs.msg import Marker as MarkerMessage
+from visualization_msgs.msg import MarkerArray as MarkerArrayMessage
 
-__all__ = ['NAMESPACES', 'Marker', 'Markers']
+__all__ = ['NAMESPACES', 'Marker', 'MarkerArray', 'Markers']
 
 NAMESPACES = Flags('Namespaces', {}, 'Which markers are shown, by their namespace.')
 
@@ -95,3 +96,27 @@ class Marker(Markers):
 
         """
         return (message,)
+
+
+class MarkerArray(Markers):
+    """The markers of a topic that has arrays of them."""
+
+    CLASS = 'rviz_default_plugins/MarkerArray'
+    MESSAGE = MarkerArrayMessage
+    PROPERTIES = (
+        *topic_properties('visualization_msgs/msg/MarkerArray', '/visualization_marker_array'),
+        NAMESPACES,
+    )
+
+    def markers_of(self, message: Any) -> Iterable[Any]:
+        """
+        Select the markers of an array.
+
+        Parameters
+        ----------
+        message
+            As for `Markers.markers_of`.
+
+        """
+        markers: Iterable[Any] = message.markers
+        return markers

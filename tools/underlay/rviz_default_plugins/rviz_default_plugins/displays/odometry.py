@@ -14,7 +14,7 @@ from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import Number, topic_properties, Whole
 from rviz_default_plugins.decoding.geometry import position, rotation
-from rviz_default_plugins.drawing.pose_shape import (
+from rviz_default_plugins.displays.pose import (
     add_covariance,
     add_pose,
     COVARIANCE,

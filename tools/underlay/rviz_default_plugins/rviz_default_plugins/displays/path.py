@@ -12,9 +12,8 @@ from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties, Vector, Whole
 from rviz_common.status import Level
+from rviz_default_plugins.bodies import add_copies, add_lines, arrow
 from rviz_default_plugins.decoding.geometry import finite_points_of, Points, rotations_of
-from rviz_default_plugins.drawing.bodies import add_copies, add_lines
-from rviz_default_plugins.drawing.surfaces import arrow
 
 __all__ = ['Path']
 

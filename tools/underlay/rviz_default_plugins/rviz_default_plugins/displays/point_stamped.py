@@ -10,8 +10,8 @@ from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties, Whole
+from rviz_default_plugins.bodies import opacity_of
 from rviz_default_plugins.decoding.geometry import position
-from rviz_default_plugins.drawing.bodies import opacity_of
 
 __all__ = ['PointStamped']
 

@@ -8,10 +8,10 @@ from typing import Any
 from geometry_msgs.msg import PolygonStamped
 import numpy as np
 from rviz_common.canvas import Canvas
-from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties
+from rviz_common.topic_display import MessageDisplay
+from rviz_default_plugins.bodies import add_lines
 from rviz_default_plugins.decoding.geometry import finite_points_of
-from rviz_default_plugins.drawing.bodies import add_lines
 
 __all__ = ['Polygon']
 

@@ -10,9 +10,8 @@ from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties, Whole
+from rviz_default_plugins.bodies import add_surface, cone
 from rviz_default_plugins.decoding.geometry import FARTHEST
-from rviz_default_plugins.drawing.bodies import add_surface
-from rviz_default_plugins.drawing.surfaces import cone
 from sensor_msgs.msg import Range as RangeMessage
 
 __all__ = ['Range']

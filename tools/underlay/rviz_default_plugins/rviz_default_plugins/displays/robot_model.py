@@ -13,9 +13,14 @@ from rviz_common.properties import Choice, Flag, Number, qos_of, Text, topic_pro
 from rviz_common.status import Level
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.description import DescriptionTopic, read_description
-from rviz_default_plugins.robot.mesh_shelf import MeshShelf
-from rviz_default_plugins.robot.missing_links import say_missing
-from rviz_default_plugins.robot.robot_scene import Look, MAX_SHAPES, PoseOf, RobotScene
+from rviz_default_plugins.robot.mesh_loading import MeshShelf
+from rviz_default_plugins.robot.robot_scene import (
+    Look,
+    MAX_SHAPES,
+    PoseOf,
+    RobotScene,
+    say_missing,
+)
 from urdf import Joint, Mesh, parse_urdf, UrdfError
 from urdf import RobotModel as Robot
 

@@ -13,11 +13,9 @@ from rviz_common.properties import Flag, Number, Text
 from rviz_common.status import Level
 from rviz_default_plugins.decoding.geometry import FARTHEST
 from rviz_default_plugins.parts import Parts
-from rviz_default_plugins.tf.ageing import Age, Ageing
-from rviz_default_plugins.tf.frame_filter import FrameFilter
-from rviz_default_plugins.tf.frames_scene import FramesScene, FrameStyle, Segments
-from rviz_default_plugins.tf.placing import placed
-from tf2_py._link import Sample
+from rviz_default_plugins.tf_frames import Age, Ageing, FrameFilter, placed
+from rviz_default_plugins.tf_scene import FramesScene, FrameStyle, Segments
+from tf2_py._caches import Sample
 from tf2_py._pose import Pose
 
 __all__ = ['TF']

@@ -8,18 +8,20 @@ from typing import Any
 
 import numpy as np
 from rviz_common.canvas import Canvas
-from rviz_default_plugins.decoding.geometry import along_x, Points
-from rviz_default_plugins.drawing.bodies import (
+from rviz_default_plugins.bodies import (
     add_copies,
     add_lines,
     add_surface,
+    arrow,
+    cube,
     opacity_of,
     Paint,
+    sphere,
+    Surface,
 )
-from rviz_default_plugins.drawing.glb import glb_of
-from rviz_default_plugins.drawing.surfaces import arrow, cube, sphere, Surface
+from rviz_default_plugins.decoding.geometry import along_x, Points
 from rviz_default_plugins.markers.look import Look
-from rviz_default_plugins.markers.mesh import draw_mesh
+from rviz_default_plugins.markers.mesh import draw_mesh, glb_of
 from visualization_msgs.msg import Marker
 
 __all__ = ['draw_look']

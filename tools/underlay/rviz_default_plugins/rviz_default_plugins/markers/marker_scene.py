@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All markers of a display."""
+"""All markers of a display, and the queue of those that arrived since the last frame."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from typing import Any
 
 from rviz_common.frames import FrameError, Frames, Pose
 from rviz_common.status import Level, Statuses
-from rviz_default_plugins.markers.inbox import Coming, Inbox, Key
-from rviz_default_plugins.markers.shown_marker import ShownMarker
+from rviz_default_plugins.markers.shown_marker import Coming, ShownMarker
 from visualization_msgs.msg import Marker
 
 __all__ = ['MarkerScene']
@@ -18,6 +17,9 @@ MOST = 5000
 """The maximum number of markers that are shown."""
 MOST_PER_FRAME = 200
 """The maximum number drawn in one frame; the others follow in the next frames."""
+
+Key = tuple[str, int]
+"""The namespace of a marker, and its id."""
 
 
 class MarkerScene:
@@ -40,7 +42,7 @@ class MarkerScene:
     def __init__(self, scene: Any, frames: Frames, root: str, status: Statuses) -> None:
         self._scene, self._frames, self._root, self._status = scene, frames, root, status
         self._shown: dict[Key, ShownMarker] = {}
-        self._inbox = Inbox()
+        self._inbox = _Inbox()
         self._left_out: set[Key] = set()
         self._serial = 0
         self._fixed_frame = frames.fixed_frame
@@ -174,3 +176,56 @@ class MarkerScene:
         markers = '1 marker is' if len(said) == 1 else f'{len(said)} markers are'
         sentence = f'{markers} perhaps {what}' if level is Level.WARN else f'{markers} {what}'
         self._status.say(subject, level, f"{sentence}; '{namespace}/{number}': {reason}")
+
+
+class _Inbox:
+    """Queue of marker messages; a newer message replaces an older one of the same marker."""
+
+    def __init__(self) -> None:
+        self.deletes_all = False
+        self.coming: dict[Key, Coming] = {}
+        self.refusal = ''
+
+    def put(self, marker: Any, came_ns: int) -> None:
+        """
+        Queue a marker, replacing an older one with the same namespace and id.
+
+        Parameters
+        ----------
+        marker
+            The message, of the type `visualization_msgs/msg/Marker`. DELETEALL also drops
+            the queued ones.
+        came_ns
+            Its time of reception, in ns of the node's clock.
+
+        """
+        if marker.action == Marker.DELETEALL:
+            self.deletes_all = True
+            self.coming = {}
+        elif marker.action in (Marker.ADD, Marker.DELETE):  # MODIFY has the same value as ADD
+            key = marker.ns, marker.id
+            self.coming.pop(key, None)
+            self.coming[key] = Coming(marker, came_ns)
+        else:
+            self.refusal = (
+                f'The marker {marker.ns}/{marker.id} is left out: its action {marker.action} is '
+                'not known.'
+            )
+
+    def take_some(self, most: int) -> list[tuple[Key, Coming]]:
+        """
+        Remove and return the oldest markers in the queue; the rest wait for the next frame.
+
+        Parameters
+        ----------
+        most
+            The maximum number of markers to return.
+
+        Returns
+        -------
+        list[tuple[Key, Coming]]
+            The markers to add, change or delete, with their namespaces and ids.
+
+        """
+        keys = list(self.coming)[:most]
+        return [(key, self.coming.pop(key)) for key in keys]

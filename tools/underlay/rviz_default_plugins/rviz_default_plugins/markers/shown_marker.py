@@ -1,28 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A marker in the scene."""
+"""A marker in the scene, which further messages may change."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
-from rviz_default_plugins.decoding.geometry import (
-    joined,
-    position,
-    Quaternion,
-    rotated,
-    rotation,
-)
+from rviz_default_plugins.decoding.geometry import joined, position, Quaternion, rotated, rotation
 from rviz_default_plugins.markers.drawing import draw_look
-from rviz_default_plugins.markers.inbox import Coming
 from rviz_default_plugins.markers.look import Look, look_of
 from rviz_default_plugins.markers.mesh import MeshIsBeingRead
 
-__all__ = ['ShownMarker']
+__all__ = ['Coming', 'ShownMarker']
 
 NO_ROTATION: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+class Coming(NamedTuple):
+    """The newest message of a marker, and its reception time in ns of the node's clock."""
+
+    marker: Any
+    came_ns: int
 
 
 class ShownMarker:

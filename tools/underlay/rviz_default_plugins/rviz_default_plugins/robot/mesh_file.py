@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Resolution of the file names in a URDF."""
+"""Which file of this machine a name in a URDF stands for."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ import os
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from rviz_default_plugins.robot.mesh_error import MeshError
-from urdf.did_you_mean import did_you_mean
+from ros_environment.suggestions import did_you_mean
 
-__all__ = ['KINDS', 'find_file', 'find_mesh', 'folder_of']
+__all__ = ['MeshError', 'find_file', 'find_mesh', 'folder_of']
 
 KINDS = ('.stl', '.obj', '.glb', '.gltf', '.ply', '.dae')
+
+
+class MeshError(ValueError):
+    """A mesh that cannot be shown, with the reason."""
 
 
 def find_mesh(name: str) -> Path:
@@ -38,7 +41,7 @@ def find_mesh(name: str) -> Path:
     except OSError as error:
         raise MeshError(f"'{name}' cannot be read: {error.strerror}.") from None
     if not is_there:
-        raise MeshError(f"'{name}' is not there: {path} is no file.{_meant(path)}")
+        raise MeshError(f"'{name}' is not there: {path} is no file. {_meant(path)}".rstrip())
     return path
 
 
@@ -131,10 +134,10 @@ def _share(name: str, package: str) -> Path:
     try:
         return Path(get_package_share_directory(package))
     except (PackageNotFoundError, ValueError):
-        meant = did_you_mean(package, get_packages_with_prefixes())
+        meant = did_you_mean(package, get_packages_with_prefixes(), 0.75)
+        advice = f'{meant} Build it, and source the workspace before the start.'.lstrip()
         raise MeshError(
-            f"'{name}' is in package '{package}', which is not installed.{meant} Build it, and "
-            'source the workspace before the start.'
+            f"'{name}' is in package '{package}', which is not installed. {advice}"
         ) from None
 
 
@@ -144,4 +147,4 @@ def _meant(path: Path) -> str:
         beside = [each.name for each in path.parent.iterdir() if each.name != path.name]
     except OSError:
         return ''
-    return did_you_mean(path.name, beside)
+    return did_you_mean(path.name, beside, 0.75)

@@ -1,21 +1,52 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Loading of mesh files."""
+"""How mesh files are read, simplified and cached."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isqrt
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rviz_default_plugins.robot.mesh import DrawnMesh, Surface
-from rviz_default_plugins.robot.mesh_error import MeshError
-from rviz_default_plugins.robot.mesh_thinning import thinned
+from numpy.typing import NDArray
+from rviz_default_plugins.robot.mesh_file import find_mesh, folder_of, MeshError
 from urdf import Color
 
-__all__ = ['MAX_BYTES', 'MAX_TRIANGLES', 'load_mesh']
+__all__ = ['DrawnMesh', 'MeshShelf', 'load_mesh', 'thinned']
+
+Vertices = NDArray[np.float32]
+Faces = NDArray[np.uint32]
 
 MAX_BYTES = 100_000_000
 MAX_TRIANGLES = 200_000
+
+STEP = 0.7
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Triangles, with their colour if they have one; `glb` has all colours and textures."""
+
+    vertices: Vertices
+    faces: Faces
+    color: Color | None = None
+    glb: bytes | None = None
+
+
+@dataclass(frozen=True)
+class DrawnMesh:
+    """The contents of a mesh file, in metres; `warning` reports if they are incomplete."""
+
+    surfaces: tuple[Surface, ...]
+    is_flat: bool = False
+    warning: str = ''
+
+    @property
+    def triangle_count(self) -> int:
+        """The number of triangles."""
+        return sum(len(surface.faces) for surface in self.surfaces)
 
 
 def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
@@ -62,7 +93,7 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
     is_flat = path.suffix.lower() == '.stl'
     if count <= MAX_TRIANGLES:
         return DrawnMesh(tuple(map(_surface, bodies)), is_flat)
-    return _thinned(bodies, count, is_flat, name)
+    return _simplified(bodies, count, is_flat, name)
 
 
 def _bodies(path: Path, name: str, folder: Path) -> list[Any]:
@@ -118,7 +149,7 @@ def _color(given: Any) -> Color:
     return red, green, blue, opacity
 
 
-def _thinned(bodies: list[Any], count: int, is_flat: bool, name: str) -> DrawnMesh:
+def _simplified(bodies: list[Any], count: int, is_flat: bool, name: str) -> DrawnMesh:
     """Simplify bodies with too many triangles; each keeps its share of the limit."""
     surfaces = []
     for body in bodies:
@@ -131,3 +162,105 @@ def _thinned(bodies: list[Any], count: int, is_flat: bool, name: str) -> DrawnMe
         f'at most {MAX_TRIANGLES}.'
     )
     return DrawnMesh(mesh.surfaces, is_flat, warning)
+
+
+def thinned(vertices: Vertices, faces: Faces, limit: int) -> tuple[Vertices, Faces]:
+    """
+    Simplify a mesh by vertex clustering: the vertices in each cell of a lattice become one.
+
+    Parameters
+    ----------
+    vertices
+        The vertices (N, 3).
+    faces
+        The indices of the vertices of each triangle (M, 3).
+    limit
+        The maximum number of triangles of the result.
+
+    Returns
+    -------
+    tuple[Vertices, Faces]
+        Fewer vertices and triangles, in the same format.
+
+    """
+    lowest = vertices.min(axis=0)
+    extent = float(np.ptp(vertices, axis=0).max()) or 1.0
+    cells = 2 * isqrt(limit) + 1
+    while len(faces) > limit and cells > 1:
+        lattice = np.floor((vertices - lowest) / extent * cells).astype(np.int64)
+        vertices, faces = _merged(vertices, faces, lattice @ np.array(_weights(cells)))
+        cells = int(cells * STEP)
+    return vertices, faces[:limit]
+
+
+def _weights(cells: int) -> tuple[int, int, int]:
+    """Return the index strides that give each cell a unique number."""
+    return 1, cells + 1, (cells + 1) ** 2
+
+
+def _merged(
+    vertices: Vertices, faces: Faces, cell_of: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+) -> tuple[Vertices, Faces]:
+    """Merge the vertices of each cell into their mean; drop triangles that collapse."""
+    _, cells, counts = np.unique(cell_of, return_inverse=True, return_counts=True)
+    cells = cells.ravel()
+    sums = [np.bincount(cells, weights=vertices[:, axis]) for axis in range(3)]
+    means = (np.stack(sums, axis=1) / counts[:, None]).astype(np.float32)
+    moved = cells[faces].astype(np.uint32)
+    a, b, c = moved.T
+    kept = moved[(a != b) & (b != c) & (a != c)]
+    _, first = np.unique(np.sort(kept, axis=1), axis=0, return_index=True)
+    return means, kept[np.sort(first)]
+
+
+class MeshShelf:
+    """
+    Cache of the meshes of a robot by name, and of the reasons why some cannot be shown.
+
+    Parameters
+    ----------
+    before
+        Another cache, whose meshes are reused as long as their files are unchanged.
+
+    Attributes
+    ----------
+    meshes
+        The meshes that have been read, by the names in the URDF.
+    complaints
+        A message for each mesh that is missing, broken or simplified.
+
+    """
+
+    def __init__(self, before: MeshShelf | None = None) -> None:
+        self._read: dict[Path, tuple[int, DrawnMesh]] = dict(before._read) if before else {}
+        self.meshes: dict[str, DrawnMesh] = {}
+        self.complaints: list[str] = []
+
+    def read(self, names: Iterable[str]) -> None:
+        """
+        Read meshes that are not in the cache; this may take seconds.
+
+        Parameters
+        ----------
+        names
+            The names in the URDF, as for `find_file`.
+
+        """
+        for name in dict.fromkeys(names):
+            try:
+                mesh = self.meshes[name] = self._mesh(name)
+            except MeshError as error:
+                self.complaints.append(str(error))
+            except OSError as error:
+                self.complaints.append(f"'{name}' cannot be read: {error.strerror}.")
+            else:
+                if mesh.warning:
+                    self.complaints.append(mesh.warning)
+
+    def _mesh(self, name: str) -> DrawnMesh:
+        path = find_mesh(name)
+        changed_ns = path.stat().st_mtime_ns
+        known = self._read.get(path)
+        if known is None or known[0] != changed_ns:
+            known = self._read[path] = changed_ns, load_mesh(path, name, folder_of(name))
+        return known[1]

@@ -1,30 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes of the scene for a robot."""
+"""The links of a robot in the scene, and reports on those that no transform places."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Optional, TYPE_CHECKING
 from urllib.parse import quote
 
 from rviz_common.frames import Pose
+from rviz_common.status import Level, Statuses
 from rviz_default_plugins.parts import Parts
-from rviz_default_plugins.robot.inflating import inflated
-from rviz_default_plugins.robot.link_node import LinkNode
-from rviz_default_plugins.robot.mesh import DrawnMesh
-from rviz_default_plugins.robot.shape_drawing import draw_shape
+from rviz_default_plugins.robot.mesh_loading import DrawnMesh
+from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated
 from urdf import Color, Joint, Link, RobotModel, Shape
 
 if TYPE_CHECKING:
-    from viser import SceneApi
+    from viser import FrameHandle, SceneApi
 
-__all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene', 'downwards']
+__all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene', 'say_missing']
 
 PoseOf = Callable[[Joint], Optional[Pose]]
 
 MAX_SHAPES = 3000
 AXES_M = 0.1
+
+MAX_SENTENCES = 20
+SUBJECT = 'Link '
 
 
 @dataclass(frozen=True)
@@ -108,8 +110,8 @@ class RobotScene:
         links = {link.name: link for link in model.links}
         paths = {model.root: f'{path}/{_named(model.root)}'}
         self._root = self._add(links[model.root], paths[model.root])
-        self._below: list[tuple[Joint, LinkNode]] = []
-        for joint in downwards(model):
+        self._below: list[tuple[Joint, _LinkNode]] = []
+        for joint in _downwards(model):
             node_path = paths[joint.child] = f'{paths[joint.parent]}/{_named(joint.child)}'
             self._below.append((joint, self._add(links[joint.child], node_path)))
 
@@ -143,7 +145,7 @@ class RobotScene:
         """Remove the nodes."""
         self._top.remove()
 
-    def _add(self, link: Link, path: str) -> LinkNode:
+    def _add(self, link: Link, path: str) -> _LinkNode:
         has_axes = self._look.links.has_axes(link.name)
         handle = self._scene.add_frame(
             path,
@@ -160,10 +162,10 @@ class RobotScene:
             self._drawn += 1
             body = inflated(shape, self._look.margin_m)
             draw_shape(self._scene, f'{path}/{name}', body, alpha, self._meshes, self._look.color)
-        return LinkNode(handle)
+        return _LinkNode(handle)
 
 
-def downwards(model: RobotModel) -> Iterator[Joint]:
+def _downwards(model: RobotModel) -> Iterator[Joint]:
     """
     Iterate over the joints of a robot from the root, each after its parent joint.
 
@@ -191,3 +193,108 @@ def downwards(model: RobotModel) -> Iterator[Joint]:
 def _named(link: str) -> str:
     """Escape the name of a link for a path of the scene, in which slashes are separators."""
     return quote(link, safe='')
+
+
+class _LinkNode:
+    """
+    A node of the scene of which only changes are sent to browsers.
+
+    Parameters
+    ----------
+    handle
+        The handle of viser for an invisible node at the origin.
+
+    """
+
+    def __init__(self, handle: FrameHandle) -> None:
+        self._handle = handle
+        self._pose = Pose()
+        self._is_visible = False
+
+    def place(self, pose: Pose | None) -> None:
+        """
+        Move the node, and show it; hide it and all nodes below it if its pose is unknown.
+
+        Parameters
+        ----------
+        pose
+            The pose relative to the parent node, None if it is unknown.
+
+        """
+        if (pose is not None) != self._is_visible:
+            self._is_visible = pose is not None
+            self._handle.visible = self._is_visible
+        if pose is None or pose == self._pose:
+            return
+        if pose.position != self._pose.position:
+            self._handle.position = pose.position
+        if pose.wxyz != self._pose.wxyz:
+            self._handle.wxyz = pose.wxyz
+        self._pose = pose
+
+
+def say_missing(
+    status: Statuses,
+    unknown: Sequence[Joint],
+    model: RobotModel,
+    frames: Iterable[str],
+    prefix: str,
+) -> None:
+    """
+    Report the links of a robot without a transform in the status, replacing earlier reports.
+
+    Parameters
+    ----------
+    status
+        The status of the display.
+    unknown
+        The joints whose pose is unknown.
+    model
+        The robot.
+    frames
+        The names of the known frames, used to detect a wrong prefix.
+    prefix
+        The prefix of the links in the names of frames, with a trailing slash, or ''.
+
+    """
+    for subject, _, _ in status.items():
+        if subject.startswith(SUBJECT):
+            status.forget(subject)
+    for link, sentence in _sentences(unknown, model, frames, prefix):
+        status.say(SUBJECT + link, Level.ERROR, sentence)
+
+
+def _sentences(
+    unknown: Sequence[Joint], model: RobotModel, frames: Iterable[str], prefix: str
+) -> Iterator[tuple[str, str]]:
+    if unknown and len(unknown) == len(model.joints):
+        yield '...', _nobody(unknown[0], frames, prefix)
+        return
+    for joint in unknown[:MAX_SENTENCES]:
+        yield joint.child, f'{_no_transform(joint, prefix)}: {_reason(joint)}'
+    if len(unknown) > MAX_SENTENCES:
+        yield '...', f'{len(unknown) - MAX_SENTENCES} more links have no transform.'
+
+
+def _no_transform(joint: Joint, prefix: str) -> str:
+    return f'No transform from [{prefix}{joint.child}] to [{prefix}{joint.parent}]'
+
+
+def _reason(joint: Joint) -> str:
+    if not joint.moves:
+        return f"robot_state_publisher publishes that of joint '{joint.name}'. Is it running?"
+    master = joint.mimic.joint if joint.mimic else joint.name
+    return (
+        f"no joint state for '{master}' has come to robot_state_publisher yet. Who moves the "
+        'robot is to publish it on joint_states.'
+    )
+
+
+def _nobody(joint: Joint, frames: Iterable[str], prefix: str) -> str:
+    """Suggest a remedy if there is no transform at all: a publisher, or another prefix."""
+    what = f'{_no_transform(joint, prefix)}, nor of any other link: nobody publishes them.'
+    for name in sorted(frames):
+        if name.endswith(f'/{joint.child}') and name != prefix + joint.child:
+            meant = name[: -len(joint.child) - 1]
+            return f"{what} There is [{name}], though: set 'TF Prefix' to '{meant}'."
+    return f'{what} Start robot_state_publisher, and who publishes joint_states.'

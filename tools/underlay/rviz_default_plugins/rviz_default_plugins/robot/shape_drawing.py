@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drawing of the bodies of links."""
+"""How the bodies of links are drawn, inflated to be visible around others at the same place."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, TYPE_CHECKING
 
 import numpy as np
-from rviz_default_plugins.robot.mesh import DrawnMesh
-from urdf import Box, Capsule, Color, Cylinder, Mesh, Shape, Sphere
+from rviz_default_plugins.robot.mesh_loading import DrawnMesh
+from urdf import Box, Capsule, Color, Cylinder, Geometry, Mesh, Shape, Sphere
 from urdf.kinematics import rotation_of
 
 if TYPE_CHECKING:
     from viser import SceneApi
 
-__all__ = ['draw_shape']
+__all__ = ['draw_shape', 'inflated']
 
 GREY: Color = (0.7, 0.7, 0.7, 1.0)
+
+MESH_SIZE_M = 0.3
+"""The assumed size of meshes, whose actual size is only known once they are read."""
 
 
 def draw_shape(
@@ -112,3 +116,33 @@ def _draw_mesh(
             **_look(tint or surface.color or color or GREY, alpha),
             **place,
         )
+
+
+def inflated(shape: Shape, margin_m: float) -> Shape:
+    """
+    Enlarge a body, so that its whole surface moves outwards by a margin.
+
+    Parameters
+    ----------
+    shape
+        The body. A mesh is scaled as if it were 0.3 m large.
+    margin_m
+        The margin, in m.
+
+    """
+    return replace(shape, geometry=_inflated(shape.geometry, margin_m)) if margin_m else shape
+
+
+def _inflated(body: Geometry, margin_m: float) -> Geometry:
+    if isinstance(body, Box):
+        x, y, z = body.size
+        return Box((x + 2 * margin_m, y + 2 * margin_m, z + 2 * margin_m))
+    if isinstance(body, Cylinder):
+        return Cylinder(body.radius + margin_m, body.length + 2 * margin_m)
+    if isinstance(body, Capsule):
+        return Capsule(body.radius + margin_m, body.length)
+    if isinstance(body, Sphere):
+        return Sphere(body.radius + margin_m)
+    factor = 1.0 + 2 * margin_m / MESH_SIZE_M
+    x, y, z = body.scale
+    return Mesh(body.file, (x * factor, y * factor, z * factor))

@@ -13,24 +13,13 @@ from PIL import Image as PillowImage
 import pytest
 from rviz_default_plugins.displays import map as map_module
 from rviz_default_plugins.displays.camera import Camera, info_topic, view_of
+from rviz_default_plugins.displays.clouds import LaserScan, PointCloud2
 from rviz_default_plugins.displays.image import Image
-from rviz_default_plugins.displays.laser_scan import LaserScan
 from rviz_default_plugins.displays.map import Map
-from rviz_default_plugins.displays.point_cloud2 import PointCloud2
-from sensor_msgs.msg import (
-    CameraInfo,
-    CompressedImage,
-    PointField,
-)
-from sensor_msgs.msg import (
-    Image as ImageMessage,
-)
-from sensor_msgs.msg import (
-    LaserScan as ScanMessage,
-)
-from sensor_msgs.msg import (
-    PointCloud2 as CloudMessage,
-)
+from sensor_msgs.msg import CameraInfo, CompressedImage, PointField
+from sensor_msgs.msg import Image as ImageMessage
+from sensor_msgs.msg import LaserScan as ScanMessage
+from sensor_msgs.msg import PointCloud2 as CloudMessage
 
 NAN = float('nan')
 HALF = 0.5**0.5

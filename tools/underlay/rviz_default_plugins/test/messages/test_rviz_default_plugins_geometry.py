@@ -4,7 +4,7 @@
 from geometry_msgs.msg import Point, Quaternion
 import numpy as np
 import pytest
-from rviz_default_plugins.decoding.covariance import ellipsoid_of
+from rviz_default_plugins.bodies import arrow, cone, cube, revolved, sphere
 from rviz_default_plugins.decoding.geometry import (
     along_x,
     finite_points_of,
@@ -16,7 +16,7 @@ from rviz_default_plugins.decoding.geometry import (
     rotation,
     rotations_of,
 )
-from rviz_default_plugins.drawing.surfaces import arrow, cone, cube, revolved, sphere
+from rviz_default_plugins.displays.pose import ellipsoid_of
 
 HALF = 0.5**0.5
 

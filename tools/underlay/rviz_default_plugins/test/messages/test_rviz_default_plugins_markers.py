@@ -8,11 +8,10 @@ from geometry_msgs.msg import Point
 from message_stage import all_sentences, near, sentence
 import numpy as np
 import pytest
-from rviz_default_plugins.displays.marker import Marker
-from rviz_default_plugins.displays.marker_array import MarkerArray
-from rviz_default_plugins.drawing.glb import glb_of
+from rviz_default_plugins.displays.marker import Marker, MarkerArray
 from rviz_default_plugins.markers import marker_scene
 from rviz_default_plugins.markers.look import look_of, MOST
+from rviz_default_plugins.markers.mesh import glb_of
 from std_msgs.msg import ColorRGBA
 import trimesh
 from visualization_msgs.msg import Marker as Message

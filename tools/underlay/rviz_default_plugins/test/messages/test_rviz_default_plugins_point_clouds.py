@@ -5,15 +5,8 @@ import struct
 
 import numpy as np
 import pytest
-from rviz_default_plugins.decoding.cloud import Cloud
-from rviz_default_plugins.decoding.cloud_colors import (
-    colors_rgb8,
-    colors_rgbf32,
-    rainbow,
-    Scale,
-)
-from rviz_default_plugins.decoding.laser_scan import decode_scan
-from rviz_default_plugins.decoding.point_cloud import decode_cloud
+from rviz_default_plugins.decoding.cloud_colors import colors_rgb8, colors_rgbf32, rainbow, Scale
+from rviz_default_plugins.decoding.clouds import Cloud, decode_cloud, decode_scan
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField
 
 NAN, INF = float('nan'), float('inf')

@@ -8,18 +8,10 @@ from geometry_msgs.msg import (
     PoseWithCovarianceStamped,
     WrenchStamped,
 )
-from geometry_msgs.msg import (
-    PointStamped as PointMessage,
-)
-from geometry_msgs.msg import (
-    Pose as PoseMessage,
-)
-from geometry_msgs.msg import (
-    PoseArray as PoseArrayMessage,
-)
-from geometry_msgs.msg import (
-    TwistStamped as TwistMessage,
-)
+from geometry_msgs.msg import PointStamped as PointMessage
+from geometry_msgs.msg import Pose as PoseMessage
+from geometry_msgs.msg import PoseArray as PoseArrayMessage
+from geometry_msgs.msg import TwistStamped as TwistMessage
 from message_stage import near, sentence, vector
 from nav_msgs.msg import Odometry as OdometryMessage
 from nav_msgs.msg import Path as PathMessage
@@ -30,12 +22,10 @@ from rviz_default_plugins.displays.odometry import Odometry
 from rviz_default_plugins.displays.path import Path
 from rviz_default_plugins.displays.point_stamped import PointStamped
 from rviz_default_plugins.displays.polygon import Polygon
-from rviz_default_plugins.displays.pose import Pose
+from rviz_default_plugins.displays.pose import Pose, PoseWithCovariance
 from rviz_default_plugins.displays.pose_array import MOST, PoseArray
-from rviz_default_plugins.displays.pose_with_covariance import PoseWithCovariance
 from rviz_default_plugins.displays.range import Range
-from rviz_default_plugins.displays.twist_stamped import TwistStamped
-from rviz_default_plugins.displays.wrench import Wrench
+from rviz_default_plugins.displays.twist_and_wrench import TwistStamped, Wrench
 from sensor_msgs.msg import Imu as ImuMessage
 from sensor_msgs.msg import Range as RangeMessage
 

@@ -12,8 +12,8 @@ import pytest
 from rviz_common.context import Context
 from rviz_common.display import Display
 from rviz_common.frames import Frames
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import String
 from tf2_ros import Buffer
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rviz_default_plugins.displays.grid import Grid
-from rviz_default_plugins.grid_lines import GridSize, in_pieces, lines
+from rviz_default_plugins.displays.grid_and_axes import Grid, GridSize, in_pieces, lines
 from stage import sentence, Stage
 
 

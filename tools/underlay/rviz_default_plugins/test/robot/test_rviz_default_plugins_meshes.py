@@ -14,11 +14,8 @@ from PIL import Image
 import pytest
 from rviz_default_plugins.displays.robot_model import RobotModel
 from rviz_default_plugins.robot import mesh_loading
-from rviz_default_plugins.robot.mesh_error import MeshError
-from rviz_default_plugins.robot.mesh_file import find_mesh
-from rviz_default_plugins.robot.mesh_loading import load_mesh
-from rviz_default_plugins.robot.mesh_shelf import MeshShelf
-from rviz_default_plugins.robot.mesh_thinning import thinned
+from rviz_default_plugins.robot.mesh_file import find_mesh, MeshError
+from rviz_default_plugins.robot.mesh_loading import load_mesh, MeshShelf, thinned
 from stage import sentence, Stage
 import trimesh
 

@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from rviz_default_plugins.displays.tf import TF
-from rviz_default_plugins.tf.ageing import Age, Ageing
-from rviz_default_plugins.tf.frame_filter import FrameFilter
-from rviz_default_plugins.tf.placing import placed
+from rviz_default_plugins.tf_frames import Age, Ageing, FrameFilter, placed
 from stage import sentence, Stage
-from tf2_py._link import Sample
+from tf2_py._caches import Sample
 
 TURNED = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
 
@@ -59,7 +57,7 @@ def test_arrows_and_names(stage: Stage) -> None:
 
 def test_many_names_take_turns(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     """If many names move, some do so in each frame, and all of them in the end."""
-    monkeypatch.setattr('rviz_default_plugins.tf.frame_names.MAX_MOVES', 2)
+    monkeypatch.setattr('rviz_default_plugins.tf_scene.MAX_MOVES', 2)
     display = stage.show(TF, {'Show Names': True})
     names = [f'frame_{number}' for number in range(6)]
     for x, counts in ((0.0, [0]), (1.0, [2, 4, 6])):
@@ -126,7 +124,7 @@ def test_old_frames(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_grey_axes_point_where_the_frame_does(stage: Stage) -> None:
     """The axes of a frame that is turned are turned."""
-    from rviz_default_plugins.tf.frames_scene import _axis_segments
+    from rviz_default_plugins.tf_scene import _axis_segments
 
     half = math.sqrt(0.5)
     pose = np.array([[1.0, 0.0, 0.0, 0.0, 0.0, half, half]], np.float32)

@@ -10,11 +10,11 @@ import sys
 import time
 from typing import Any
 
-from robot_console.recordings.lifeline import Lifeline, tell
-from robot_console.recordings.playback import Playback
+from robot_console.recordings.programs.lifeline import Lifeline, tell
+from robot_console.recordings.programs.playback import Playback
+from ros2bag.api.control import StopSignals
 from ros2bag.api.outlets import Outlets
 from ros2bag.api.play_arguments import add_bag_argument, add_choice_arguments, filter_of, remaps
-from ros2bag.api.stop_signals import StopSignals
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.latched import RecordedMessage

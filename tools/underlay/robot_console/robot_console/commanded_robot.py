@@ -1,0 +1,308 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Display with a ghost of the robot at the commanded joint positions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import isfinite
+import time
+
+from robot_console.namespaces import below, NAMESPACE
+from rviz_common.frames import Pose
+from rviz_common.polled_topic import PolledTopic
+from rviz_common.properties import ColorOf, Flag, Property, qos_of, topic_properties
+from rviz_common.status import Level
+from rviz_default_plugins.displays.robot_model import RobotModel
+from rviz_default_plugins.robot.robot_scene import Look, PoseOf
+from urdf import Color, followed, Joint
+from urdf import RobotModel as Robot
+from urdf.kinematics import joint_motion
+from urdf.kinematics import Pose as JointPose
+
+__all__ = ['CommandedJoints', 'CommandedRobot']
+
+VALID_S = 1.0
+
+COMMANDS = 'Command Topic'
+OWN_COLOR = 'Use Color'
+MARGIN_M = 0.003
+MAX_NAMES = 5
+DEFAULTS = {
+    'Alpha': 0.3,
+    'Description Topic/Value': 'robot_description',
+    'Command Topic/Reliability Policy': 'Best Effort',
+}
+
+
+class CommandedJoints:
+    """
+    The joint positions commanded in the last second, and the link poses that result from them.
+
+    Each command may contain only some of the joints.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    Attributes
+    ----------
+    unknown
+        The joints of the last command that the robot does not have, sorted.
+
+    """
+
+    def __init__(self, model: Robot) -> None:
+        self.model = model
+        self._mimics = model.mimics
+        self._motions = {joint.name: joint_motion(joint) for joint in model.moving_joints}
+        self._fixed = {
+            joint.name: _pose(joint_motion(joint)(0.0))
+            for joint in model.joints
+            if joint.kind == 'fixed'
+        }
+        self._told: dict[str, tuple[float, float]] = {}
+        self.unknown: list[str] = []
+
+    def take(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
+        """
+        Store a command; non-finite positions are ignored.
+
+        Parameters
+        ----------
+        names, positions
+            The joints and their commanded positions, in rad or m.
+        now_s
+            The time of reception, from `time.time`.
+
+        Raises
+        ------
+        ValueError
+            The numbers of positions and names differ; the message completes a sentence.
+
+        """
+        if len(positions) != len(names):
+            raise ValueError(f'it has {len(names)} names but {len(positions)} positions.')
+        for name, position in zip(names, positions):
+            if isfinite(position) and name in self._motions:
+                self._told[name] = float(position), now_s
+        self.unknown = sorted(set(names).difference(self._motions))
+
+    def is_told(self, now_s: float) -> bool:
+        """
+        Check whether a joint was commanded in the last second.
+
+        Parameters
+        ----------
+        now_s
+            The current time, from `time.time`.
+
+        """
+        return any(now_s - at_s < VALID_S for _, at_s in self._told.values())
+
+    def poses(self, now_s: float) -> dict[str, Pose]:
+        """
+        Compute the commanded forward kinematics, joint by joint.
+
+        Mimic joints follow their leaders. Fixed joints are included while any joint is commanded.
+
+        Parameters
+        ----------
+        now_s
+            The current time, from `time.time`; commands older than a second are ignored.
+
+        Returns
+        -------
+        dict
+            The pose of the child link of each joint, by joint name, in the frame of the parent
+            link: translation in m, quaternion w, x, y, z. Joints without a command are missing.
+
+        """
+        told = {
+            name: position
+            for name, (position, at_s) in self._told.items()
+            if now_s - at_s < VALID_S
+        }
+        if not told:
+            return {}
+        poses = dict(self._fixed)
+        for name, motion in self._motions.items():
+            leader = followed(name, self._mimics, told)
+            if leader is not None:
+                poses[name] = _pose(motion(leader.multiplier * told[leader.joint] + leader.offset))
+        return poses
+
+
+def _pose(pose: JointPose) -> Pose:
+    """Convert a pose to the quaternion order of the page: w, x, y, z."""
+    x, y, z, qx, qy, qz, qw = pose
+    return Pose((x, y, z), (qw, qx, qy, qz))
+
+
+def _with_default(each: Property) -> Property:
+    """Return a property of the robot display with the default of the ghost."""
+    return replace(each, default=DEFAULTS.get(each.path, each.default))
+
+
+class CommandedRobot(RobotModel):
+    """
+    The robot as its joints were told to stand, at the place where it is.
+
+    Joints without a command are shown as measured. The ghost is hidden a second after the last
+    command.
+    """
+
+    CLASS = 'robot_console/CommandedRobot'
+    PROPERTIES = (
+        NAMESPACE,
+        *map(
+            _with_default,
+            topic_properties('sensor_msgs/msg/JointState', 'joint_commands', path=COMMANDS),
+        ),
+        Flag(OWN_COLOR, True, 'Show it in one colour, and not in those of the description.'),
+        ColorOf('Color', (77, 171, 247), 'The colour of the ghost.'),
+        *map(_with_default, RobotModel.PROPERTIES),
+    )
+
+    def start(self) -> None:
+        """Request the description, and subscribe to the joint commands."""
+        self._joints: CommandedJoints | None = None
+        self._commands: PolledTopic | None = None
+        super().start()
+        self._hear(self.topic_of(COMMANDS))
+
+    def stop(self) -> None:
+        """Hide the ghost, and unsubscribe."""
+        if self._commands is not None:
+            self._commands.close()
+        self._commands = None
+        super().stop()
+
+    def on_change(self, path: str) -> None:
+        """
+        Apply a changed property: resubscribe for another command topic, redraw otherwise.
+
+        Parameters
+        ----------
+        path
+            The path of the property.
+
+        """
+        if path == NAMESPACE.path or path.startswith(COMMANDS):
+            self.stop()
+            self.start()
+        else:
+            super().on_change(path)
+
+    def topic_of(self, path: str) -> str:
+        """
+        Return the topic of a property, resolved in the namespace of the robot.
+
+        Parameters
+        ----------
+        path
+            The path of the property, without `/Value`.
+
+        """
+        return below(self.values['Namespace'], super().topic_of(path))
+
+    def look(self) -> Look:
+        """Return the appearance of the ghost: slightly larger than the robot, to avoid overlap."""
+        color: Color | None = None
+        if self.values[OWN_COLOR]:
+            red, green, blue = (part / 255.0 for part in self.values['Color'])
+            color = red, green, blue, 1.0
+        return replace(super().look(), color=color, margin_m=MARGIN_M)
+
+    def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
+        """
+        Return the pose of the root link, and a function for the commanded pose of each joint.
+
+        Parameters
+        ----------
+        model
+            The robot that is shown.
+
+        Returns
+        -------
+        tuple
+            The pose of the root link in the fixed frame, None if it is unknown or nothing was
+            commanded in the last second; and a function that returns the pose of a joint's child
+            link in the frame of the parent link (m, quaternion w, x, y, z). Joints without a
+            command have the pose from tf.
+
+        """
+        if self._joints is None or self._joints.model is not model:
+            self._joints = CommandedJoints(model)
+        self._obey(self._joints)
+        told = self._joints.poses(time.time())
+        if not told:
+            return None, lambda joint: None
+        root, measured = super().poses(model)
+        return root, lambda joint: told.get(joint.name) or measured(joint)
+
+    def say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
+        """
+        Report in the status of the display why the ghost, or a part of it, is not shown.
+
+        Parameters
+        ----------
+        model
+            The robot that is shown.
+        root
+            The pose of its root link in the fixed frame, None if it is not shown.
+        unknown
+            The joints whose pose is unknown.
+
+        """
+        joints = self._joints
+        if joints is None or not joints.is_told(time.time()):
+            self.say('Transform', '')
+            level = Level.ERROR if self._refusal else Level.WARN
+            self.say('Command', f'{self._without_command()} The ghost is hidden.', level)
+            return
+        self.say('Command', 'The ghost stands as commanded.', Level.OK)
+        self.say('Joints', _not_known(joints.unknown))
+        super().say_reasons(model, root, unknown)
+
+    def _hear(self, topic: str) -> None:
+        from sensor_msgs.msg import JointState
+
+        self._refusal = ''
+        try:
+            qos = qos_of(self.values, COMMANDS)
+            self._commands = PolledTopic(self.context.node, JointState, topic, qos)
+        except Exception as error:  # rclpy has no one exception for bad names
+            self._refusal = f"'{topic}' cannot be subscribed: {error}"
+            self.say('Command', self._refusal, Level.ERROR)
+
+    def _obey(self, joints: CommandedJoints) -> None:
+        """Apply the joint commands that were received."""
+        if self._commands is None:
+            return
+        for message, time_s in self._commands.take():
+            try:
+                joints.take(message.name, message.position, time_s)
+            except ValueError as error:
+                self.say('Message', f'A command is left out: {error}')
+            else:
+                self.status.forget('Message')
+
+    def _without_command(self) -> str:
+        """Format the message why there is no command: none received, or no publisher."""
+        if self._refusal:
+            return f'{self._refusal}.'
+        node = self.context.node
+        topic = node.resolve_topic_name(self.topic_of(COMMANDS))
+        if node.count_publishers(topic):
+            return f'No positions have come on {topic} for a second.'
+        return f'Nobody publishes {topic}.'
+
+
+def _not_known(names: Sequence[str]) -> str:
+    """Format a warning that names joints of a command that the robot does not have."""
+    if not names:
+        return ''
+    more = f' and {len(names) - MAX_NAMES} more' if len(names) > MAX_NAMES else ''
+    return f'The description has no joint {", ".join(names[:MAX_NAMES])}{more}.'

@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a panel with a web page sends updates to its viewers and runs what they request."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from collections.abc import Callable, Mapping
+import json
+from typing import Any, ClassVar
+
+from robot_console.namespaces import NAMESPACE, topic_of_robot
+from robot_console.small_page import SmallPage
+from rviz_common.inputs import WorkQueue
+from rviz_common.pace import Pace
+from rviz_common.panel import Panel
+from rviz_common.properties import Property
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosed
+
+__all__ = ['Action', 'Channel', 'LivePanel', 'Viewer']
+
+MOST_WAITING = 4_000_000
+"""Maximum number of queued characters for a slow browser; beyond it, the connection is dropped."""
+
+LONGEST = 1_000_000
+REFUSED = 1008
+
+
+class Viewer:
+    """
+    A browser connection to the page of a panel.
+
+    `tell` and `tell_text` are called from the thread of the node, `close` from any thread, and
+    everything else from the thread of the page server. If a browser does not read in time, the
+    connection is dropped with the queue; the full state is sent again when it reconnects.
+
+    Parameters
+    ----------
+    connection
+        The connection of the page; the viewer is constructed in the event loop that serves it.
+
+    """
+
+    def __init__(self, connection: ServerConnection) -> None:
+        self.wish: Any = None
+        """State that a panel stores for this viewer, such as a topic or the name of a node."""
+        self._connection = connection
+        self._loop = asyncio.get_running_loop()
+        self._waiting: deque[str] = deque()
+        self._size = 0
+        self._news = asyncio.Event()
+
+    def tell(self, **values: Any) -> None:
+        """
+        Queue values to be sent as one JSON object.
+
+        Parameters
+        ----------
+        **values
+            The members of the object.
+
+        """
+        self.tell_text(json.dumps(values))
+
+    def tell_text(self, text: str) -> None:
+        """
+        Queue a text to be sent.
+
+        Parameters
+        ----------
+        text
+            A JSON object, already encoded.
+
+        """
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._put, text)
+
+    async def send_all(self) -> None:
+        """Send queued messages until the connection is closed."""
+        try:
+            while self._size <= MOST_WAITING:
+                await self._news.wait()
+                self._news.clear()
+                while self._waiting:
+                    text = self._waiting.popleft()
+                    await self._connection.send(text)
+                    self._size -= len(text)
+        except ConnectionClosed:
+            pass
+
+    def close(self) -> None:
+        """Abort the connection; may be called from any thread."""
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._abort)
+
+    def _put(self, text: str) -> None:
+        self._size += len(text)
+        if self._size > MOST_WAITING:
+            self._waiting.clear()
+            self._abort()
+            return
+        self._waiting.append(text)
+        self._news.set()
+
+    def _abort(self) -> None:
+        transport = self._connection.transport
+        if transport is not None:
+            transport.abort()
+
+
+Action = Callable[[Viewer, Mapping[str, Any]], None]
+
+
+class Channel:
+    """
+    The connections of a live panel: sends updates, and runs the actions that pages request.
+
+    A page is connected while it is visible. Its requests, `{'do': ...}`, are handled in the thread
+    of the node by the action of that name; if the action raises ValueError, the message is sent
+    back.
+
+    Parameters
+    ----------
+    queue
+        Transfers work to the thread of the node.
+    greet
+        Sends the current state to a new viewer.
+    actions
+        The actions that pages may request, by name: called with the viewer and the whole message.
+
+    Attributes
+    ----------
+    viewers
+        The connected viewers; for use in the thread of the node only.
+
+    """
+
+    def __init__(
+        self,
+        queue: WorkQueue,
+        greet: Callable[[Viewer], None],
+        actions: Mapping[str, Action],
+    ) -> None:
+        self.viewers: list[Viewer] = []
+        self._queue = queue
+        self._greet = greet
+        self._actions = actions
+        self._is_over = False
+
+    def tell(self, **values: Any) -> None:
+        """
+        Send values to all viewers, as one JSON object.
+
+        Parameters
+        ----------
+        **values
+            The members of the object.
+
+        """
+        if self.viewers:
+            text = json.dumps(values)
+            for viewer in self.viewers:
+                viewer.tell_text(text)
+
+    def end(self) -> None:
+        """Close all connections."""
+        self._is_over = True
+        for viewer in self.viewers:
+            viewer.close()
+        self.viewers.clear()
+
+    async def talk(self, connection: ServerConnection) -> None:
+        """
+        Serve one connection until it is closed, in the thread of the page server.
+
+        A message that is too long, is not JSON, or names no action closes the connection.
+
+        Parameters
+        ----------
+        connection
+            The connection that a browser has opened.
+
+        """
+        if self._is_over:
+            return
+        viewer = Viewer(connection)
+        sending = asyncio.ensure_future(viewer.send_all())
+        self._queue.post(lambda: self._join(viewer))
+        try:
+            async for text in connection:
+                message = _parsed(text, self._actions)
+                if message is None:
+                    await connection.close(REFUSED, 'This cannot be asked for here.')
+                    break
+                self._post(viewer, message)
+        except ConnectionClosed:
+            pass
+        finally:
+            sending.cancel()
+            self._queue.post(lambda: self._leave(viewer))
+
+    def _post(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        self._queue.post(lambda: self._do(viewer, message))
+
+    def _join(self, viewer: Viewer) -> None:
+        if self._is_over:
+            viewer.close()
+            return
+        self.viewers.append(viewer)
+        self._greet(viewer)
+
+    def _leave(self, viewer: Viewer) -> None:
+        if viewer in self.viewers:
+            self.viewers.remove(viewer)
+
+    def _do(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        if viewer not in self.viewers:
+            return
+        try:
+            self._actions[message['do']](viewer, message)
+        except ValueError as error:
+            viewer.tell(refusal=str(error), of=message['do'])
+
+
+def _parsed(text: str | bytes, actions: Mapping[str, Action]) -> Mapping[str, Any] | None:
+    """Parse and validate a request; None if it is invalid."""
+    if len(text) > LONGEST:
+        return None
+    try:
+        message = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    do = message.get('do') if isinstance(message, dict) else None
+    return message if isinstance(do, str) and do in actions else None
+
+
+class LivePanel(Panel):
+    """
+    A panel with a web page; `refresh` is called periodically, `begin` and `end` once.
+
+    While no page is open, the only cost is that of the subscriptions made in `begin`.
+    """
+
+    PAGE: ClassVar[str]
+    """The name of the page and of its file."""
+    PACKAGE: ClassVar[str] = 'robot_console'
+    """The package that contains the file, in its folder `web`."""
+    PERIOD_S: ClassVar[float] = 0.2
+    PROPERTIES: ClassVar[tuple[Property, ...]] = (NAMESPACE,)
+
+    def start(self) -> None:
+        """Add the page."""
+        self._pace = Pace(self.PERIOD_S)
+        self.channel = Channel(self.context.queue, self.greet, self.actions())
+        namespace = self.values['Namespace']
+        self._page = SmallPage(
+            self.context,
+            self.PAGE,
+            namespace,
+            self.settings(),
+            self.channel,
+            package=self.PACKAGE,
+        )
+        try:
+            self.begin()
+        except Exception:
+            self._page.close()
+            raise
+
+    def update(self) -> None:
+        """Send updates, a few times a second."""
+        if self._pace.is_due():
+            self.refresh()
+
+    def close(self) -> None:
+        """Remove the page, and release the resources of the panel."""
+        self._page.close()
+        self.end()
+
+    def settings(self) -> dict[str, Any]:
+        """Return the initial settings of the page."""
+        return {}
+
+    def actions(self) -> Mapping[str, Action]:
+        """Return the actions that the page may request."""
+        return {}
+
+    def begin(self) -> None:
+        """Start work that continues without viewers; called before the first one connects."""
+
+    def greet(self, viewer: Viewer) -> None:
+        """
+        Send the current state to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            The viewer.
+
+        """
+
+    def refresh(self) -> None:
+        """Send updates to the viewers."""
+
+    def end(self) -> None:
+        """Stop the work that was started in `begin`."""
+
+    def full_name(self, topic: str) -> str:
+        """
+        Resolve the topic name of a robot to a fully qualified name.
+
+        Parameters
+        ----------
+        topic
+            The name; a relative name is placed in the namespace of the panel.
+
+        Raises
+        ------
+        ValueError
+            The name is not a valid topic name; the message is a full sentence.
+
+        """
+        return topic_of_robot(self.context.node, self.values['Namespace'], topic)

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a plot is drawn in the page: the curves and their legend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from math import isfinite
+from typing import Any, TYPE_CHECKING
+
+import msgspec
+import numpy as np
+from robot_console.plots.plot_board import Plotted
+from robot_console.plots.traces import Numbers, slice_times
+from viser import uplot
+
+if TYPE_CHECKING:
+    from viser import GuiApi, ViserServer
+
+__all__ = ['STYLE', 'PlotChart', 'legend_html']
+
+COLORS = (
+    '#4dabf7',
+    '#ffa94d',
+    '#69db7c',
+    '#ff8787',
+    '#b197fc',
+    '#ffe066',
+    '#66d9e8',
+    '#faa2c1',
+)
+STYLE = """<style>
+.plot-legend{margin:0 12px 8px;font-size:11px;line-height:1.45}
+.plot-legend div{display:flex;gap:6px;align-items:baseline}
+.plot-legend b{flex:none;width:9px;height:9px;border-radius:2px}
+.plot-legend span{flex:1;overflow-wrap:anywhere}
+.plot-legend i{flex:none;font-style:normal;font-variant-numeric:tabular-nums}
+.plot-legend p{margin:0 0 0 15px;color:#fab005}
+</style>"""
+EMPTY = (
+    '<div class=plot-legend>Nothing is plotted yet. Choose a preset or a field, or write a path '
+    'such as joint_states.position[left_knee].</div>'
+)
+
+HEIGHT = 240
+FREE = {'x': uplot.Scale(time=False)}
+AROUND_ZERO = {**FREE, 'y': uplot.Scale(range=(-0.1, 0.1))}
+"""Otherwise, uPlot shows curves that are all zero on a scale up to 100."""
+X_AXIS = uplot.Series(label='s')
+WIDER = 1.0 + 1e-9
+"""uPlot lays out an axis only when its scale changes; one created hidden would stay empty."""
+NO_CURVE = uplot.Series(label='', show=False)
+
+
+def legend_html(plotted: Iterable[Plotted]) -> str:
+    """
+    Render the legend as HTML: colour, text, latest value and error of each series.
+
+    Parameters
+    ----------
+    plotted
+        The series in the order of their colours, at most 8.
+
+    """
+    lines = ''.join(_line(each, COLORS[index]) for index, each in enumerate(plotted))
+    return f'<div class=plot-legend>{lines}</div>' if lines else EMPTY
+
+
+def _line(each: Plotted, color: str) -> str:
+    newest = each.trace.newest
+    value = '' if newest is None else f'{newest:.4g}' if isfinite(newest) else 'no number'
+    trouble = f'<p>⚠ {escape(each.trouble)}</p>' if each.trouble else ''
+    return (
+        f'<div><b style="background:{color}"></b><span>{escape(str(each.series))}</span>'
+        f'<i>{value}</i></div>{trouble}'
+    )
+
+
+class PlotChart:
+    """
+    The viser widget that draws curves over a time window.
+
+    The widget is replaced whenever the number of curves or the scale changes: a browser receives
+    the curves and the options of a widget one after the other, and uPlot fails if they do not
+    match.
+
+    Parameters
+    ----------
+    server
+        The server of the page; the widget is added at the current position of its GUI.
+
+    """
+
+    def __init__(self, server: ViserServer) -> None:
+        self._server = server
+        self._place = server.gui.add_folder(None)
+        self._count, self._is_zero = 0, True
+        self._is_wider = False
+        self._chart = self._new_chart(np.array([-1.0, 0.0]))
+
+    def draw(self, window_s: float, curves: Sequence[Numbers]) -> None:
+        """
+        Draw curves over a time window.
+
+        Parameters
+        ----------
+        window_s
+            The length of the window, in s; it ends at the current time.
+        curves
+            The values of each curve (800,), at the times of `slice_times`; NaN creates a gap.
+
+        """
+        self._is_wider = not self._is_wider
+        times = slice_times(window_s) * (WIDER if self._is_wider else 1.0)
+        kind = len(curves), not any(np.nan_to_num(curve).any() for curve in curves)
+        with self._server.atomic():
+            if kind != (self._count, self._is_zero):
+                self._count, self._is_zero = kind
+                self._chart.remove()
+                self._chart = self._new_chart(times)
+            shown = curves or [np.zeros(len(times))]
+            # Arrays of viser contain numbers only, but uPlot requires null for a gap.
+            self._chart._queue_update('data', tuple(map(_encoded, (times, *shown))))
+
+    def _new_chart(self, times: Numbers) -> Any:
+        """Add a widget for the current number of curves."""
+        gui: GuiApi = self._server.gui
+        series = [
+            uplot.Series(label=f'{number}', stroke=color, width=1.5, spanGaps=False)
+            for number, color in enumerate(COLORS[: self._count], 1)
+        ] or [NO_CURVE]
+        with self._place:
+            return gui.add_uplot(
+                (times, *(np.zeros(len(times)) for _ in series)),
+                (X_AXIS, *series),
+                scales=AROUND_ZERO if self._is_zero else FREE,
+                legend=uplot.Legend(show=False),
+                height=HEIGHT,
+                padding=(10, 16, 0, 0),
+            )
+
+
+def _encoded(numbers: Numbers) -> Any:
+    """Encode numbers as a MessagePack list, with NaN as null."""
+    values = [value if value == value else None for value in numbers.tolist()]
+    return msgspec.Raw(msgspec.msgpack.encode(values))
