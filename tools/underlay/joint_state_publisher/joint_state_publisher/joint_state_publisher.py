@@ -1,22 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that publishes the joint states of a robot."""
+"""The node that publishes the joint states of a robot, and its subscriptions to source topics."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import Any, ClassVar
 
 from joint_state_publisher.merged_joints import MergedJoints, States
 from joint_state_publisher.parameters import CHANGEABLE, declare_settings, Extra
 from joint_state_publisher.settings import Settings, settings_of
-from joint_state_publisher.sources import Sources
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile
-from robot_state_publisher.description_file import parameters_from_file
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from robot_state_publisher.node_arguments import parameters_from_file
 from robot_state_publisher.state_watch import StateWatch
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -27,6 +26,10 @@ __all__ = ['JointStatePublisher']
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE_S = 2.0
 REPEAT_S = 10.0
+
+# Best effort is compatible with reliable and best-effort publishers.
+ANY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+Take = Callable[[str, JointState], None]
 
 
 class JointStatePublisher(Node):
@@ -54,7 +57,7 @@ class JointStatePublisher(Node):
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None
         self._publisher = self.create_publisher(JointState, 'joint_states', QoSProfile(depth=10))
-        self._sources = Sources(
+        self._sources = _Sources(
             self, self._settings.source_list, self._publisher.topic_name, self._take
         )
         self._find_robot(file)
@@ -183,3 +186,60 @@ class JointStatePublisher(Node):
 
 def _values(changes: list[Parameter]) -> dict[str, Any]:
     return {change.name: change.value for change in changes}
+
+
+class _Sources:
+    """
+    Subscriptions to the topics of `source_list`.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    names
+        The topics, as given in the parameter.
+    own_topic
+        The fully qualified name of the topic on which the node itself publishes.
+    take
+        Called for each message with the fully qualified topic name and the message.
+
+    Raises
+    ------
+    ValueError
+        A name is not a valid topic name, or is that of the node's own topic.
+
+    """
+
+    def __init__(self, node: Node, names: Iterable[str], own_topic: str, take: Take) -> None:
+        self._take = take
+        self.silent: set[str] = set()
+        """The topics on which no message has been received yet."""
+        for name in names:
+            topic = _resolved(node, name)
+            if topic == own_topic:
+                raise ValueError(
+                    f"The parameter 'source_list' names {topic}, which is what this node "
+                    'publishes. Name another topic, or remap joint_states.'
+                )
+            self.silent.add(topic)
+            node.create_subscription(JointState, name, self._receiver(topic), ANY)
+
+    def _receiver(self, topic: str) -> Callable[[JointState], None]:
+        """Return the callback for the messages of a topic."""
+
+        def receive(message: JointState) -> None:
+            self.silent.discard(topic)
+            self._take(topic, message)
+
+        return receive
+
+
+def _resolved(node: Node, name: str) -> str:
+    """Return the fully qualified name of a topic, or raise ValueError if the name is invalid."""
+    try:
+        return str(node.resolve_topic_name(name))
+    except RuntimeError as error:
+        reason = str(error).split(', at ')[0].removeprefix('failed to resolve name: ')
+        raise ValueError(
+            f"The parameter 'source_list' names '{name}', which can be no topic: {reason}."
+        ) from error

@@ -10,7 +10,7 @@ from typing import Any
 from joint_state_publisher.settings import DESCRIPTIONS, MAPS, Settings, settings_of
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
-from robot_state_publisher.unknown_parameters import unknown_parameters
+from robot_state_publisher.node_arguments import unknown_parameters
 
 __all__ = ['CHANGEABLE', 'Extra', 'declare_settings']
 

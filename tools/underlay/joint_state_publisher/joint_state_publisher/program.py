@@ -18,7 +18,7 @@ __all__ = ['main']
 def _make_node(words: list[str]) -> Node:
     """Create the node from its arguments: none, or a URDF file."""
     from joint_state_publisher.joint_state_publisher import JointStatePublisher
-    from robot_state_publisher.description_file import file_argument
+    from robot_state_publisher.node_arguments import file_argument
 
     return JointStatePublisher(file_argument('joint_state_publisher', words))
 

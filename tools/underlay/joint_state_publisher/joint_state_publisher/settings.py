@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, fields
 from math import isfinite
 from typing import Any
 
+from ros_environment.suggestions import did_you_mean
 from urdf import check_for_loops, Mimic
-from urdf.did_you_mean import did_you_mean
 
 __all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'checked', 'settings_of']
 
@@ -95,8 +95,8 @@ def _dependents(values: Mapping[str, Any]) -> dict[str, Mimic]:
             joint, _, key = name.removeprefix('dependent_joints.').rpartition('.')
             if not joint or key not in DEPENDENT_KEYS:
                 raise ValueError(
-                    f"The parameter '{name}' ends with none of {', '.join(DEPENDENT_KEYS)}."
-                    f'{did_you_mean(key, DEPENDENT_KEYS)}'
+                    f"The parameter '{name}' ends with none of {', '.join(DEPENDENT_KEYS)}. "
+                    f'{did_you_mean(key, DEPENDENT_KEYS, 0.75)}'.rstrip()
                 )
             default = '' if key == 'parent' else 0.0
             parts.setdefault(joint, {})[key] = checked(name, value, default)

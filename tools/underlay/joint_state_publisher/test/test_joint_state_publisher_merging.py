@@ -6,8 +6,7 @@ from __future__ import annotations
 from math import nan, pi
 from typing import Any
 
-from joint_state_publisher.free_joint import FreeJoint
-from joint_state_publisher.merged_joints import MergedJoints, States
+from joint_state_publisher.merged_joints import FreeJoint, MergedJoints, States
 from joint_state_publisher.settings import Settings
 import pytest
 from urdf import Mimic, parse_urdf

@@ -10,18 +10,25 @@ from typing import Any
 
 from joint_state_publisher.joint_state_publisher import JointStatePublisher
 from joint_state_publisher.merged_joints import MergedJoints
-from joint_state_publisher_gui.core.board import Board
-from joint_state_publisher_gui.page.joint_page import JointPage
-from joint_state_publisher_gui.parameters import EXTRAS, page_settings_of
+from joint_state_publisher.parameters import Extra
+from joint_state_publisher.settings import checked
+from joint_state_publisher_gui.board import Board
+from joint_state_publisher_gui.joint_page import JointPage
 from rclpy.clock import Clock, ClockType
+from rviz_common.inputs import WorkQueue
 from rviz_common.page import Page, PortError
-from rviz_common.work_queue import WorkQueue
+from rviz_common.page.address import PageSettings, PARAMETERS
 from urdf import RobotModel
 
 __all__ = ['JointStatePublisherGui']
 
 PROGRAM = 'joint_state_publisher_gui'
 FRAME_S = 0.1
+
+EXTRAS = {
+    'num_rows': Extra(0, 'Means nothing here: the page scrolls.'),
+    **{name: Extra(*about) for name, about in PARAMETERS.items()},
+}
 
 
 class JointStatePublisherGui(JointStatePublisher):
@@ -110,7 +117,7 @@ class JointStatePublisherGui(JointStatePublisher):
 def _serve(values: Mapping[str, Any]) -> Page:
     """Start the page server, or raise ValueError."""
     try:
-        return Page(PROGRAM, page_settings_of(values))
+        return Page(PROGRAM, _page_settings_of(values))
     except PortError as error:
         raise ValueError(str(error)) from error
 
@@ -118,3 +125,26 @@ def _serve(values: Mapping[str, Any]) -> Page:
 def _poses_folder() -> Path:
     """Return the folder of the saved poses."""
     return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / PROGRAM
+
+
+def _page_settings_of(values: Mapping[str, Any]) -> PageSettings:
+    """
+    Validate the parameters that set the address, port and access token of the page.
+
+    Parameters
+    ----------
+    values
+        Values of `host`, `port` (0 for the first free port) and `token` by name.
+
+    Raises
+    ------
+    ValueError
+        A value is invalid.
+
+    """
+    host = checked('host', values['host'], '')
+    token = checked('token', values['token'], '')
+    port = checked('port', values['port'], 0.0)
+    if not float(port).is_integer():
+        raise ValueError(f"The parameter 'port' must be a whole number, and not {port:g}.")
+    return PageSettings(host, int(port) or None, token)

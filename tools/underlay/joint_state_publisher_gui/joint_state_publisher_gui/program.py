@@ -18,7 +18,7 @@ __all__ = ['main']
 def _make_node(words: list[str]) -> Node:
     """Create the node from its arguments: none, or a URDF file."""
     from joint_state_publisher_gui.joint_state_publisher_gui import JointStatePublisherGui, PROGRAM
-    from robot_state_publisher.description_file import file_argument
+    from robot_state_publisher.node_arguments import file_argument
 
     return JointStatePublisherGui(file_argument(PROGRAM, words))
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from joint_state_publisher_gui.core.limbs import limbs
-from joint_state_publisher_gui.core.words import words_of
+from joint_state_publisher_gui.limbs import limbs, words_of
 import pytest
 from urdf import parse_urdf, RobotModel
 

@@ -10,9 +10,9 @@ import threading
 import time
 from typing import Any
 
-from joint_state_publisher_gui.core.poses import pose_file
+from joint_state_publisher_gui import joint_page
 from joint_state_publisher_gui.joint_state_publisher_gui import FRAME_S, JointStatePublisherGui
-from joint_state_publisher_gui.page import joint_page
+from joint_state_publisher_gui.poses import pose_file
 from publisher_probe import LATCHED, Probe
 import pytest
 import rclpy

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from joint_state_publisher_gui.core.poses import pose_file, PoseError, Poses
+from joint_state_publisher_gui.poses import pose_file, PoseError, Poses
 import pytest
 
 

@@ -17,7 +17,7 @@ __all__ = ['main']
 
 def _make_node(words: list[str]) -> Node:
     """Create the node from its arguments: none, or a URDF file (deprecated)."""
-    from robot_state_publisher.description_file import file_argument
+    from robot_state_publisher.node_arguments import file_argument
     from robot_state_publisher.robot_state_publisher import RobotStatePublisher
 
     file = file_argument('robot_state_publisher', words)

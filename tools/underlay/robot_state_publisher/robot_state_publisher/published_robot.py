@@ -1,25 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms computed for one robot description."""
+"""Transforms computed for one robot description: which are due, and the messages with them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from builtin_interfaces.msg import Time
-from robot_state_publisher.joint_positions import UnusableStateError
-from robot_state_publisher.moving_links import MovingLinks
-from robot_state_publisher.publish_times import PublishTimes, S
+from geometry_msgs.msg import TransformStamped
+from robot_state_publisher.moving_links import MovingLinks, UnusableStateError
 from robot_state_publisher.settings import Settings
 from robot_state_publisher.state_watch import StateWatch
-from robot_state_publisher.transform_messages import TransformMessages
 from tf2_msgs.msg import TFMessage
-from urdf import RobotModel
-from urdf.kinematics import joint_motion
+from urdf import Joint, RobotModel
+from urdf.kinematics import joint_motion, Pose
 
-__all__ = ['PublishedRobot']
+__all__ = ['PublishTimes', 'PublishedRobot']
 
 MAX_LISTS = 64
 """Maximum number of cached name lists; usually, each source of joint states has one."""
+
+S = 1_000_000_000
+JUMP_NS = S
+"""Tolerance for out-of-order stamps of several sources; a larger step back is a time jump."""
+SLACK = 0.1
+"""Tolerance for jitter, so that a source at this frequency does not lose every other state."""
 
 
 class PublishedRobot:
@@ -47,7 +51,7 @@ class PublishedRobot:
         self.times = PublishTimes(settings.publish_frequency)
         self.watch = StateWatch(model)
         self._settings = settings
-        self._lists: dict[tuple[str, ...], tuple[MovingLinks, TransformMessages]] = {}
+        self._lists: dict[tuple[str, ...], tuple[MovingLinks, _TransformMessages]] = {}
 
     def fixed_transforms(self, stamp: Time) -> TFMessage:
         """
@@ -60,7 +64,7 @@ class PublishedRobot:
 
         """
         joints = [joint for joint in self.model.joints if joint.kind in ('fixed', 'planar')]
-        messages = TransformMessages(joints, self._settings.frame_prefix)
+        messages = _TransformMessages(joints, self._settings.frame_prefix)
         return messages.fill(stamp, [joint_motion(joint)(0.0) for joint in joints])
 
     def transforms(
@@ -154,10 +158,137 @@ class PublishedRobot:
         """
         return names in self._lists
 
-    def _remember(self, names: tuple[str, ...]) -> tuple[MovingLinks, TransformMessages]:
+    def _remember(self, names: tuple[str, ...]) -> tuple[MovingLinks, _TransformMessages]:
         """Build the kinematics and the messages for a new list of names."""
         if len(self._lists) >= MAX_LISTS:
             self._lists.clear()
         links = MovingLinks(self.model, names)
-        self._lists[names] = links, TransformMessages(links.joints, self._settings.frame_prefix)
+        self._lists[names] = links, _TransformMessages(links.joints, self._settings.frame_prefix)
         return self._lists[names]
+
+
+class PublishTimes:
+    """
+    Limits the rate at which joints are published, by the stamps of their states.
+
+    Parameters
+    ----------
+    frequency_hz
+        The maximum rate for a joint, in Hz; intervals may be 10 % shorter, to tolerate jitter of
+        the sources.
+
+    """
+
+    def __init__(self, frequency_hz: float) -> None:
+        self._interval_ns = round(S / frequency_hz * (1.0 - SLACK))
+        self._last_ns: dict[str, int] = {}
+
+    def went_back(self, names: Iterable[str], stamp_ns: int) -> bool:
+        """
+        Check whether a stamp is more than 1 s older than the published one: time has jumped back.
+
+        Parameters
+        ----------
+        names
+            The joints of the state; the least recently published one is decisive.
+        stamp_ns
+            The stamp of the state, in ns.
+
+        """
+        return stamp_ns < self._oldest(names) - JUMP_NS
+
+    def forget(self) -> None:
+        """Reset the rate limit; the next joint states are due, whatever their stamps."""
+        self._last_ns.clear()
+
+    def is_due(self, names: Iterable[str], stamp_ns: int) -> bool:
+        """
+        Check whether the minimum interval has elapsed for at least one of the joints.
+
+        Parameters
+        ----------
+        names
+            The joints of the state.
+        stamp_ns
+            The stamp of the state, in ns; a state without a stamp (0) is never due.
+
+        """
+        return stamp_ns - self._oldest(names) >= self._interval_ns
+
+    def note(self, names: Iterable[str], stamp_ns: int) -> None:
+        """
+        Record the publication of joints.
+
+        Parameters
+        ----------
+        names
+            The joints.
+        stamp_ns
+            The stamp of their state, in ns.
+
+        """
+        self._last_ns.update(dict.fromkeys(names, stamp_ns))
+
+    def _oldest(self, names: Iterable[str]) -> int:
+        last_ns = self._last_ns
+        return min((last_ns.get(name, 0) for name in names), default=0)
+
+
+class _TransformMessages:
+    """
+    A message with the transforms of a set of joints, which is built once and reused.
+
+    Parameters
+    ----------
+    joints
+        The joints, in the order of the transforms.
+    frame_prefix
+        The prefix of all frame names.
+
+    Attributes
+    ----------
+    message
+        The `tf2_msgs/TFMessage`.
+
+    """
+
+    def __init__(self, joints: Sequence[Joint], frame_prefix: str) -> None:
+        self._stamp = Time()
+        self.message = TFMessage(
+            transforms=[_transform(joint, frame_prefix, self._stamp) for joint in joints]
+        )
+        self._places = [
+            (each.transform.translation, each.transform.rotation)
+            for each in self.message.transforms
+        ]
+
+    def fill(self, stamp: Time, poses: Iterable[Pose]) -> TFMessage:
+        """
+        Set the stamp and the poses of the message.
+
+        Parameters
+        ----------
+        stamp
+            The stamp of all transforms.
+        poses
+            Pose of the child link of each joint relative to its parent link, in the order of the
+            joints.
+
+        Returns
+        -------
+        TFMessage
+            The same message object on each call.
+
+        """
+        self._stamp.sec, self._stamp.nanosec = stamp.sec, stamp.nanosec
+        for (at, turn), pose in zip(self._places, poses):
+            at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = pose
+        return self.message
+
+
+def _transform(joint: Joint, frame_prefix: str, stamp: Time) -> TransformStamped:
+    """Create the message of one joint; all messages share the stamp."""
+    transform = TransformStamped(child_frame_id=frame_prefix + joint.child)
+    transform.header.frame_id = frame_prefix + joint.parent
+    transform.header.stamp = stamp
+    return transform

@@ -12,11 +12,10 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
-from robot_state_publisher.description_file import parameters_from_file
-from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
+from robot_state_publisher.moving_links import UnusableStateError, usable_positions
+from robot_state_publisher.node_arguments import parameters_from_file, unknown_parameters
 from robot_state_publisher.published_robot import PublishedRobot
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
-from robot_state_publisher.unknown_parameters import unknown_parameters
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage

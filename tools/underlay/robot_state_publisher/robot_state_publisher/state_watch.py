@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ros_environment.suggestions import closest_name
 from urdf import RobotModel
-from urdf.did_you_mean import closest
 
 __all__ = ['StateWatch']
 
@@ -56,8 +56,10 @@ class StateWatch:
         new = [name for name in names if name not in self._seen]
         self._seen.update(new)
         for name in new:
-            meant = None if name in self._names else closest(name, self._names - self._seen)
-            if meant is not None:
+            if name in self._names:
+                continue
+            meant = closest_name(name, self._names - self._seen, 0.75)
+            if meant:
                 yield (
                     f"The joint states name '{name}', but the robot has no such joint. "
                     f"Did you mean '{meant}'?"

@@ -11,8 +11,7 @@ import re
 import numpy as np
 import pytest
 from random_robots import random_urdf
-from robot_state_publisher.joint_positions import UnusableStateError
-from robot_state_publisher.moving_links import MovingLinks
+from robot_state_publisher.moving_links import MovingLinks, UnusableStateError
 from urdf import parse_urdf, RobotModel
 from urdf.kinematics import joint_motion, Pose
 

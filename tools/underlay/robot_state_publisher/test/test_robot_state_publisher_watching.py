@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import pytest
-from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
-from robot_state_publisher.publish_times import PublishTimes
+from robot_state_publisher.moving_links import UnusableStateError, usable_positions
+from robot_state_publisher.node_arguments import unknown_parameters
+from robot_state_publisher.published_robot import PublishTimes
 from robot_state_publisher.state_watch import StateWatch
-from robot_state_publisher.unknown_parameters import unknown_parameters
 from urdf import parse_urdf
 
 MS = 1_000_000

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences that several explanations share: commands to run and names that come close."""
+"""Sentences that several explanations share: commands to run and lists of names."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from difflib import get_close_matches
 import os
 from pathlib import Path
 import shlex
@@ -49,27 +47,6 @@ def build_command(workspace: Path, package: str) -> str:
     if current_folder() != workspace:
         build = f'cd {shlex.quote(str(workspace))} && {build}'
     return f'{build} && source install/setup.bash'
-
-
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """
-    Suggest the known name that is most similar to a misspelt one.
-
-    Parameters
-    ----------
-    name
-        What was written.
-    known
-        The names that exist.
-
-    Returns
-    -------
-    str
-        "Did you mean '...'?", or '' if no name is similar.
-
-    """
-    matches = get_close_matches(name, sorted(known), n=1)
-    return f"Did you mean '{matches[0]}'?" if matches else ''
 
 
 def listing(names: list[str]) -> str:

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+import os
 from pathlib import Path
 
 from ros_environment import advice, installed
-from ros_environment.missing_executable import explain_source_executable, misplaced_script
-from ros_environment.missing_file import explain_source_file
+from ros_environment.setup_script import defines_main, read_setup_script, SetupScript
 from ros_environment.source_tree import find_workspace, source_packages, SourcePackage
+from ros_environment.suggestions import did_you_mean
 
 
 def workspaces() -> list[Path]:
@@ -68,11 +69,11 @@ def explain_missing_executable(package: str, executable: str, prefix: str) -> st
 
     """
     names = installed.executables(Path(prefix), package)
-    lines = [misplaced_script(package, executable, Path(prefix))]
+    lines = [_misplaced_script(package, executable, Path(prefix))]
     workspace, source = _find_source(package)
     if workspace and source and not lines[0]:
         rebuild = advice.build_command(workspace, package)
-        lines.append(explain_source_executable(source, executable, rebuild))
+        lines.append(_explain_source_executable(source, executable, rebuild))
     text = f"'{package}' has no installed executables."
     if names:
         text = f"The executables of '{package}': {advice.listing(names)}."
@@ -102,7 +103,7 @@ def explain_missing_share_file(package: str, file_name: str, share: str) -> str:
     workspace, source = _find_source(package)
     if workspace and source:
         rebuild = advice.build_command(workspace, package)
-        lines.append(explain_source_file(source, file_name, rebuild))
+        lines.append(_explain_source_file(source, file_name, rebuild))
     text = f"'{package}' has no installed launch files."
     if names:
         text = f"The installed launch files of '{package}': {advice.listing(names)}."
@@ -130,7 +131,7 @@ def explain_uninstalled_file(path: str) -> str:
     if not workspace or not source:
         return ''
     rebuild = advice.build_command(workspace, source.name)
-    return explain_source_file(source, Path(path).name, rebuild)
+    return _explain_source_file(source, Path(path).name, rebuild)
 
 
 def _explain_unknown_package(package: str) -> str:
@@ -159,4 +160,164 @@ def _find_source(package: str) -> tuple[Path, SourcePackage] | tuple[None, None]
 
 
 def _with_suggestion(text: str, name: str, known: Iterable[str]) -> str:
-    return ' '.join(part for part in (text, advice.did_you_mean(name, known)) if part)
+    return ' '.join(part for part in (text, did_you_mean(name, known)) if part)
+
+
+def _explain_source_executable(source: SourcePackage, executable: str, rebuild: str) -> str:
+    """
+    Explain from the source of a package why it has no such executable.
+
+    Parameters
+    ----------
+    source
+        The package in the source tree.
+    executable
+        The name that was asked for, with or without `.py`.
+    rebuild
+        The command that builds the package.
+
+    Returns
+    -------
+    str
+        The explanation; '' if neither setup.py nor a module has such a name.
+
+    """
+    setup_py = source.folder / 'setup.py'
+    script = read_setup_script(setup_py)
+    if script is None:
+        return ''
+    if executable in script.scripts:
+        return (
+            f"'{setup_py}' declares '{executable}', but the installed package does not have "
+            f'it yet. Rebuild: {rebuild}'
+        )
+    stem = executable[:-3] if executable.endswith('.py') else executable
+    if not (source.folder / source.name / f'{stem}.py').is_file():
+        return ''
+    return _other_name(script, source, stem) or _missing_entry(script, source, stem, rebuild)
+
+
+def _misplaced_script(package: str, executable: str, prefix: Path) -> str:
+    """
+    Explain an executable that was installed to `bin`, where `ros2 run` does not look.
+
+    Parameters
+    ----------
+    package, executable
+        The package, and the name that was asked for.
+    prefix
+        The install prefix of the package.
+
+    Returns
+    -------
+    str
+        The lines that setup.cfg lacks; '' if that is not the reason.
+
+    """
+    if not (prefix / 'bin' / executable).is_file() or (prefix / 'lib' / package).is_dir():
+        return ''
+    return (
+        f"'{executable}' was installed to '{prefix / 'bin'}' instead of "
+        f"'{prefix / 'lib' / package}', because setup.cfg lacks these lines:\n"
+        f'    [develop]\n    script_dir=$base/lib/{package}\n'
+        f'    [install]\n    install_scripts=$base/lib/{package}'
+    )
+
+
+def _other_name(script: SetupScript, source: SourcePackage, stem: str) -> str:
+    """Return a sentence if the module's executable exists under another name."""
+    target = f'{source.name}.{stem}:'
+    names = [name for name, value in script.scripts.items() if value.startswith(target)]
+    if not names:
+        return ''
+    return f"The module '{source.name}.{stem}' is the executable '{names[0]}' in setup.py."
+
+
+def _missing_entry(script: SetupScript, source: SourcePackage, stem: str, rebuild: str) -> str:
+    module = source.folder / source.name / f'{stem}.py'
+    entry = f"'{stem} = {source.name}.{stem}:main',"
+    if not script.has_console_scripts:
+        entry = f"entry_points={{'console_scripts': [{entry[:-1]}]}},"
+    place = "the list 'console_scripts' of" if script.has_console_scripts else 'setup() in'
+    text = (
+        f"The module '{module}' exists, but setup.py has no entry point for it. "
+        f"Add this line to {place} '{source.folder / 'setup.py'}':\n    {entry}\n"
+        f'Then rebuild: {rebuild}'
+    )
+    if defines_main(module):
+        return text
+    return f"{text}\nThe module also needs a function 'main()', which it does not define."
+
+
+def _explain_source_file(source: SourcePackage, file_name: str, rebuild: str) -> str:
+    """
+    Explain from the source of a package why a file of it is not installed.
+
+    Parameters
+    ----------
+    source
+        The package in the source tree.
+    file_name
+        The name that was asked for, without folders.
+    rebuild
+        The command that builds the package.
+
+    Returns
+    -------
+    str
+        The explanation; '' if the package has no such file, or neither setup.py nor
+        CMakeLists.txt.
+
+    """
+    path = _find_file(source.folder, file_name)
+    if path is None:
+        return ''
+    relative = path.relative_to(source.folder)
+    script = read_setup_script(source.folder / 'setup.py')
+    if script is None:
+        return _explain_cmake(source, path, relative, rebuild)
+    if script.installs(relative.as_posix()):
+        return f"'{path}' exists, but it is not installed yet. Rebuild: {rebuild}"
+    if script.data_is_computed:
+        return (
+            f"'{path}' exists, but it is not installed. If 'data_files' in setup.py covers it, "
+            f'a rebuild is enough: {rebuild}'
+        )
+    return _missing_data_file(source, script, path, relative, rebuild)
+
+
+def _missing_data_file(
+    source: SourcePackage,
+    script: SetupScript,
+    path: Path,
+    relative: Path,
+    rebuild: str,
+) -> str:
+    folder = '' if relative.parent == Path('.') else f'/{relative.parent.as_posix()}'
+    share = f"'share/{source.name}{folder}'"
+    if script.has_package_name:
+        share = "'share/' + package_name" + (f" + '{folder}'" if folder else '')
+    return (
+        f"'{path}' exists, but setup.py does not install it. Add this line to the list "
+        f"'data_files' of '{source.folder / 'setup.py'}':\n"
+        f"    ({share}, ['{relative.as_posix()}']),\nThen rebuild: {rebuild}"
+    )
+
+
+def _explain_cmake(source: SourcePackage, path: Path, relative: Path, rebuild: str) -> str:
+    lists = source.folder / 'CMakeLists.txt'
+    if not lists.is_file():
+        return ''
+    return (
+        f"'{path}' exists, but it is not installed. '{lists}' needs this line before "
+        f'ament_package():\n    install(DIRECTORY {relative.parts[0]} DESTINATION '
+        f'share/${{PROJECT_NAME}})\nThen rebuild: {rebuild}'
+    )
+
+
+def _find_file(folder: Path, file_name: str) -> Path | None:
+    for root, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith('.'))
+        if file_name in names:
+            return Path(root, file_name)
+    return None

@@ -8,7 +8,7 @@ from pathlib import Path
 import time
 
 import pytest
-from ros_environment.stale import StaleFiles
+from ros_environment.source_tree import StaleFiles
 
 
 def _file(path: Path, text: str, age_s: float) -> str:

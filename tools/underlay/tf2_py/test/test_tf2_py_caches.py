@@ -6,9 +6,7 @@ from __future__ import annotations
 import random
 
 import pytest
-from tf2_py._link import Gap, Sample
-from tf2_py._static_cache import StaticCache
-from tf2_py._time_cache import TimeCache
+from tf2_py._caches import Gap, Sample, StaticCache, TimeCache
 
 S = 10**9
 

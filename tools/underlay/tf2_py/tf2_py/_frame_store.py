@@ -6,12 +6,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tf2_py import _reasons
-from tf2_py._link import Link, Sample
+from tf2_py._caches import Link, Sample, StaticCache, TimeCache
 from tf2_py._pose import chain, IDENTITY, inverse, Pose
-from tf2_py._route import find_route, Route, Unconnected
-from tf2_py._static_cache import StaticCache
-from tf2_py._time_cache import TimeCache
+from tf2_py._route import (
+    empty_frame,
+    extrapolation,
+    find_route,
+    Route,
+    slashed_frame,
+    Unconnected,
+    unconnected_frames,
+    unknown_frame,
+)
 from tf2_py.exceptions import (
     ConnectivityException,
     ExtrapolationException,
@@ -154,10 +160,10 @@ class FrameStore:
             if frame in self._caches:
                 continue
             if not frame:
-                raise InvalidArgumentException(_reasons.empty_frame(call, argument))
+                raise InvalidArgumentException(empty_frame(call, argument))
             if frame.startswith('/'):
-                raise InvalidArgumentException(_reasons.slashed_frame(call, argument, frame))
-            raise LookupException(_reasons.unknown_frame(call, argument, frame, self._caches))
+                raise InvalidArgumentException(slashed_frame(call, argument, frame))
+            raise LookupException(unknown_frame(call, argument, frame, self._caches))
 
     def pose(self, target: str, source: str, time_ns: int) -> Pose:
         """
@@ -219,7 +225,7 @@ class FrameStore:
         except Unconnected as error:
             if error.gap is None:
                 raise self._unconnected(target, source) from None
-            text = _reasons.extrapolation(error.gap, target, source)
+            text = extrapolation(error.gap, target, source)
             raise ExtrapolationException(text) from None
 
     def common_time_ns(self, target: str, source: str) -> int:
@@ -263,7 +269,7 @@ class FrameStore:
 
     def _unconnected(self, target: str, source: str) -> ConnectivityException:
         roots = self._root(target), self._root(source)
-        return ConnectivityException(_reasons.unconnected(target, source, roots))
+        return ConnectivityException(unconnected_frames(target, source, roots))
 
     def _root(self, frame: str) -> str:
         seen = {frame}

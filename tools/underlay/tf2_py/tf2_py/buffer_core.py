@@ -8,12 +8,12 @@ import logging
 import threading
 from typing import Optional, TYPE_CHECKING
 
-from tf2_py import _listing, _refusals
-from tf2_py._complaints import Complaints
+from tf2_py import _listing
+from tf2_py._caches import Sample
 from tf2_py._frame_store import FrameStore
-from tf2_py._link import Sample
 from tf2_py._messages import nanoseconds, Reading, reading_of, transform_message
 from tf2_py._pose import chain, normalized, Pose
+from tf2_py._refusals import bad_quaternion, both_kinds, Complaints, old_data, refusal
 from tf2_py.exceptions import TransformException
 
 if TYPE_CHECKING:
@@ -316,15 +316,15 @@ class BufferCore:
     def _insert(
         self, parent: str, child: str, stamp_ns: int, pose: Pose, authority: str, is_static: bool
     ) -> None:
-        reason = _refusals.refusal(parent, child, pose, authority)
+        reason = refusal(parent, child, pose, authority)
         unit = None if reason else normalized(pose)
         if unit is None:
-            reason = reason or _refusals.bad_quaternion(child, pose, authority)
+            reason = reason or bad_quaternion(child, pose, authority)
             self._complaints.add(reason, child, authority)
             return
         with self._lock:
             if self._store.changes_kind(child, is_static):
-                self._complaints.add(_refusals.both_kinds(child, authority), child, 'both')
+                self._complaints.add(both_kinds(child, authority), child, 'both')
             is_new = self._store.insert(
                 child, Sample(stamp_ns, parent, unit, authority), is_static
             )
@@ -334,9 +334,7 @@ class BufferCore:
     def _complain_of_old(self, child: str, stamp_ns: int, authority: str) -> None:
         latest = self._store.latest(child)
         if latest is not None:
-            text = _refusals.old_data(
-                child, stamp_ns, latest.stamp_ns, self._store.cache_ns, authority
-            )
+            text = old_data(child, stamp_ns, latest.stamp_ns, self._store.cache_ns, authority)
             self._complaints.add(text, child, authority)
 
     def _check_full(self, call: str, target: str, source: str, fixed: str) -> None:

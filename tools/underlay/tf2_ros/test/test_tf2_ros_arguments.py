@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from tf2_ros._static_arguments import parsed
+from tf2_ros.static_transform_publisher import parsed
 
 FRAMES = ['--frame-id', 'foo', '--child-frame-id', 'bar']
 

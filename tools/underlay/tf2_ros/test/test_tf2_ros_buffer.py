@@ -126,7 +126,7 @@ def test_waiting_for_unknown_frames_is_cheap(
     """What is missing is explained to who asks, not at each transform that comes meanwhile."""
     explained: list[Any] = []
     monkeypatch.setattr(
-        'tf2_py._reasons.unknown_frame', lambda *call: explained.append(call) or 'unknown'
+        'tf2_py._frame_store.unknown_frame', lambda *call: explained.append(call) or 'unknown'
     )
     future = buffer.wait_for_transform_async('map', 'hand', at(0))
     later(lambda: buffer.set_transform(stamped('odom', 'base', 5.0), 'test'))

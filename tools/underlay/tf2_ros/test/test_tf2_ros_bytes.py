@@ -13,7 +13,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from tf2_msgs.msg import TFMessage
 from tf2_py._messages import reading_of
 from tf2_ros import Buffer, TransformListener
-from tf2_ros._tf_bytes import TfReader
+from tf2_ros.transform_listener import TfReader
 
 NAMES = ['a', 'ab', 'abc', 'robot_1/left_arm', 'grüße', 'x' * 200, '', '/map']
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 from math import pi, sqrt
 
 from tf2_messages import stamped
-from tf2_ros._delays import Delays, report, Traffic
-from tf2_ros._echo_text import echo_text
+from tf2_ros.tf2_echo import echo_text
+from tf2_ros.tf2_monitor import Delays, report, Traffic
 
 
 def test_echo() -> None:

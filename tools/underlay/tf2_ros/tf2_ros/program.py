@@ -24,6 +24,9 @@ _LOOK_S = 1.0
 _END_S = 3.0
 BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 
+_CLOCK_S = 5.0
+_CLOCK = '/clock'
+
 
 def run_node(
     make_node: Callable[[list[str]], Node], arguments: Sequence[str] | None = None
@@ -180,9 +183,8 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
 
     """
     from rclpy.task import Future
-    from tf2_ros._clock_watch import watch_clock
 
-    watch_clock(node)
+    _watch_clock(node)
     stop: Future[None] = Future()
     failures: list[Exception] = []
     thread = threading.Thread(target=_work, args=(node, stop, failures), name='node', daemon=True)
@@ -247,3 +249,33 @@ def _work(node: Node, stop: Future[None], failures: list[Exception]) -> None:
         os.kill(os.getpid(), signal.SIGTERM)
     finally:
         executor.shutdown()
+
+
+def _watch_clock(node: Node) -> None:
+    """
+    Warn after 5 s if a node with `use_sim_time` has received no time on `/clock`.
+
+    Parameters
+    ----------
+    node
+        The node whose clock is checked; a timer is added to it if it follows `/clock`.
+
+    """
+    if not node.get_clock().ros_time_is_active:
+        return
+    from rclpy.clock import Clock, ClockType
+
+    def look() -> None:
+        timer.cancel()
+        if node.get_clock().now().nanoseconds == 0:
+            node.get_logger().warning(_complaint(node.count_publishers(_CLOCK)))
+
+    timer = node.create_timer(_CLOCK_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def _complaint(publishers: int) -> str:
+    why = f'no time has come on {_CLOCK} so far' if publishers else f'nobody publishes {_CLOCK}'
+    return (
+        f'use_sim_time is true, but {why}: the time of this node stands still. Start the '
+        'simulator, or play the bag with --clock; without one, leave out use_sim_time.'
+    )

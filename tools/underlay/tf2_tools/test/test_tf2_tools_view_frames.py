@@ -13,8 +13,7 @@ from xml.etree import ElementTree
 
 from domain_coordinator import domain_id
 import pytest
-from tf2_tools.drawing import draw, write_graph
-from tf2_tools.tree_svg import tree_svg
+from tf2_tools.drawing import draw, tree_svg, write_graph
 
 TIMEOUT_S = 100.0
 SVG = '{http://www.w3.org/2000/svg}'

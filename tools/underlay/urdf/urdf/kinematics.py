@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import cos, sin
 
-from urdf.joint import Joint, Vector
+from urdf.robot_model import Joint, Vector
 
 __all__ = ['Pose', 'joint_motion', 'rotate', 'rotation_of']
 

@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parse a URDF."""
+"""Parse a URDF, and validate that its links form one tree."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 import os
 import re
 
-from urdf.attributes import text as attribute
-from urdf.consistency import check_consistency
-from urdf.joint_reading import read_joint
-from urdf.robot_model import Link, RobotModel
-from urdf.shape import Color
-from urdf.shape_reading import read_materials, read_shapes
-from urdf.urdf_error import UrdfError
-from urdf.xml_element import parse_xml, XmlElement
+from ros_environment.suggestions import did_you_mean
+from urdf.element_reading import read_joint, read_materials, read_shapes
+from urdf.robot_model import check_for_loops, Color, Joint, Link, RobotModel
+from urdf.xml_element import parse_xml, UrdfError, XmlElement
+from urdf.xml_element import text as attribute
 
 __all__ = ['parse_urdf', 'read_urdf_file']
 
@@ -40,7 +37,7 @@ def parse_urdf(text: str, source: str = 'robot_description') -> RobotModel:
     """
     try:
         model = _read(_robot_element(text))
-        check_consistency(model)
+        _check_consistency(model)
     except UrdfError as error:
         raise UrdfError(error.reason + _origin_of(text), error.line, source) from error
     return model
@@ -130,3 +127,125 @@ def _origin_of(text: str) -> str:
     """Return a hint at the xacro file that the text was expanded from, or ''."""
     found = XACRO_MARK.search(text[:2000])
     return f' (The line is one of what xacro made from {found[1]}.)' if found else ''
+
+
+def _check_consistency(model: RobotModel) -> None:
+    """
+    Validate a robot: unique names, one tree of links, and mimic joints that exist.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    Raises
+    ------
+    UrdfError
+        The robot has no links, or is not consistent.
+
+    """
+    if not model.links:
+        raise UrdfError(f"Robot '{model.name}' has no links. Add at least one <link>.")
+    _check_unique('link', model.links)
+    _check_unique('joint', model.joints)
+    _check_links_exist(model)
+    _check_one_parent(model)
+    _check_one_root(model)
+    _check_mimics(model)
+
+
+def _check_unique(what: str, named: Sequence[Link] | Sequence[Joint]) -> None:
+    first: dict[str, int | None] = {}
+    for each in named:
+        if each.name in first:
+            raise UrdfError(
+                f"There is a {what} '{each.name}' already, on line {first[each.name]}. "
+                'Rename one of them.',
+                each.line,
+            )
+        first[each.name] = each.line
+
+
+def _check_links_exist(model: RobotModel) -> None:
+    names = {link.name for link in model.links}
+    for joint in model.joints:
+        for role, link in (('parent', joint.parent), ('child', joint.child)):
+            if link not in names:
+                raise UrdfError(
+                    f"The {role} of joint '{joint.name}' is link '{link}', which does not "
+                    f'exist. {did_you_mean(link, names, 0.75)}'.rstrip(),
+                    joint.line,
+                )
+
+
+def _check_one_parent(model: RobotModel) -> None:
+    above: dict[str, str] = {}
+    for joint in model.joints:
+        if joint.child in above:
+            raise UrdfError(
+                f"Link '{joint.child}' is the child of two joints, '{above[joint.child]}' and "
+                f"'{joint.name}'. Remove one of them.",
+                joint.line,
+            )
+        above[joint.child] = joint.name
+
+
+def _check_one_root(model: RobotModel) -> None:
+    """Check that there is exactly one root link, and that all other links are below it."""
+    children = {joint.child for joint in model.joints}
+    roots = [link for link in model.links if link.name not in children]
+    if len(roots) > 1:
+        names = ', '.join(f"'{link.name}'" for link in roots)
+        raise UrdfError(
+            f"Robot '{model.name}' falls apart: the links {names} have no parent. "
+            'Join them, so that only one root is left.',
+            roots[1].line,
+        )
+    hanging = _below(model, {link.name for link in roots})
+    loop = [joint for joint in model.joints if joint.child not in hanging]
+    if loop:
+        names = ', '.join(f"'{joint.name}'" for joint in loop)
+        raise UrdfError(
+            f'The joints {names} go round in a loop. The links of a robot must form a tree.',
+            loop[0].line,
+        )
+
+
+def _below(model: RobotModel, roots: set[str]) -> set[str]:
+    """Return the links in the subtrees of the given root links, including the roots."""
+    children: dict[str, list[str]] = {}
+    for joint in model.joints:
+        children.setdefault(joint.parent, []).append(joint.child)
+    found, waiting = set(roots), list(roots)
+    while waiting:
+        for child in children.get(waiting.pop(), []):
+            found.add(child)
+            waiting.append(child)
+    return found
+
+
+def _check_mimics(model: RobotModel) -> None:
+    """Check that mimicked joints exist and move, and that mimic joints form no loops."""
+    by_name = {joint.name: joint for joint in model.joints}
+    mimics = model.mimics
+    for name, mimic in mimics.items():
+        line, master = by_name[name].line, by_name.get(mimic.joint)
+        if master is None:
+            others = (other for other in by_name if other != name)
+            meant = did_you_mean(mimic.joint, others, 0.75)
+            raise UrdfError(
+                f"Joint '{name}' mimics joint '{mimic.joint}', which does not exist. "
+                f'{meant}'.rstrip(),
+                line,
+            )
+        if not master.moves:
+            raise UrdfError(
+                f"Joint '{name}' mimics joint '{master.name}', which has no position: "
+                f'it is {master.kind}.',
+                line,
+            )
+    try:
+        check_for_loops(mimics)
+    except ValueError as loop:
+        first = by_name[str(loop).split(' -> ')[0]]
+        raise UrdfError(f'Joints mimic each other in a loop: {loop}.', first.line) from loop

@@ -1,14 +1,143 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robot model of a URDF."""
+"""Robot model of a URDF: links with their shapes, joints, and chains of mimic joints."""
 
 from __future__ import annotations
 
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
+from typing import Union
 
-from urdf.joint import Joint, Mimic
-from urdf.shape import Shape
+__all__ = [
+    'KINDS',
+    'LIMITED',
+    'MOVING',
+    'Box',
+    'Capsule',
+    'Color',
+    'Cylinder',
+    'Geometry',
+    'Joint',
+    'Limits',
+    'Link',
+    'Mesh',
+    'Mimic',
+    'Origin',
+    'RobotModel',
+    'Shape',
+    'Sphere',
+    'Vector',
+    'check_for_loops',
+    'followed',
+]
 
-__all__ = ['Link', 'RobotModel']
+Vector = tuple[float, float, float]
+LIMITED = ('revolute', 'prismatic')
+MOVING = (*LIMITED, 'continuous')
+"""The joint types with a scalar position (one degree of freedom)."""
+KINDS = (*MOVING, 'fixed', 'floating', 'planar')
+
+Color = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each from 0 to 1."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Pose in the frame of the (parent) link: xyz in metres; roll, pitch, yaw in radians."""
+
+    xyz: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Position limits of a joint, in radians or metres."""
+
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """Mimic relation: the position is `multiplier` times that of another joint, plus `offset`."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint between two links; the axis is a unit vector."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    origin: Origin = Origin()
+    axis: Vector = (1.0, 0.0, 0.0)
+    limits: Limits | None = None
+    soft_limits: Limits | None = None
+    mimic: Mimic | None = None
+    max_velocity: float | None = None
+    """The velocity limit, in radians or metres per second; None if unlimited or unknown."""
+    max_effort: float | None = None
+    """The effort limit, in newton metres or newtons; None if unlimited or unknown."""
+    line: int | None = field(default=None, compare=False)
+
+    @property
+    def moves(self) -> bool:
+        """Whether the joint has a scalar position, as in joint states."""
+        return self.kind in MOVING
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box, centred at its origin: lengths along x, y and z in metres."""
+
+    size: Vector
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A cylinder along z, centred at its origin; in metres."""
+
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A capsule: a cylinder of `length` along z between two hemispheres; in metres."""
+
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A sphere, centred at its origin; in metres."""
+
+    radius: float
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A mesh: the file as in the URDF (`package://...`), and the scale along x, y and z."""
+
+    file: str
+    scale: Vector = (1.0, 1.0, 1.0)
+
+
+Geometry = Union[Box, Capsule, Cylinder, Mesh, Sphere]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Visual or collision shape of a link; without a colour, the viewer chooses one."""
+
+    geometry: Geometry
+    origin: Origin = field(default_factory=Origin)
+    color: Color | None = None
 
 
 @dataclass(frozen=True)
@@ -61,3 +190,59 @@ class RobotModel:
 def _count(number: int, noun: str) -> str:
     """Format a number with a singular or plural noun."""
     return f'{number} {noun}' + ('' if number == 1 else 's')
+
+
+def followed(name: str, mimics: Mapping[str, Mimic], known: Container[str]) -> Mimic | None:
+    """
+    Resolve a chain of mimic joints to the first joint in it whose position is known.
+
+    Parameters
+    ----------
+    name
+        The joint name; a known joint resolves to itself.
+    mimics
+        The mimic relations by joint name.
+    known
+        The joints whose positions are known.
+
+    Returns
+    -------
+    Mimic or None
+        The known joint with the multiplier and offset (rad or m) of the whole chain; None if no
+        joint of the chain is known.
+
+    """
+    multiplier, offset = 1.0, 0.0
+    while name not in known:
+        mimic = mimics.get(name)
+        if mimic is None:
+            return None
+        offset += multiplier * mimic.offset
+        multiplier *= mimic.multiplier
+        name = mimic.joint
+    return Mimic(name, multiplier, offset)
+
+
+def check_for_loops(mimics: Mapping[str, Mimic]) -> None:
+    """
+    Check that no mimic joints follow each other in a loop.
+
+    Parameters
+    ----------
+    mimics
+        The mimic relations by joint name.
+
+    Raises
+    ------
+    ValueError
+        There is a loop; the message contains the names of its joints, joined by ' -> '.
+
+    """
+    for name in mimics:
+        chain = [name]
+        while chain[-1] in mimics:
+            chain.append(mimics[chain[-1]].joint)
+            if chain[-1] == name:
+                raise ValueError(' -> '.join(chain))
+            if chain[-1] in chain[:-1]:
+                break

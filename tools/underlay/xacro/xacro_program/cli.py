@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import os
 import sys
 from typing import Any, Optional
 
 import xacro
 from xacro.cli import process_args
-from xacro_program.arguments import WatchedArguments
-from xacro_program.output import write_output
 from xacro_program.placed_document import placed_documents
 
 _TRACEBACKS = 2
@@ -41,7 +40,7 @@ def main(argv: Optional[list[str]] = None) -> int:
     except RuntimeError as error:
         print(f'xacro: error: {str(error).strip()}: expected NAME:=VALUE', file=sys.stderr)
         return 2
-    arguments = WatchedArguments(options.mappings)
+    arguments = _WatchedArguments(options.mappings)
     try:
         text = _expand(path, options, arguments)
     except Exception as error:
@@ -52,7 +51,7 @@ def main(argv: Optional[list[str]] = None) -> int:
     return _write(text, options.output)
 
 
-def _expand(path: str, options: Any, arguments: WatchedArguments) -> str:
+def _expand(path: str, options: Any, arguments: _WatchedArguments) -> str:
     if options.root_dir:
         xacro.root_dir = options.root_dir
     with placed_documents():
@@ -77,7 +76,7 @@ def _fail(error: Exception, path: str, options: Any) -> int:
 
 def _write(text: str, path: Optional[str]) -> int:
     try:
-        write_output(text, path)
+        _write_output(text, path)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
@@ -86,3 +85,85 @@ def _write(text: str, path: Optional[str]) -> int:
         print(f"xacro: error: cannot write '{where}': {error.strerror}", file=sys.stderr)
         return 1
     return 0
+
+
+class _WatchedArguments(dict[str, str]):
+    """
+    Arguments of a xacro file, which record the names that the file declares or uses.
+
+    Parameters
+    ----------
+    given
+        The command line arguments by name.
+
+    """
+
+    def __init__(self, given: Mapping[str, str]) -> None:
+        super().__init__(given)
+        self._given = list(given)
+        self._asked: set[str] = set()
+
+    def __contains__(self, name: object) -> bool:
+        self._asked.add(str(name))
+        return super().__contains__(name)
+
+    def __getitem__(self, name: str) -> str:
+        self._asked.add(name)
+        return super().__getitem__(name)
+
+    def unknown(self) -> list[str]:
+        """Return a message for each given argument that was never accessed."""
+        return [_sentence(name, self._asked) for name in self._given if name not in self._asked]
+
+
+def _sentence(name: str, known: set[str]) -> str:
+    from ros_environment.suggestions import did_you_mean
+
+    hint = did_you_mean(name, known)
+    if not hint and known:
+        hint = f'The arguments are: {", ".join(sorted(known))}'
+    return f"no <xacro:arg> declares '{name}', so it changes nothing. {hint}".rstrip()
+
+
+def _write_output(text: str, path: Optional[str]) -> None:
+    """
+    Write the output to a file, atomically, or to the standard output.
+
+    Parameters
+    ----------
+    text
+        The output.
+    path
+        The file, whose directory is created if needed; None for the standard output.
+
+    Raises
+    ------
+    OSError
+        The output cannot be written.
+
+    """
+    if path is None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    elif os.path.exists(path) and not os.path.isfile(path):
+        _write_file(text, path)
+    else:
+        _replace(text, os.path.realpath(path))
+
+
+def _replace(text: str, path: str) -> None:
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    new = f'{path}.{os.getpid()}.new'
+    try:
+        _write_file(text, new)
+        if os.path.exists(path):
+            os.chmod(new, os.stat(path).st_mode)
+        os.replace(new, path)
+    finally:
+        if os.path.exists(new):
+            os.unlink(new)
+
+
+def _write_file(text: str, path: str) -> None:
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)

@@ -8,8 +8,7 @@ from types import FrameType
 from typing import Any, NamedTuple, Optional
 
 import xacro
-from xacro_program.place import Place, place_of, PlacedText
-from xacro_program.placed_document import BrokenXmlError
+from xacro_program.placed_document import BrokenXmlError, Place, place_of, PlacedText
 
 _LISTED = 8
 

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Loading of a robot description from a file given on the command line."""
+"""What a node is given: a robot description as a file, and parameters that it does not declare."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
+
 from rclpy.parameter import Parameter
+from ros_environment.suggestions import did_you_mean
 from urdf import read_urdf_file
 
-__all__ = ['file_argument', 'parameters_from_file']
+__all__ = ['file_argument', 'parameters_from_file', 'unknown_parameters']
+
+OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
 
 
 def file_argument(program: str, words: list[str]) -> str | None:
@@ -62,3 +67,26 @@ def parameters_from_file(file: str | None) -> list[Parameter]:
     if file is None:
         return []
     return [Parameter('robot_description', Parameter.Type.STRING, read_urdf_file(file))]
+
+
+def unknown_parameters(
+    given: Iterable[str], known: Collection[str], prefixes: tuple[str, ...] = ()
+) -> list[str]:
+    """
+    Format a warning for each parameter that the node does not declare.
+
+    Parameters
+    ----------
+    given
+        The names of the parameters that were given to the node.
+    known
+        The names that the node declares.
+    prefixes
+        Allowed prefixes of names, in addition to those of ROS.
+
+    """
+    return [
+        f"There is no parameter '{name}'. {did_you_mean(name, known, 0.75)}".rstrip()
+        for name in given
+        if name not in known and not name.startswith((*OF_ROS, *prefixes))
+    ]

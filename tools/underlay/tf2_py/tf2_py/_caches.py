@@ -1,12 +1,47 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cache for the transforms of a moving frame over time."""
+"""The transforms of a frame over time, and the link to its parent at one time."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
+from typing import NamedTuple
 
-from tf2_py._link import Gap, Link, Sample
+from tf2_py._pose import interpolate, Pose
+
+
+class Sample(NamedTuple):
+    """A transform of a frame as received from a broadcaster."""
+
+    stamp_ns: int
+    parent: str
+    pose: Pose
+    authority: str
+
+
+class Link(NamedTuple):
+    """The link from a frame to its parent, interpolated between two samples."""
+
+    parent: str
+    earlier: Pose
+    later: Pose
+    fraction: float
+
+    def pose(self) -> Pose:
+        """Return the pose of the frame in its parent."""
+        if not self.fraction:
+            return self.earlier
+        return interpolate(self.earlier, self.later, self.fraction)
+
+
+class Gap(Exception):
+    """The samples do not cover the requested time."""
+
+    def __init__(self, requested_ns: int, oldest_ns: int, latest_ns: int) -> None:
+        super().__init__()
+        self.requested_ns = requested_ns
+        self.oldest_ns = oldest_ns
+        self.latest_ns = latest_ns
 
 
 class TimeCache:
@@ -117,3 +152,62 @@ class TimeCache:
         count = bisect_left(self._stamps_ns, oldest_ns)
         del self._stamps_ns[:count]
         del self._samples[:count]
+
+
+class StaticCache:
+    """The single sample of a static frame, valid at all times."""
+
+    is_static = True
+
+    def __init__(self) -> None:
+        """Create a cache without a sample."""
+        self._sample: Sample | None = None
+        self._link: Link | None = None
+
+    @property
+    def samples(self) -> Sequence[Sample]:
+        """Return the sample, if any, in a sequence."""
+        return [] if self._sample is None else [self._sample]
+
+    def insert(self, sample: Sample) -> bool:
+        """
+        Replace the sample.
+
+        Parameters
+        ----------
+        sample
+            The new sample, whose time is ignored.
+
+        Returns
+        -------
+        bool
+            True, as a static sample is never too old.
+
+        """
+        self._sample = sample._replace(stamp_ns=0)
+        self._link = Link(sample.parent, sample.pose, sample.pose, 0.0)
+        return True
+
+    def link_at(self, time_ns: int) -> Link | None:
+        """
+        Return the link to the parent, which is the same at all times.
+
+        Parameters
+        ----------
+        time_ns
+            Ignored.
+
+        Returns
+        -------
+        Link or None
+            None without a sample.
+
+        """
+        return self._link
+
+    def latest(self) -> Sample | None:
+        """Return the sample."""
+        return self._sample
+
+    def clear(self) -> None:
+        """Keep the sample, as static transforms remain valid after a time jump."""

@@ -7,14 +7,12 @@ from collections.abc import Iterator, Mapping
 from math import pi
 from random import Random
 
-from joint_state_publisher.free_joint import FreeJoint
-from joint_state_publisher.merged_joints import MergedJoints
-from joint_state_publisher_gui.core.joint_slider import JointSlider
-from joint_state_publisher_gui.core.limbs import Limb, limbs
-from joint_state_publisher_gui.core.poses import Pose
-from joint_state_publisher_gui.core.scale import Scale
+from joint_state_publisher.merged_joints import FreeJoint, MergedJoints
+from joint_state_publisher_gui.joint_slider import JointSlider, Scale
+from joint_state_publisher_gui.limbs import Limb, limbs
+from joint_state_publisher_gui.poses import Pose
+from ros_environment.suggestions import did_you_mean
 from urdf import Joint, RobotModel
-from urdf.did_you_mean import did_you_mean
 
 __all__ = ['Board']
 
@@ -135,8 +133,8 @@ class Board:
             if slider is None:
                 why = 'follows another joint' if name in self._moving else 'is no moving joint'
                 yield (
-                    f"'{name}' is left out: it {why} of this robot."
-                    f'{did_you_mean(name, self.sliders)}'
+                    f"'{name}' is left out: it {why} of this robot. "
+                    f'{did_you_mean(name, self.sliders, 0.75)}'.rstrip()
                 )
                 continue
             slider.move(position)
