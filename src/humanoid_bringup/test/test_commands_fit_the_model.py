@@ -7,7 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ament_index_python.packages import get_package_share_directory
-from humanoid_control.joint_controller_parameters import JointControllerParameters
+from humanoid_control.joint_controller import JointControllerParameters
 from humanoid_control.sine_motion import Swing
 import pytest
 import xacro

@@ -4,18 +4,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import sys
 from typing import Any, Generic, TypeVar
 
-from humanoid_common.descriptors import descriptor_of
 from humanoid_common.parameters import (
     build,
     ParameterError,
+    ParameterSpec,
     specs_of,
     unknown_parameter_warnings,
     values_of,
     widened,
 )
-from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -24,6 +30,7 @@ _WIDER = {
     Parameter.Type.INTEGER: Parameter.Type.DOUBLE,
     Parameter.Type.INTEGER_ARRAY: Parameter.Type.DOUBLE_ARRAY,
 }
+_LARGEST_INTEGER = 2**63 - 1
 
 
 class NodeParameters(Generic[T]):
@@ -76,7 +83,7 @@ class NodeParameters(Generic[T]):
         snapshot = self._build_at_start(known)
         for name, value in values_of(snapshot).items():
             self._node.declare_parameter(
-                name, value, descriptor_of(self._specs[name]), ignore_override=True
+                name, value, _descriptor_of(self._specs[name]), ignore_override=True
             )
         self._warn_of_unknown(given)
         return snapshot
@@ -144,3 +151,47 @@ def _given_values(node: Node) -> dict[str, Any]:
     """
     overrides: dict[str, Parameter] = getattr(node, '_parameter_overrides', {})
     return {name: override.value for name, override in overrides.items()}
+
+
+def _descriptor_of(spec: ParameterSpec) -> ParameterDescriptor:
+    """
+    Convert the rules of a parameter to its ROS parameter descriptor.
+
+    Parameters
+    ----------
+    spec
+        The parameter: its description, limits and choices, and whether it is read-only.
+
+    """
+    descriptor = ParameterDescriptor(
+        name=spec.name, description=spec.rules.description, read_only=spec.rules.read_only
+    )
+    if spec.rules.choices:
+        descriptor.additional_constraints = 'One of: ' + ', '.join(spec.rules.choices)
+    if spec.rules.at_least is not None or spec.rules.at_most is not None:
+        _add_range(descriptor, spec)
+    return descriptor
+
+
+def _add_range(descriptor: ParameterDescriptor, spec: ParameterSpec) -> None:
+    """Add the limits; those of a list are put in words, as ROS has no range for lists."""
+    low, high = spec.rules.at_least, spec.rules.at_most
+    if spec.is_list:
+        between = f'between {low} and {high}'
+        bounds = f'at most {high}' if low is None else f'at least {low}'
+        told = bounds if None in (low, high) else between
+        descriptor.additional_constraints = f'Each element {told}'
+    elif spec.element is float:
+        descriptor.floating_point_range = [
+            FloatingPointRange(
+                from_value=-sys.float_info.max if low is None else float(low),
+                to_value=sys.float_info.max if high is None else float(high),
+            )
+        ]
+    else:
+        descriptor.integer_range = [
+            IntegerRange(
+                from_value=-_LARGEST_INTEGER if low is None else int(low),
+                to_value=_LARGEST_INTEGER if high is None else int(high),
+            )
+        ]

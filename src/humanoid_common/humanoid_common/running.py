@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 import sys
 from typing import ParamSpec
 
-from humanoid_common.clock_watch import watch_clock
 from humanoid_common.errors import NodeStartError
 from humanoid_common.executing import destroy, make_executor, spin_until
 from humanoid_common.interrupts import stop_on_signals
 from humanoid_common.stop_request import StopRequest
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
@@ -24,6 +24,8 @@ NodeFactory = Callable[[], Node]
 P = ParamSpec('P')
 _ends: dict[Context, Future[None]] = {}
 """Futures that end the node that `run_node` runs, by its context."""
+_PATIENCE_S = 5.0
+_CLOCK = '/clock'
 
 
 def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
@@ -132,7 +134,7 @@ def _made(factory: NodeFactory, stop: StopRequest) -> Node:
 def _run(factory: NodeFactory, stop: StopRequest) -> None:
     """Create the node, run its callbacks until the stop request, and destroy it."""
     node = _made(factory, stop)
-    watch_clock(node)
+    _watch_clock(node)
     executor = make_executor()
     executor.add_node(node)
     done: Future[None] = Future()
@@ -146,3 +148,41 @@ def _run(factory: NodeFactory, stop: StopRequest) -> None:
         stop.wake_with(None)
         executor.shutdown()
         destroy(node)
+
+
+def _watch_clock(node: Node) -> None:
+    """
+    Warn once if a node with `use_sim_time` receives no time from /clock.
+
+    Parameters
+    ----------
+    node
+        The node; it is checked once, `_PATIENCE_S` of real time from now.
+
+    """
+    if not node.get_clock().ros_time_is_active:
+        return
+
+    def look() -> None:
+        timer.cancel()
+        if node.get_clock().now().nanoseconds == 0:
+            node.get_logger().warning(_missing_time_warning(node.count_publishers(_CLOCK)))
+
+    timer = node.create_timer(_PATIENCE_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def _missing_time_warning(publishers: int) -> str:
+    """
+    Build the warning about missing simulated time.
+
+    Parameters
+    ----------
+    publishers
+        Number of publishers of /clock.
+
+    """
+    why = f'no time has come on {_CLOCK} so far' if publishers else f'nobody publishes {_CLOCK}'
+    return (
+        f'use_sim_time is true, but {why}: the time of this node stands still. Start the '
+        'simulator, or play the bag with --clock; without one, leave out use_sim_time.'
+    )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from humanoid_control.backends.interface import Array, JointTargets
+from humanoid_control.backends import Array, JointTargets
 from humanoid_description.drives import Drive
 import numpy as np
 

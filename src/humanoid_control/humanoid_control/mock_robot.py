@@ -13,18 +13,16 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.running import run_node
 from humanoid_control.backends import Observation
-from humanoid_control.backends.mock import MockBackend
 from humanoid_control.hosting.control_loop import ControlLoop
-from humanoid_control.hosting.diagnostics import HostDiagnostics
-from humanoid_control.hosting.duplicate_publishers import DuplicatePublisherCheck
+from humanoid_control.hosting.diagnostics import DuplicatePublisherCheck, HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
-from humanoid_control.hosting.pacing import RealTimePace
+from humanoid_control.hosting.pacing import RealTimePace, Stamps
 from humanoid_control.hosting.parameters import HostParameters
-from humanoid_control.hosting.refusals import Refusals
-from humanoid_control.hosting.stamping import Stamps
+from humanoid_control.hosting.reports import Refusals
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_control.mock_backend import MockBackend
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.drives import load_drives
 from humanoid_description.errors import DescriptionError

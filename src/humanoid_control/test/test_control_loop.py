@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from humanoid_control.backends.mock import MockBackend
 from humanoid_control.controllers import CommandError, follow_mode, hold_mode, TrajectoryPoint
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.mock_backend import MockBackend
 from humanoid_control.testing import DRIVES, JOINTS, LIMITS
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import pytest

@@ -14,7 +14,7 @@ from humanoid_control.controllers import (
     JointNames,
     Mode,
 )
-from humanoid_control.controllers.still import Still
+from humanoid_control.controllers.modes import Still
 from humanoid_control.testing import JOINTS, LIMITS, observed, PERIOD_S, targets
 import numpy as np
 import pytest

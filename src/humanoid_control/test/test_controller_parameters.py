@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from humanoid_common.parameters import build, ParameterError
-from humanoid_control.joint_controller_parameters import JointControllerParameters
-from humanoid_control.sensor_processor_parameters import SensorProcessorParameters
+from humanoid_control.joint_controller import JointControllerParameters
+from humanoid_control.sensor_processor import SensorProcessorParameters
 import pytest
 import yaml
 

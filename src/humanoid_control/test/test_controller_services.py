@@ -15,7 +15,7 @@ from controller_manager_msgs.srv import (
 )
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.controllers import follow_mode, hold_mode, TrajectoryPoint, TrajectoryRequest
-from humanoid_control.hosting.controller_list import controllers_of, switch
+from humanoid_control.hosting.controller_services import controllers_of, switch
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.mock_robot import MockRobot
 from humanoid_control.testing import JOINTS, LIMITS, observed

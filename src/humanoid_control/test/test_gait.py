@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.footing import Foothold, Footing
-from humanoid_control.walking.gait import Gait, GaitOutput
-from humanoid_control.walking.gait_context import GaitContext, GaitInput, SoleReading
+from humanoid_control.walking.footing import Foothold, Footing, SoleReading
+from humanoid_control.walking.gait import Gait
+from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, other, outwards, SIDES
+from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.swing_foot import SoleMotion
 from humanoid_control.walking.terrain import GroundPlane, LEVEL
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
@@ -35,6 +35,7 @@ class IdealRobot:
         self.footing = Footing(SHAPE, [Foothold(pose) for pose in feet])
         self.gait = Gait(GaitContext(P, self.pendulum, self.footing))
         self.motion = Motion(self.footing.rest_point)
+        self.velocity = STANDING
         self.output: GaitOutput | None = None
         self.errors_m: list[float] = []
         self.phases: list[str] = []
@@ -48,7 +49,8 @@ class IdealRobot:
             self.motion = self.pendulum.after(self.motion, zmp, passed_s)
             dcm = self.pendulum.dcm(self.motion)
             left, right = map(self._sole, SIDES)
-            self.output = self.gait.update(GaitInput(passed_s, dcm, zmp, (left, right)))
+            now = GaitInput(passed_s, dcm, zmp, (left, right), self.velocity)
+            self.output = self.gait.update(now)
             self.errors_m.append(abs(dcm - self.output.reference.dcm_m))
             self.phases.append(self.gait.phase)
             time_s -= passed_s
@@ -56,7 +58,7 @@ class IdealRobot:
     def go(self, command: VelocityCommand, time_s: float) -> PlanarPose:
         """Go at a velocity for some time; return how far that was, from middle to middle."""
         start = self.footing.middle
-        self.gait.command(command)
+        self.velocity = command
         self.run(time_s)
         end = self.footing.middle
         return PlanarPose(start.local(end.position_m), end.yaw_rad - start.yaw_rad)
@@ -138,7 +140,7 @@ def test_walking_on_while_stopping() -> None:
     """A velocity that comes while the robot comes to rest makes it walk on."""
     robot = IdealRobot()
     robot.go(FORWARD, 3.0)
-    robot.gait.command(STANDING)
+    robot.velocity = STANDING
     while robot.gait.phase == 'walk':
         robot.run(0.01)
     assert robot.gait.phase == 'stop'

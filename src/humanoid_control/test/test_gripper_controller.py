@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.backends.mock import MockBackend
 from humanoid_control.controllers import (
     CommandError,
     follow_mode,
@@ -14,10 +13,11 @@ from humanoid_control.controllers import (
     GripResult,
     hold_mode,
 )
-from humanoid_control.controllers.limbs import gripper_controllers
-from humanoid_control.hosting.controller_list import controllers_of, Strictness, switch
+from humanoid_control.controllers.gripper_controller import gripper_controllers
+from humanoid_control.hosting.controller_services import controllers_of, Strictness, switch
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.limits import JointLimits
+from humanoid_control.mock_backend import MockBackend
 from humanoid_description.drives import load_drives
 import pytest
 

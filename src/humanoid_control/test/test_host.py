@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.backends import Observation
-from humanoid_control.backends.mock import MockBackend
 from humanoid_control.controllers import follow_mode
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.mock_backend import MockBackend
 from humanoid_control.testing import DRIVES, JOINTS, LIMITS
 import pytest
 from rclpy.node import Node

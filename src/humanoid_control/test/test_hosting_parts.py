@@ -4,11 +4,10 @@
 from __future__ import annotations
 
 from humanoid_common.parameters import build, ParameterError
-from humanoid_control.hosting.load import Load
-from humanoid_control.hosting.pacing import RealTimePace
+from humanoid_control.hosting.host import Load
+from humanoid_control.hosting.pacing import RateLimiter, RealTimePace, Stamps
 from humanoid_control.hosting.parameters import HostParameters
-from humanoid_control.hosting.rate_limiter import RateLimiter
-from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.reports import Refusals
 import pytest
 
 
@@ -107,3 +106,30 @@ def test_bad_names(robots: list[str], reason: str) -> None:
     with pytest.raises(ParameterError) as refusal:
         build(HostParameters, {'robots': robots})
     assert reason in str(refusal.value)
+
+
+def test_regular_as_the_robot() -> None:
+    """Jitter of the clock is not in the stamps."""
+    stamps = Stamps()
+    told = [stamps.stamp_s(100.0 + n * 0.01, 100.0 + n * 0.01 + n % 3 * 0.004) for n in range(9)]
+    assert told == pytest.approx([100.0 + n * 0.01 for n in range(9)])
+
+
+@pytest.mark.parametrize('jump_s', [3600.0, -3600.0])
+def test_a_clock_that_is_set(jump_s: float) -> None:
+    """After the clock was set, or the computer slept, stamps are near to the clock again."""
+    stamps = Stamps()
+    assert stamps.stamp_s(5000.0, 5000.0) == 5000.0
+    assert stamps.stamp_s(5000.01, 5000.01 + jump_s) == pytest.approx(5000.01 + jump_s)
+    assert stamps.stamp_s(5000.02, 5000.02 + jump_s) == pytest.approx(5000.02 + jump_s)
+
+
+def test_a_clock_that_stands() -> None:
+    """Nothing is told before it has a time, nor when it was left behind, until it goes on."""
+    stamps = Stamps()
+    assert stamps.stamp_s(0.0, 0.0) is None
+    assert stamps.stamp_s(0.1, 0.0) is None
+    assert stamps.stamp_s(1.0, 0.0) is None
+    assert stamps.stamp_s(1.01, 700.0) == pytest.approx(700.0)
+    assert stamps.stamp_s(2.0, 700.0) is None
+    assert stamps.stamp_s(2.01, 700.01) == pytest.approx(700.01)

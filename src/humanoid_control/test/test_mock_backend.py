@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.backends import Backend
-from humanoid_control.backends.mock import MockBackend
+from humanoid_control.mock_backend import MockBackend
 from humanoid_control.testing import DRIVES, JOINTS, PERIOD_S, targets
 import numpy as np
 import pytest

@@ -6,11 +6,11 @@ from __future__ import annotations
 import cmath
 import math
 
-from humanoid_control.walking.external_force import ForceObserver
 from humanoid_control.walking.obstacle_guard import Contact, LegInAir, ObstacleGuard
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.touch import ForceObserver
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest

@@ -5,16 +5,15 @@ from __future__ import annotations
 
 from humanoid_control.dynamics import BodyModel, BodyState
 from humanoid_control.dynamics.rotations import from_rpy
-from humanoid_control.walking.home_posture import HomePosture
-from humanoid_control.walking.leg_map import leg_maps
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planned_acceleration import (
+    leg_maps,
     PlannedAcceleration,
     whole_acceleration,
     within,
 )
 from humanoid_control.walking.sides import LEFT, RIGHT
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 import numpy as np

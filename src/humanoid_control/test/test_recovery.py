@@ -6,11 +6,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from humanoid_control.backends import Observation
-from humanoid_control.dynamics.rotations import from_rpy
+from humanoid_control.dynamics.rotations import from_rpy, quaternion_of
 from humanoid_control.walking import VelocityCommand, Walker, WalkParameters
-from humanoid_control.walking.fall_detector import FallDetector, Stance
-from humanoid_control.walking.heading import quaternion_of
-from humanoid_control.walking.rising import Rising
+from humanoid_control.walking.recovery import FallDetector, Rising, Stance
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 import numpy as np

@@ -6,10 +6,9 @@ from __future__ import annotations
 import cmath
 import math
 
-from humanoid_control.walking.dcm_plan import BalanceReference
 from humanoid_control.walking.footsteps import FootstepPlanner
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.pendulum import Motion, Pendulum
+from humanoid_control.walking.pendulum import BalanceReference, Motion, Pendulum
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT
 from humanoid_control.walking.step_adjustment import Adjustment, Residual, StepAdjuster

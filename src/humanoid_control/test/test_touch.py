@@ -6,14 +6,13 @@ from __future__ import annotations
 import math
 
 from humanoid_control.dynamics.rotations import from_rpy
-from humanoid_control.walking.attitude import Attitude
-from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.sides import LEFT, RIGHT
-from humanoid_control.walking.state_estimator import RobotState
-from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.state_estimator import Attitude, RobotState
+from humanoid_control.walking.touch import TouchObserver
+from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 import numpy as np

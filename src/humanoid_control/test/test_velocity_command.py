@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.walking.errors import WalkingError
+from humanoid_control.errors import WalkingError
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.velocity_command import VelocityCommand
 import numpy as np

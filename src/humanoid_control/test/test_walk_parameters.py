@@ -6,8 +6,8 @@ from __future__ import annotations
 import math
 
 from humanoid_common.parameters import build, ParameterError
+from humanoid_control.errors import WalkingError
 from humanoid_control.hosting.parameters import HostParameters
-from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.parameters import WalkParameters
 import pytest
 

@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check the control of a robot that walks, on a mock of it."""
+"""Check the control of a robot that walks, on a mock of it, and the velocity passed on."""
 
 from __future__ import annotations
 
-from humanoid_control.backends.mock import MockBackend
+from types import SimpleNamespace
+
 from humanoid_control.controllers import CommandError
 from humanoid_control.hosting.control_loop import ControlLoop
-from humanoid_control.hosting.walking_robot import WalkingRobotControl
-from humanoid_control.walking import VelocityCommand
+from humanoid_control.hosting.walking_robot import WalkingController, WalkingRobotControl
+from humanoid_control.mock_backend import MockBackend
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_description.drives import load_drives
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Robot
 import numpy as np
 import pytest
+
+AHEAD = VelocityCommand(0.2)
 
 
 @pytest.fixture(name='model', scope='module')
@@ -131,3 +135,36 @@ def test_reset(humanoid: Humanoid) -> None:
     )
     status = humanoid.walker.status
     assert status is not None and abs(status.odometry.pose.position_m) < 0.01
+
+
+class StubWalker:
+    """Counts what it is told; a fall makes it forget its velocity by itself."""
+
+    def __init__(self) -> None:
+        self.robot = SimpleNamespace(joints=('knee',))
+        self.velocity = STANDING
+        self.commands = 0
+
+    def command(self, velocity: VelocityCommand) -> None:
+        """Take a velocity."""
+        self.velocity = velocity
+        self.commands += 1
+
+
+def test_the_same_velocity_is_passed_on_once() -> None:
+    """It comes at every tick, and changes seldom."""
+    walker = StubWalker()
+    controller = WalkingController(walker)
+    for _ in range(3):
+        controller.walk(AHEAD)
+    assert (walker.velocity, walker.commands) == (AHEAD, 1)
+
+
+def test_a_walker_that_forgot_is_told_again() -> None:
+    """After a fall it goes on as whoever drives says, without a change of velocity."""
+    walker = StubWalker()
+    controller = WalkingController(walker)
+    controller.walk(AHEAD)
+    walker.velocity = STANDING
+    controller.walk(AHEAD)
+    assert walker.velocity == AHEAD

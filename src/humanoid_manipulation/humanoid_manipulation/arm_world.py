@@ -14,7 +14,7 @@ import math
 from typing import Any
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.walking.heading import quaternion_of
+from humanoid_control.dynamics.rotations import quaternion_of
 from humanoid_description.drives import SIDES
 from humanoid_description.loading import load_robot
 from humanoid_manipulation.errors import ManipulationError

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
-from humanoid_control.walking.heading import quaternion_of
+from humanoid_control.dynamics.rotations import about_z, quaternion_of
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.upper_body import Reach, UpperBody

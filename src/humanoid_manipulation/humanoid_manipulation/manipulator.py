@@ -17,8 +17,7 @@ from humanoid_common.qos import LATCHED
 from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import from_quaternion
-from humanoid_control.walking.heading import quaternion_of
+from humanoid_control.dynamics.rotations import from_quaternion, quaternion_of
 from humanoid_description.drives import SIDES
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction

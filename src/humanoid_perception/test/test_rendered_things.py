@@ -13,9 +13,9 @@ from humanoid_perception.lifting import camera_of, lift, surface_of
 from humanoid_perception.object_detector import DetectorParameters, make_detector
 from humanoid_simulation.camera import CameraView
 from humanoid_simulation.camera.gl_painter import GlPainter
-from humanoid_simulation.camera.painter import SEEN_GROUPS
+from humanoid_simulation.camera.images import SEEN_GROUPS
+from humanoid_simulation.camera.pinhole import pinhole_of
 from humanoid_simulation.camera.ray_painter import RayPainter
-from humanoid_simulation.camera.view import pinhole_of
 from humanoid_simulation.model import build_world, humanoid, in_world, Physics, Placement
 from humanoid_simulation.scene import load_scene
 import mujoco

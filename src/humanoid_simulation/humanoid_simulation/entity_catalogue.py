@@ -9,7 +9,7 @@ from enum import IntEnum
 import re
 
 from humanoid_control.backends import Array
-from humanoid_simulation.backend import MujocoBackend
+from humanoid_simulation.backend.mujoco_backend import MujocoBackend
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.rotations import rotated
 import numpy as np

@@ -10,9 +10,8 @@ from typing import Any
 from geometry_msgs.msg import Vector3
 from humanoid_control.dynamics.rotations import from_quaternion, to_rpy
 from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector
-from humanoid_simulation.backend import EntityState, MujocoBackend
-from humanoid_simulation.backend.entities import check_bounds
-from humanoid_simulation.conversions import entity_state, vector
+from humanoid_simulation.backend.mujoco_backend import MujocoBackend
+from humanoid_simulation.backend.state import check_bounds, EntityState
 from humanoid_simulation.entity_catalogue import (
     Category,
     Description,
@@ -22,10 +21,16 @@ from humanoid_simulation.entity_catalogue import (
 )
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.rotations import from_rpy, product, rotated
-from humanoid_simulation.scene import Scene
 from humanoid_simulation.scene.resources import spawnables, thing_from
-from humanoid_simulation.scene.scene import FLOOR, WORLD
-from humanoid_simulation.service_results import answering, Refusal, refusing, refusing_resource
+from humanoid_simulation.scene.scene import FLOOR, Scene, WORLD
+from humanoid_simulation.service_messages import (
+    answering,
+    entity_state,
+    Refusal,
+    refusing,
+    refusing_resource,
+    vector,
+)
 from humanoid_simulation.simulated_world import SimulatedWorld
 import numpy as np
 from rclpy.node import Node

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array
-from humanoid_simulation.choosing import named
+from humanoid_simulation.errors import named
 from humanoid_simulation.files import share
 from humanoid_simulation.tables import load_table, Table
 import numpy as np

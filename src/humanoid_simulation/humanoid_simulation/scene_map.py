@@ -11,7 +11,7 @@ import sys
 
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.files import replace_file
-from humanoid_simulation.scene import load_scene
+from humanoid_simulation.scene.loading import load_scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap, OCCUPIED
 import numpy as np
 

@@ -10,10 +10,12 @@ import time
 
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_description.loading import load_robot
-from humanoid_simulation.backend import BackendSettings, MujocoBackend
+from humanoid_simulation.backend.mujoco_backend import MujocoBackend
+from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.keyframes import Keyframe, load_keyframes
-from humanoid_simulation.model import humanoid, Physics, Placement, RobotDescription
-from humanoid_simulation.scene import load_scene, Scene
+from humanoid_simulation.model.description import humanoid, Physics, Placement, RobotDescription
+from humanoid_simulation.scene.loading import load_scene
+from humanoid_simulation.scene.scene import Scene
 from humanoid_simulation.simulator_parameters import SimulatorParameters
 
 

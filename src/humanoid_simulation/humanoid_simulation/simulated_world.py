@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The world that services act on: its entities, and whether it is playing."""
+"""The world that services act on: its entities, and whether it is playing or has failed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import IntEnum
 import math
 
+from humanoid_control.backends import Backend, Observation
+from humanoid_control.hosting.control_loop import Brain, ControlLoop
 from humanoid_control.hosting.host import Host
-from humanoid_simulation.backend import EntityState, MujocoBackend
+from humanoid_simulation.backend.mujoco_backend import MujocoBackend
+from humanoid_simulation.backend.state import EntityState
 from humanoid_simulation.entity_catalogue import EntityCatalogue
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.guarded_loop import GuardedLoop
-from humanoid_simulation.model.world import ALONE
-from humanoid_simulation.scene import Scene
+from humanoid_simulation.model.description import ALONE
+from humanoid_simulation.scene.scene import Scene
 from rclpy.task import Future
 
 MOST_STEPS = 100_000
@@ -261,3 +263,64 @@ class SimulatedWorld:
             raise SimulationError('The physics has failed meanwhile; see the log.')
         if self.backend.time_s < end_s:
             raise SimulationError('The steps were ended by another request.')
+
+
+class GuardedLoop(ControlLoop):
+    """
+    A control loop that halts after an error of the simulation, until it is reset.
+
+    Parameters
+    ----------
+    backend
+        The simulated world.
+    brains
+        Controllers by robot name; a robot without one gets no targets.
+    say
+        Called with the message of an error.
+
+    Raises
+    ------
+    ValueError
+        There is a controller for a robot that the backend does not have.
+
+    """
+
+    def __init__(
+        self, backend: Backend, brains: Mapping[str, Brain], say: Callable[[str], None]
+    ) -> None:
+        super().__init__(backend, brains)
+        self._say = say
+        self._has_failed = False
+
+    @property
+    def has_failed(self) -> bool:
+        """Whether the loop has halted after an error, until a reset."""
+        return self._has_failed
+
+    def tick(self) -> Mapping[str, Observation]:
+        """Advance by a period unless halted; return the observations before it."""
+        if not self._has_failed:
+            try:
+                return super().tick()
+            except SimulationError as error:
+                self._has_failed = True
+                self._say(str(error))
+        return self.backend.observe()
+
+    def reset(self, keyframe: str = 'home') -> None:
+        """
+        Reset robots and controllers, and clear an error; time continues.
+
+        Parameters
+        ----------
+        keyframe
+            Name of the posture in which the robots start again.
+
+        Raises
+        ------
+        SimulationError
+            There is no keyframe of that name; an error is not cleared then.
+
+        """
+        super().reset(keyframe)
+        self._has_failed = False

@@ -10,23 +10,22 @@ from humanoid_common.executing import create_async_service
 from humanoid_control.hosting.conversions import seconds
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_interfaces.srv import ApplyWrench
-from humanoid_simulation.conversions import vector
-from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.errors import ResourceError, SimulationError
 from humanoid_simulation.scene.resources import (
     installed_worlds,
-    ResourceError,
     THING_FORMATS,
     World,
     world_at,
     world_of,
     worlds_in,
 )
-from humanoid_simulation.service_results import (
+from humanoid_simulation.service_messages import (
     answering,
     answering_later,
     failure,
     Refusal,
     refusing_resource,
+    vector,
 )
 from humanoid_simulation.simulated_world import SimulatedWorld, State
 from humanoid_simulation.simulator_parameters import SimulatorParameters

@@ -10,27 +10,23 @@ from typing import Any
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_control.backends import Observation
-from humanoid_control.hosting.diagnostics import HostDiagnostics
-from humanoid_control.hosting.duplicate_publishers import DuplicatePublisherCheck
+from humanoid_control.hosting.diagnostics import DuplicatePublisherCheck, HostDiagnostics, Speed
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
-from humanoid_control.hosting.refusals import Refusals
-from humanoid_control.hosting.slowness import Speed
+from humanoid_control.hosting.reports import Refusals
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_description.errors import DescriptionError
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.entity_services import EntityServices
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.guarded_loop import GuardedLoop
-from humanoid_simulation.laser.topics import FRAME, ScanTopics
-from humanoid_simulation.model import in_world
+from humanoid_simulation.model.description import in_world
 from humanoid_simulation.pacing import Pacer
 from humanoid_simulation.simulated_robots import simulated_robots, SimulatedRobots
-from humanoid_simulation.simulated_world import SimulatedWorld
+from humanoid_simulation.simulated_world import GuardedLoop, SimulatedWorld
 from humanoid_simulation.simulation_services import SimulationServices
 from humanoid_simulation.simulator_parameters import SimulatorParameters
-from humanoid_simulation.topics.real_time_factor import RealTimeFactorTopic
-from humanoid_simulation.topics.world import WorldTopics
+from humanoid_simulation.topics.scan import FRAME, ScanTopics
+from humanoid_simulation.topics.world import RealTimeFactorTopic, WorldTopics
 from rclpy.node import Node
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of the simulator."""
+"""The parameters of the simulator: its world and time, its cameras, laser scanners and noise."""
 
 from __future__ import annotations
 
@@ -7,16 +7,160 @@ from dataclasses import dataclass
 
 from humanoid_common.parameters import parameter, ParameterError
 from humanoid_control.hosting.parameters import HostParameters
-from humanoid_simulation.camera.parameters import CameraParameters
-from humanoid_simulation.choosing import named
-from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.backend.noise import REALISTIC, SensorNoise
+from humanoid_simulation.camera.images import PictureNoise
+from humanoid_simulation.camera.methods import AUTO, CHOICES
+from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.keyframes import load_keyframes
-from humanoid_simulation.laser.parameters import LaserParameters
-from humanoid_simulation.model.physics import SELF_COLLISIONS
-from humanoid_simulation.noise_parameters import NoiseParameters
+from humanoid_simulation.laser_scanner import ScanNoise, ScanPattern
+from humanoid_simulation.model.description import SELF_COLLISIONS
 
 SLOWEST_FACTOR = 0.001
 """Minimum besides zero: anything slower would look like a simulator that hangs."""
+
+
+@dataclass(frozen=True)
+class CameraParameters:
+    """Rate, image size, frame and rendering method of the cameras of all robots."""
+
+    camera_rate_hz: float = parameter(
+        10.0,
+        'How many pictures each camera takes in a second of simulated time; 0 for no cameras.',
+        at_least=0.0,
+        at_most=100.0,
+        read_only=True,
+    )
+    camera_width_px: int = parameter(
+        320, 'The width of the pictures.', at_least=16, at_most=1920, read_only=True
+    )
+    camera_height_px: int = parameter(
+        240, 'The height of the pictures.', at_least=16, at_most=1920, read_only=True
+    )
+    camera_frame: str = parameter(
+        'camera_optical_frame',
+        'The frame of the pictures, without the prefix of the robot.',
+        read_only=True,
+    )
+    camera_renderer: str = parameter(
+        AUTO,
+        'What draws: OpenGL by egl or osmesa, or rays, without OpenGL; auto tries all three.',
+        choices=CHOICES,
+        read_only=True,
+    )
+
+
+@dataclass(frozen=True)
+class LaserParameters:
+    """Rate, rays and range of the laser scanners; their noise is with that of other sensors."""
+
+    scan_rate_hz: float = parameter(
+        10.0,
+        'How often scan is published while somebody subscribes; 0 is never.',
+        at_least=0.0,
+        at_most=100.0,
+    )
+    scan_rays: int = parameter(
+        360, 'How many rays a sweep has, all round.', at_least=4, at_most=4096, read_only=True
+    )
+    scan_range_min_m: float = parameter(
+        0.1, 'The nearest that is measured.', at_least=0.0, at_most=0.9, read_only=True
+    )
+    scan_range_max_m: float = parameter(
+        12.0, 'The farthest that is measured.', at_least=1.0, at_most=100.0, read_only=True
+    )
+
+    @property
+    def scan_pattern(self) -> ScanPattern:
+        """Return the scan pattern that the parameters describe."""
+        return ScanPattern(self.scan_rays, self.scan_range_min_m, self.scan_range_max_m)
+
+
+def _deviation(default: float, of_what: str) -> float:
+    """Declare the parameter of a standard deviation."""
+    return parameter(
+        default,
+        f'Standard deviation of {of_what}, at sensor_noise 1.',
+        at_least=0.0,
+        at_most=1000.0,
+        read_only=True,
+    )
+
+
+@dataclass(frozen=True)
+class NoiseParameters:
+    """Noise of all sensors: joints, inertial measurement unit, feet, cameras and scanners."""
+
+    sensor_noise: float = parameter(
+        0.0,
+        'What all noise of sensors is multiplied by: 0 is none, 1 is what the others say.',
+        at_least=0.0,
+        at_most=100.0,
+        read_only=True,
+    )
+    seed: int = parameter(0, 'Of the noise.', at_least=0, at_most=2**31 - 1, read_only=True)
+    joint_position_noise_rad: float = _deviation(REALISTIC.position_rad, 'joint positions')
+    joint_velocity_noise_rad_s: float = _deviation(REALISTIC.velocity_rad_s, 'joint velocities')
+    joint_effort_noise_nm: float = _deviation(REALISTIC.effort_nm, 'joint efforts')
+    imu_tilt_noise_rad: float = _deviation(REALISTIC.tilt_rad, 'roll and pitch')
+    imu_rate_noise_rad_s: float = _deviation(
+        REALISTIC.angular_velocity_rad_s, 'angular velocities'
+    )
+    imu_rate_bias_rad_s: float = _deviation(
+        REALISTIC.angular_velocity_bias_rad_s, 'the constant error of angular velocities'
+    )
+    imu_acceleration_noise_m_s2: float = _deviation(REALISTIC.acceleration_m_s2, 'accelerations')
+    imu_acceleration_bias_m_s2: float = _deviation(
+        REALISTIC.acceleration_bias_m_s2, 'the constant error of accelerations'
+    )
+    foot_force_noise_n: float = _deviation(REALISTIC.foot_force_n, 'the forces on the feet')
+    foot_torque_noise_nm: float = _deviation(REALISTIC.foot_torque_nm, 'the torques on the feet')
+
+    camera_color_noise: float = _deviation(2.0, 'red, green and blue, of 255')
+    camera_depth_noise_m: float = _deviation(
+        0.002, 'depth at a distance of 1 m, and with the square of the distance'
+    )
+    scan_range_noise_m: float = _deviation(0.01, 'the ranges of the laser scanner')
+    scan_dropout_share: float = parameter(
+        0.002,
+        'Share of rays of the laser scanner that bring nothing back, at sensor_noise 1.',
+        at_least=0.0,
+        at_most=1.0,
+        read_only=True,
+    )
+
+    @property
+    def picture_noise(self) -> PictureNoise:
+        """Return the noise of the cameras that the parameters describe."""
+        return PictureNoise(
+            color=self.camera_color_noise * self.sensor_noise,
+            depth_1_m=self.camera_depth_noise_m * self.sensor_noise,
+            seed=self.seed,
+        )
+
+    @property
+    def scan_noise(self) -> ScanNoise:
+        """Return the noise of the laser scanners that the parameters describe."""
+        return ScanNoise(
+            range_m=self.scan_range_noise_m * self.sensor_noise,
+            dropout_share=min(self.scan_dropout_share * self.sensor_noise, 1.0),
+            seed=self.seed,
+        )
+
+    @property
+    def noise(self) -> SensorNoise:
+        """Return the noise of the other sensors that the parameters describe."""
+        return SensorNoise(
+            position_rad=self.joint_position_noise_rad,
+            velocity_rad_s=self.joint_velocity_noise_rad_s,
+            effort_nm=self.joint_effort_noise_nm,
+            tilt_rad=self.imu_tilt_noise_rad,
+            angular_velocity_rad_s=self.imu_rate_noise_rad_s,
+            acceleration_m_s2=self.imu_acceleration_noise_m_s2,
+            foot_force_n=self.foot_force_noise_n,
+            foot_torque_nm=self.foot_torque_noise_nm,
+            angular_velocity_bias_rad_s=self.imu_rate_bias_rad_s,
+            acceleration_bias_m_s2=self.imu_acceleration_bias_m_s2,
+        ).scaled(self.sensor_noise)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.scene_choices import SceneChoices
+from humanoid_simulation.files import SceneChoices
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution

@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from humanoid_simulation.scene import load_scene
-from humanoid_simulation.testing.lockstep_robot import LockstepRobot
-from humanoid_simulation.testing.routes import FROM_HALL, ROUTES, walk
+from humanoid_simulation.testing.lockstep_robot import FROM_HALL, LockstepRobot, ROUTES, walk
 import pytest
 
 pytestmark = pytest.mark.timeout(600)

@@ -6,8 +6,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from humanoid_simulation.scene import load_scene
-from humanoid_simulation.testing.lockstep_robot import LockstepRobot
-from humanoid_simulation.testing.routes import distance_m, NEAR_M, ROUTES, steer, walk
+from humanoid_simulation.testing.lockstep_robot import (
+    distance_m,
+    LockstepRobot,
+    NEAR_M,
+    ROUTES,
+    steer,
+    walk,
+)
 from humanoid_simulation.testing.simulators import simulated_robot
 import pytest
 

@@ -13,10 +13,10 @@ from humanoid_control.dynamics import BodyModel
 from humanoid_control.dynamics.rotations import from_quaternion
 from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import MujocoBackend
-from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.model import humanoid, Placement
 from humanoid_simulation.scene import Scene, Thing
+from humanoid_simulation.simulator_parameters import CameraParameters
 import numpy as np
 import pytest
 from rcl_interfaces.msg import Log

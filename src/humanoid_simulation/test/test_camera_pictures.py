@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import math
 
 from humanoid_simulation.camera import CameraView, Wanted
-from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.images import Color, Depth
 from humanoid_simulation.camera.pinhole import Pinhole
 from humanoid_simulation.camera.renderer import Pictures
 from humanoid_simulation.testing.camera_studio import ball_address, Studio, studio

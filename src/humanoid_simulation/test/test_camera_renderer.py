@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 import logging
 import os
@@ -14,10 +15,10 @@ from humanoid_common.testing.processes import is_alive, running_program
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.camera import CameraView, Renderer
 from humanoid_simulation.camera.methods import methods_of
-from humanoid_simulation.camera.process_keeper import Patience
+from humanoid_simulation.camera.render_process import RenderProcess
+from humanoid_simulation.camera.renderer import Patience, ProcessKeeper
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.testing.camera_studio import Studio, studio
-from humanoid_simulation.testing.camera_world import world
+from humanoid_simulation.testing.camera_studio import Studio, studio, world
 import pytest
 
 HURRY = Patience(draw_s=5.0, retry_s=0.0)
@@ -180,3 +181,20 @@ def test_refused(view: CameraView, reason: str) -> None:
     model, _ = world()
     with pytest.raises(SimulationError, match=reason):
         Renderer(model, [view], ['rays'], logging.getLogger())
+
+
+def test_no_room_for_a_process(caplog: pytest.LogCaptureFixture) -> None:
+    """A computer that cannot start processes has no cameras, which is said once."""
+    tried: list[str] = []
+
+    def refuse(method: str) -> RenderProcess:
+        tried.append(method)
+        raise OSError(errno.ENOMEM, os.strerror(errno.ENOMEM))
+
+    keeper = ProcessKeeper(refuse, ['egl', 'rays'], logging.getLogger('keeper'), Patience())
+    for _ in range(5):
+        keeper.tend(0.0)
+    assert tried == ['egl', 'rays'] and not keeper.can_draw
+    (said,) = caplog.messages
+    assert 'cameras are off' in said and 'Cannot allocate memory' in said
+    keeper.close()

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.camera.shutter import Shutter
+from humanoid_simulation.camera.topics import Shutter
 import pytest
 
 

@@ -10,11 +10,10 @@ from typing import Any
 
 from humanoid_common.parameters import build, ParameterError
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.testing.camera_studio import ball_address
-from humanoid_simulation.testing.camera_world import world
+from humanoid_simulation.simulator_parameters import CameraParameters
+from humanoid_simulation.testing.camera_studio import ball_address, world
 import numpy as np
 import pytest
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2

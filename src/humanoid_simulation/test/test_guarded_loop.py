@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.guarded_loop import GuardedLoop
+from humanoid_simulation.simulated_world import GuardedLoop
 
 
 class Fragile:

@@ -8,7 +8,7 @@ from humanoid_description.drives import load_drives
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import EntityState
-from humanoid_simulation.hoist import GRAVITY_M_S2, Hoist, HoistSettings
+from humanoid_simulation.backend.hoist import GRAVITY_M_S2, Hoist, HoistSettings
 from humanoid_simulation.rotations import from_rpy, from_vector, product
 import numpy as np
 import pytest

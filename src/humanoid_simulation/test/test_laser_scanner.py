@@ -8,7 +8,7 @@ import math
 from humanoid_control.dynamics.rotations import from_quaternion
 from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.laser import LaserScanner, ScanNoise, ScanPattern
+from humanoid_simulation.laser_scanner import LaserScanner, ScanNoise, ScanPattern
 from humanoid_simulation.model import Placement
 from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene import load_scene, Scene, Thing

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from humanoid_simulation.camera.picture_noise import PictureNoise, PictureNoiseSource
+from humanoid_simulation.camera.images import PictureNoise, PictureNoiseSource
 from humanoid_simulation.camera.protocol import Assignment
 from humanoid_simulation.simulator_parameters import SimulatorParameters
 from humanoid_simulation.testing.camera_studio import studio

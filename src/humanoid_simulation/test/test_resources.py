@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from humanoid_simulation.errors import ResourceError
 from humanoid_simulation.scene.objects import CLASSES
 from humanoid_simulation.scene.resources import (
     installed_worlds,
-    ResourceError,
     spawnables,
     thing_from,
     world_at,

@@ -10,8 +10,8 @@ from typing import Any
 from humanoid_common.parameters import build, ParameterError
 from humanoid_common.qos import SENSOR
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_simulation.laser.parameters import LaserParameters
 from humanoid_simulation.simulator import Simulator
+from humanoid_simulation.simulator_parameters import LaserParameters
 import pytest
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan

@@ -11,8 +11,7 @@ from humanoid_common.testing.launching import (
     running_launch_file,
 )
 from humanoid_common.testing.ros import ros_sandbox
-from humanoid_simulation.files import installed_scenes
-from humanoid_simulation.scene_choices import SceneChoices
+from humanoid_simulation.files import installed_scenes, SceneChoices
 import pytest
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'simulation.launch.py'

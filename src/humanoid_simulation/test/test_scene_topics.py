@@ -12,12 +12,11 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_simulation.examples.conversions import refusal
 from humanoid_simulation.files import share
 from humanoid_simulation.scene import load_scene, Thing
-from humanoid_simulation.scene.cutting import parts_below
+from humanoid_simulation.scene.display import parts_below, triangles_in_world
 from humanoid_simulation.scene.meshes import PROFILES, stl_of, triangles_of
 from humanoid_simulation.scene.parts import Part
-from humanoid_simulation.scene.triangles import triangles_in_world
 from humanoid_simulation.simulator import Simulator
-from humanoid_simulation.topics.scene_markers import layer_markers, layers_of, thing_markers
+from humanoid_simulation.topics.scene import layer_markers, layers_of, thing_markers
 import numpy as np
 import pytest
 from rclpy.parameter import Parameter

@@ -7,8 +7,7 @@ import math
 
 from humanoid_control.backends import Observation
 from humanoid_simulation.backend import BackendSettings, EntityState, SensorNoise
-from humanoid_simulation.backend.channels import channels_of
-from humanoid_simulation.backend.noise import NoiseSource
+from humanoid_simulation.backend.noise import channels_of, NoiseSource
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.rotations import from_rpy, rotated
 import numpy as np

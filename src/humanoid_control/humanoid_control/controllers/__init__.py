@@ -10,7 +10,6 @@ from humanoid_control.controllers.gripper_controller import (
     GripResult,
     GripState,
 )
-from humanoid_control.controllers.hold import Hold
 from humanoid_control.controllers.interface import ClaimingController, Controller
 from humanoid_control.controllers.joint_trajectory_controller import (
     ErrorCode,
@@ -18,11 +17,11 @@ from humanoid_control.controllers.joint_trajectory_controller import (
     JointTrajectoryController,
 )
 from humanoid_control.controllers.manager import ControllerManager
-from humanoid_control.controllers.modes import follow_mode, hold_mode, Mode
-from humanoid_control.controllers.tolerances import JointTolerance
+from humanoid_control.controllers.modes import follow_mode, Hold, hold_mode, Mode
 from humanoid_control.controllers.trajectory import checked_trajectory, TrajectoryPoint
 from humanoid_control.controllers.trajectory_goal import (
     checked_goal,
+    JointTolerance,
     TrajectoryGoal,
     TrajectoryRequest,
 )

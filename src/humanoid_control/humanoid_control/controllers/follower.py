@@ -6,9 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from humanoid_control.backends import JointTargets, Observation
-from humanoid_control.controllers.commands import PartialTargets
+from humanoid_control.controllers.commands import Clock, PartialTargets, Silence
 from humanoid_control.controllers.interface import Mask
-from humanoid_control.controllers.silence import Clock, Silence
 import numpy as np
 
 TIMEOUT_S = 0.5

@@ -20,6 +20,8 @@ _BEYOND_M = 1e-3
 """A gap may be out of range by this amount, as when it was rounded or measured."""
 REACHED = 'The gap is reached.'
 STALLED = 'The fingers hold something, or are held.'
+GRIPPERS = {'left_gripper_controller': 'left_gripper', 'right_gripper_controller': 'right_gripper'}
+"""Suffix of the joint name of each gripper controller."""
 
 
 @dataclass(frozen=True)
@@ -191,3 +193,23 @@ class GripperController(GoalController[Grip, GripResult]):
         """Build the result of a goal that was canceled or aborted from outside."""
         state = GripState(self.state.gap_m, self.state.effort_n)
         return GripResult(state, why, is_canceled)
+
+
+def gripper_controllers(
+    joints: Sequence[str], limits: JointLimits
+) -> tuple[GripperController, ...]:
+    """
+    Create the controllers of the grippers of a robot.
+
+    Parameters
+    ----------
+    joints, limits
+        All joints of the robot, in the order of its targets, and their limits.
+
+    """
+    return tuple(
+        GripperController(name, joints, joint, limits)
+        for name, end in GRIPPERS.items()
+        for joint in joints
+        if joint.endswith(end)
+    )

@@ -14,6 +14,13 @@ from humanoid_control.controllers.trajectory_goal import TrajectoryGoal
 from humanoid_control.controllers.trajectory_runner import spline_from
 
 REACHED = 'Goal reached.'
+LIMBS = {
+    'left_arm_controller': ('left_shoulder', 'left_elbow', 'left_wrist'),
+    'right_arm_controller': ('right_shoulder', 'right_elbow', 'right_wrist'),
+    'head_controller': ('head_',),
+    'waist_controller': ('waist_',),
+}
+"""Substrings of the joint names of each controller, after a prefix."""
 
 
 class ErrorCode(IntEnum):
@@ -170,4 +177,23 @@ def _goal_violated(fault: str, goal_time_s: float) -> GoalResult:
         ErrorCode.GOAL_TOLERANCE_VIOLATED,
         f'Goal tolerance violated {goal_time_s:g} s after the end of the trajectory: {fault}. '
         'The joints are held there.',
+    )
+
+
+def limb_controllers(joints: Sequence[str]) -> tuple[JointTrajectoryController, ...]:
+    """
+    Create the trajectory controllers of the limbs of a robot.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+
+    """
+    limbs = {
+        name: [joint for joint in joints if any(part in joint for part in parts)]
+        for name, parts in LIMBS.items()
+    }
+    return tuple(
+        JointTrajectoryController(name, joints, own) for name, own in limbs.items() if own
     )

@@ -3,12 +3,11 @@
 
 from humanoid_control.dynamics.body_model import BodyModel
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.errors import DynamicsError
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.joint_group import JointGroup
 from humanoid_control.dynamics.leg_geometry import LegGeometry
-from humanoid_control.dynamics.leg_ik import leg_posture, LegPosture
-from humanoid_control.dynamics.leg_rates import leg_rates
+from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates, LegPosture
+from humanoid_control.dynamics.tree import JointGroup
+from humanoid_control.errors import DynamicsError
 
 __all__ = [
     'BodyModel',

@@ -9,12 +9,10 @@ from functools import cached_property
 import math
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.dynamics.body_matrices import BodyMatrices
+from humanoid_control.dynamics.body_matrices import BodyMatrices, ForwardKinematics
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.errors import DynamicsError
-from humanoid_control.dynamics.forward import ForwardKinematics
-from humanoid_control.dynamics.joint_group import JointGroup
-from humanoid_control.dynamics.tree import Mount, Tree
+from humanoid_control.dynamics.tree import JointGroup, Mount, Tree
+from humanoid_control.errors import DynamicsError
 from humanoid_description.robot import Robot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray

@@ -8,10 +8,9 @@ from functools import cached_property
 
 from humanoid_common.naming import did_you_mean
 from humanoid_control.dynamics.body_matrices import axial, BodyMatrices
-from humanoid_control.dynamics.errors import DynamicsError
-from humanoid_control.dynamics.joint_group import JointGroup
 from humanoid_control.dynamics.rotations import skew
-from humanoid_control.dynamics.tree import Mount, Tree
+from humanoid_control.dynamics.tree import JointGroup, Mount, Tree
+from humanoid_control.errors import DynamicsError
 import numpy as np
 from numpy.typing import NDArray
 

@@ -194,6 +194,27 @@ def log(rotation: Array) -> Array:
     return np.array([x * scale, y * scale, z * scale])
 
 
+def quaternion_of(rotation: Array) -> tuple[float, float, float, float]:
+    """
+    Convert a rotation matrix to a unit quaternion.
+
+    Parameters
+    ----------
+    rotation
+        The rotation matrix (3, 3).
+
+    Returns
+    -------
+    tuple of float
+        The quaternion w, x, y, z, with w not negative.
+
+    """
+    turn = log(rotation)
+    half_rad = math.sqrt(turn @ turn) / 2.0
+    x, y, z = (turn * (float(np.sinc(half_rad / math.pi)) / 2.0)).tolist()
+    return math.cos(half_rad), x, y, z
+
+
 def skew(vector: Array) -> Array:
     """
     Build the skew-symmetric matrix (3, 3) of the cross product with a vector.

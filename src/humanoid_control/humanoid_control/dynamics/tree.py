@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Kinematic tree of a robot: its bodies and joints as arrays."""
+"""Kinematic tree of a robot: its bodies and joints as arrays, and groups of its joints."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.dynamics.errors import DynamicsError
+from humanoid_control.errors import DynamicsError
 from humanoid_description.kinematics import chain
 from humanoid_description.robot import Body, Joint, named, repeated, Robot
 import numpy as np
@@ -186,3 +186,65 @@ def _pseudo_inertia(body: Body) -> Array:
     pseudo[:3, :3] = 0.5 * np.trace(inertia) * np.eye(3) - inertia
     pseudo[3, 3] = body.mass_kg
     return pseudo
+
+
+@dataclass(frozen=True, eq=False)
+class JointGroup:
+    """Subset of the joints of a model, in its own order, as `BodyModel.group` returns it."""
+
+    joints: tuple[str, ...]
+    indices: NDArray[np.intp]
+    """(k,) their indices in the model"""
+    carries: Array
+    """(k, k) 1 where the joint of the row moves all that the joint of the column moves"""
+    armature_kgm2: Array
+    """(k, k) diagonal"""
+
+    @classmethod
+    def of(
+        cls,
+        joints: tuple[str, ...],
+        indices: NDArray[np.intp],
+        moves: Array,
+        armature_kgm2: Array,
+    ) -> JointGroup:
+        """
+        Build a group from the tables of a model; `BodyModel.group` calls it.
+
+        Parameters
+        ----------
+        joints, indices
+            Names of the k joints, and their indices (k,) in the model.
+        moves
+            Which joints move which bodies (n + 1, n), from `Tree.moves`.
+        armature_kgm2
+            Armature of all joints of the model (n,).
+
+        """
+        carries = moves[indices + 1][:, indices].T.copy()
+        return cls(joints, indices, carries, np.diag(armature_kgm2[indices]))
+
+    def symmetric(self, below: Array) -> Array:
+        """
+        Complete a symmetric matrix of which only the elements marked in `carries` are valid.
+
+        Parameters
+        ----------
+        below
+            The matrix (k, k); its other elements are ignored.
+
+        Returns
+        -------
+        Array
+            The full matrix (k, k), zero between joints of which neither carries the other.
+
+        """
+        right = below * self._shares
+        whole: Array = right + right.T
+        return whole
+
+    @cached_property
+    def _shares(self) -> Array:
+        """Return the weights (k, k) of a matrix that is added to its transpose."""
+        shares: Array = self.carries - 0.5 * np.eye(len(self.carries))
+        return shares

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Services of a ros2_control controller manager, answered from the control of a robot."""
+"""Services of a controller manager: `ros2 control` lists and switches controllers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any
 
 from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
@@ -14,12 +16,9 @@ from controller_manager_msgs.srv import (
     ListHardwareInterfaces,
     SwitchController,
 )
-from humanoid_control.hosting.controller_list import (
-    ControllerInfo,
-    controllers_of,
-    interfaces_of,
-    switch,
-)
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_control.controllers import GoalController
+from humanoid_control.controllers.goal_controller import DEACTIVATED
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.hosting.topics.filling import topic
 from lifecycle_msgs.msg import State
@@ -38,6 +37,9 @@ SENSORS = {
 """State interfaces that the controllers read besides those of the joints, by link."""
 BASE_CLASS = 'controller_interface::ControllerInterface'
 VALUE = 'double'
+ACTIVE, INACTIVE = 'active', 'inactive'
+QUANTITIES = ('position', 'velocity', 'effort')
+"""Command and state interfaces of a joint."""
 
 
 class ControllerServices:
@@ -158,3 +160,182 @@ class ControllerServices:
         ]
         names = interfaces_of(self._control.manager.joints) + sensors
         return [HardwareInterface(name=name, data_type=VALUE, is_available=True) for name in names]
+
+
+class Strictness(IntEnum):
+    """Strictness of a controller switch, with the values of controller_manager_msgs."""
+
+    BEST_EFFORT = 1
+    STRICT = 2
+    AUTO = 3
+    FORCE_AUTO = 4
+
+
+@dataclass(frozen=True)
+class ControllerInfo:
+    """A controller, the joints that it currently claims, and those that it requires."""
+
+    name: str
+    kind: str
+    is_active: bool
+    claimed: tuple[str, ...]
+    required: tuple[str, ...]
+
+    @property
+    def state(self) -> str:
+        """Return the name of its state."""
+        return ACTIVE if self.is_active else INACTIVE
+
+
+def interfaces_of(joints: Sequence[str]) -> list[str]:
+    """
+    List the ros2_control interfaces of joints; command and state interfaces are the same.
+
+    Parameters
+    ----------
+    joints
+        Names of joints.
+
+    Returns
+    -------
+    list of str
+        Three per joint: `joint/position`, `joint/velocity` and `joint/effort`.
+
+    """
+    return [f'{joint}/{quantity}' for joint in joints for quantity in QUANTITIES]
+
+
+def controllers_of(control: RobotControl) -> list[ControllerInfo]:
+    """
+    List the controllers of a robot, with their states and the joints that they claim.
+
+    Each joint is claimed by exactly one of them at any moment.
+
+    Parameters
+    ----------
+    control
+        The control of the robot.
+
+    Returns
+    -------
+    list of ControllerInfo
+        First those that accept goals, then the modes, of which one is active, and then those that
+        move joints as commanded on a topic.
+
+    """
+    manager = control.manager
+    claimable = any(
+        manager.is_claimable(controller.indices) for controller in control.controllers.values()
+    )
+    limbs = [
+        ControllerInfo(
+            name,
+            controller.kind,
+            controller.is_active and manager.is_claimable(controller.indices),
+            manager.joints_of(name),
+            controller.own,
+        )
+        for name, controller in control.controllers.items()
+    ]
+    modes = [
+        ControllerInfo(name, kind, name == manager.mode, manager.joints_of(name), manager.joints)
+        for name, kind in manager.mode_types.items()
+    ]
+    others = [
+        ControllerInfo(
+            claimant.name,
+            f'humanoid_control/{type(claimant).__name__}',
+            control.must_hold if claimant is control.still else claimable,
+            manager.joints_of(claimant.name),
+            (),
+        )
+        for claimant in manager.claimants
+        if not isinstance(claimant, GoalController)
+    ]
+    return limbs + modes + others
+
+
+def switch(
+    control: RobotControl, activate: Sequence[str], deactivate: Sequence[str], strictness: int
+) -> tuple[bool, str]:
+    """
+    Activate and deactivate controllers that accept goals.
+
+    Parameters
+    ----------
+    control
+        The control of the robot.
+    activate, deactivate
+        Names of controllers. One that is in both is restarted: it releases its joints.
+    strictness
+        With BEST_EFFORT, whatever can be switched is switched, and a controller may be in the
+        wanted state already. All others switch everything or nothing: without controller chains,
+        AUTO and FORCE_AUTO have nothing to resolve.
+
+    Returns
+    -------
+    tuple[bool, str]
+        Whether the switch succeeded, and a message about what did not.
+
+    """
+    if strictness not in (0, *Strictness):
+        return False, f'{strictness} is no strictness. Give BEST_EFFORT (1) or STRICT (2).'
+    is_strict = strictness not in (0, Strictness.BEST_EFFORT)
+    restarted = set(activate) & set(deactivate)
+    faults = {
+        **{name: _fault(control, name, False, is_strict) for name in deactivate},
+        **{
+            name: _fault(control, name, True, is_strict and name not in restarted)
+            for name in activate
+        },
+    }
+    message = ' '.join(fault for fault in faults.values() if fault)
+    if is_strict and message:
+        return False, f'{message} Nothing was switched.'
+    for name in deactivate:
+        if not faults[name]:
+            _set(control.controllers[name], False)
+    for name in activate:
+        if not faults[name]:
+            _set(control.controllers[name], True)
+    lists = [names for names in (activate, deactivate) if names]
+    return all(any(not faults[name] for name in names) for names in lists), message
+
+
+def _set(controller: GoalController[Any, Any], active: bool) -> None:
+    """Activate or deactivate a controller; an inactive one claims no joints."""
+    if not active:
+        controller.release(DEACTIVATED)
+    controller.is_active = active
+
+
+def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> str:
+    """Return the reason why a controller cannot be switched; empty if it can."""
+    controller = control.controllers.get(name)
+    if controller is None:
+        return _not_switched(control, name)
+    if active and not control.manager.is_claimable(controller.indices):
+        reason = control.manager.trouble
+        keeps = (
+            f'accepts no commands now: {reason}'
+            if reason
+            else 'leaves its joints to no controller'
+        )
+        return f"'{name}' cannot be active: the mode '{control.manager.mode}' {keeps}."
+    if is_strict and controller.is_active == active:
+        return f"'{name}' is {ACTIVE if active else INACTIVE} already."
+    return ''
+
+
+def _not_switched(control: RobotControl, name: str) -> str:
+    """Build the message about a name that is not a controller that accepts goals."""
+    if name in control.manager.modes:
+        return (
+            f"'{name}' is a mode of the robot. Set the parameter 'mode' of the node that runs the "
+            'robot.'
+        )
+    known = [each.name for each in controllers_of(control)]
+    if name in known:
+        return f"'{name}' is always there, for whoever publishes on its topic."
+    advice = did_you_mean(name, known) or f'There are: {", ".join(known)}.'
+    return f"There is no controller '{shortened(name)}'. {advice}"

@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Diagnostics of the robots of a node, and of its load."""
+"""Diagnostics of a node: its robots, its load, and other publishers of its topics."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 import time
 
 from humanoid_common.diagnostics import Diagnostics, Level, PartStatus
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
-from humanoid_control.hosting.slowness import Slowness, Speed
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+
+SLOW_SHARE = 0.9
+PATIENCE_S = 5.0
+DUPLICATES_PERIOD_S = 3.0
 
 
 class HostDiagnostics:
@@ -91,3 +96,91 @@ def _verdict(health: RobotHealth) -> tuple[Level, str]:
     if health.is_blocked:
         return Level.WARN, 'something is in the way, and it goes no further that way'
     return Level.OK, health.mode
+
+
+@dataclass(frozen=True)
+class Speed:
+    """Real-time factors: seconds of the robots' time per second of real time."""
+
+    reached: float
+    wanted: float
+    """0 is as fast as possible: nothing is too slow then."""
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether less than 90 % of the wanted factor is reached."""
+        return self.reached < SLOW_SHARE * self.wanted
+
+
+class Slowness:
+    """Detector of a computer that stays too busy, which ignores short delays."""
+
+    def __init__(self) -> None:
+        self._since_s: float | None = None
+
+    def complaint(self, speed: Speed | None, now_s: float) -> str:
+        """
+        Return the message about a computer that is too busy; '' if it is not.
+
+        Parameters
+        ----------
+        speed
+            The real-time factors; None while they are not known, as in a pause.
+        now_s
+            Time of a steady clock.
+
+        """
+        if speed is None or not speed.is_slow:
+            self._since_s = None
+            return ''
+        if self._since_s is None:
+            self._since_s = now_s
+        if now_s - self._since_s < PATIENCE_S:
+            return ''
+        return (
+            f'slow: the real-time factor is {speed.reached:.2f} instead of {speed.wanted:g}. '
+            'The computer is too busy'
+        )
+
+
+class DuplicatePublisherCheck:
+    """
+    Duplicate publisher check: warns of topics with another publisher, as from a second simulator.
+
+    It checks every few seconds. A publisher must be seen twice in a row, as a node that ends may
+    stay visible for a moment.
+
+    Parameters
+    ----------
+    node
+        The node that publishes the topics, and logs the warning.
+    topics
+        Topics that only this node may publish; names are relative to its namespace or absolute.
+
+    """
+
+    def __init__(self, node: Node, topics: Sequence[str]) -> None:
+        self._node = node
+        self._topics = tuple(node.resolve_topic_name(topic) for topic in topics)
+        self._seen: set[str] = set()
+        self._said: set[str] = set()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(DUPLICATES_PERIOD_S, self._look, clock=steady)
+
+    def _look(self) -> None:
+        """Warn of duplicates that persist, once for as long as they stay."""
+        duplicates = {topic for topic in self._topics if self._node.count_publishers(topic) > 1}
+        lasting = duplicates & self._seen
+        if lasting - self._said:
+            self._node.get_logger().warning(_duplicates_message(sorted(lasting - self._said)))
+        self._seen, self._said = duplicates, lasting
+
+
+def _duplicates_message(topics: Sequence[str]) -> str:
+    """Build the warning about topics that have more than one publisher, given their names."""
+    names = ', '.join(f"'{topic}'" for topic in topics)
+    return (
+        f'Another node publishes {names}, too: who listens gets a mixture. Perhaps a second robot '
+        'or simulator runs. End one of them, or give it a namespace (a mock robot) or a '
+        'ROS_DOMAIN_ID (a simulator) of its own. One that was killed is seen for some 20 s more.'
+    )

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from typing import Any, Generic, TypeVar
 
 from humanoid_control.controllers import CommandError, GoalController
-from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.reports import Refusals
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node

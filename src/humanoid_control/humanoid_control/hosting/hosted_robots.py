@@ -3,19 +3,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from geometry_msgs.msg import Pose, Twist
+from humanoid_common.qos import COMMAND
 from humanoid_control.backends import Observation
+from humanoid_control.controllers import CommandError
+from humanoid_control.emergency_stop import StopListener
+from humanoid_control.errors import WalkingError
 from humanoid_control.hosting.controller_actions import ControllerActions
 from humanoid_control.hosting.controller_services import ControllerServices
-from humanoid_control.hosting.fall_report import FallReport
-from humanoid_control.hosting.obstacle_report import ObstacleReport
-from humanoid_control.hosting.parameters import HostParameters
-from humanoid_control.hosting.robot_inputs import RobotInputs
-from humanoid_control.hosting.robot_outputs import RobotOutputs
+from humanoid_control.hosting.conversions import body_pose_of, points_of, velocity_of
+from humanoid_control.hosting.pacing import RateLimiter
+from humanoid_control.hosting.parameters import HostParameters, WALKING
+from humanoid_control.hosting.reports import FallReport, ObstacleReport, Refusals
+from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.hosting.topics.filling import topic
+from humanoid_control.hosting.topics.sensors import ImuTopic, JointStatesTopic
+from humanoid_control.hosting.topics.walk import (
+    BalanceTopics,
+    FootstepsTopic,
+    ODOM,
+    OdometryTopics,
+    WalkingStateTopic,
+)
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory
+
+BLOCKED = 'blocked'
+"""Walking state of a robot that an obstacle blocks, whether it steps back or stands."""
 
 
 @dataclass(frozen=True)
@@ -140,3 +159,153 @@ class HostedRobots:
             holds_because=self._inputs[name].stop.guard.reason,
             claimed=manager.claimed(),
         )
+
+
+class RobotInputs:
+    """
+    Subscriptions to the command topics of one robot.
+
+    They are `cmd_vel`, `body_pose`, `joint_commands`, `joint_trajectory` and the topics of a stop.
+    Commands are stored until the next tick, or rejected with the reason in the log.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    control
+        The control of the robot, which receives the commands.
+    heartbeat_timeout_s
+        How long the console in control may be silent before the robot holds still, in real time.
+
+    Attributes
+    ----------
+    stop
+        Decides whether the robot must hold still.
+
+    """
+
+    def __init__(
+        self, node: Node, robot: str, control: RobotControl, heartbeat_timeout_s: float
+    ) -> None:
+        self._control = control
+        self._place = topic(robot, '')
+        self._refusals = Refusals(node.get_logger().warning)
+        self.stop = StopListener(node, heartbeat_timeout_s, robot)
+        for kind, name, take in (
+            (Twist, 'cmd_vel', self._walk),
+            (Pose, 'body_pose', self._bend),
+            (JointState, 'joint_commands', self._follow),
+            (JointTrajectory, 'joint_trajectory', self._run),
+        ):
+            node.create_subscription(kind, topic(robot, name), take, COMMAND)
+
+    def look(self) -> None:
+        """Hold the robot still, or release it, by the stop state. Call before each tick."""
+        self._control.hold_still(self.stop.must_hold)
+
+    def _walk(self, message: Twist) -> None:
+        self._attempt('cmd_vel', lambda: self._control.walk(velocity_of(message)))
+
+    def _bend(self, message: Pose) -> None:
+        self._attempt('body_pose', lambda: self._control.hold_body(body_pose_of(message)))
+
+    def _follow(self, message: JointState) -> None:
+        self._attempt(
+            'joint_commands',
+            lambda: self._control.follow(
+                message.name, message.position, message.velocity, message.effort
+            ),
+        )
+
+    def _run(self, message: JointTrajectory) -> None:
+        self._attempt(
+            'joint_trajectory',
+            lambda: self._control.run(message.joint_names, points_of(message)),
+        )
+
+    def _attempt(self, name: str, command: Callable[[], None]) -> None:
+        """Execute a command; log the reason if it is rejected."""
+        try:
+            command()
+        except (CommandError, WalkingError) as error:
+            self._refusals.add(f"Refused a message on '{self._place}{name}'. {error}")
+
+
+class RobotOutputs:
+    """
+    Publishers of the sensor values and the walk of one robot, each at its own rate.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    name
+        Name of the robot, which is its namespace; empty if it is alone.
+    robot
+        Its walker and its control.
+    parameters : HostParameters
+        Rates of the topics, and the prefix of the frame names.
+
+    """
+
+    def __init__(
+        self, node: Node, name: str, robot: WalkingRobotControl, parameters: HostParameters
+    ) -> None:
+        odom = parameters.prefix + ODOM
+        self._robot = robot
+        self._joint_states = JointStatesTopic(node, name, robot.control.manager.joints)
+        self._imu = ImuTopic(node, name, parameters.prefix, robot.walker.imu)
+        self._odometry = OdometryTopics(node, name, parameters.prefix)
+        self._state = WalkingStateTopic(node, name)
+        self._balance = BalanceTopics(node, name, odom)
+        self._footsteps = FootstepsTopic(node, name, odom, robot.walker.shape)
+        self.change(parameters)
+
+    def change(self, parameters: HostParameters) -> None:
+        """
+        Set the publishing rates; each topic is then due at once.
+
+        Parameters
+        ----------
+        parameters : HostParameters
+            The rates in Hz; 0 is never.
+
+        """
+        self._joints_due = RateLimiter(parameters.joint_states_rate_hz)
+        self._imu_due = RateLimiter(parameters.imu_rate_hz)
+        self._odometry_due = RateLimiter(parameters.odometry_rate_hz)
+        self._debug_due = RateLimiter(parameters.debug_rate_hz)
+
+    def publish(self, observation: Observation) -> None:
+        """
+        Publish the topics of the robot that are due.
+
+        Parameters
+        ----------
+        observation
+            The newest observation; its time decides what is due, and stamps the messages.
+
+        """
+        now_s = observation.time_s
+        if self._joints_due.is_due(now_s):
+            self._joint_states.publish(observation)
+        if self._imu_due.is_due(now_s):
+            self._imu.publish(observation)
+        self._publish_state()
+        odometry, debug = self._odometry_due.is_due(now_s), self._debug_due.is_due(now_s)
+        status = self._robot.walker.status if odometry or debug else None
+        if status is not None and odometry:
+            self._odometry.publish(now_s, status.odometry)
+        if status is not None and debug:
+            self._balance.publish(now_s, status)
+            self._footsteps.publish(now_s, status)
+
+    def _publish_state(self) -> None:
+        """Publish the walking state, or the mode if the robot does not walk."""
+        mode = self._robot.control.manager.mode
+        walker = self._robot.walker
+        state = (BLOCKED if walker.is_blocked else walker.phase) if mode == WALKING else mode
+        if state is not None:
+            self._state.publish(state)

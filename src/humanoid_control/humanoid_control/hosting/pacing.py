@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pacing of ticks; all times are those of a steady clock."""
+"""Timing: the pace of ticks, the rate of messages, and their stamps."""
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Optional, Protocol
+
+_ROUNDING_S = 1e-6
+MOST_OFF_S = 0.2
+"""Maximum lag of the stamps; the robot's time itself lags for good after a stall or a suspend."""
 
 
 class Pace(Protocol):
@@ -110,3 +114,79 @@ class RealTimePace:
 
         """
         self._next_s = now_s
+
+
+class RateLimiter:
+    """
+    Rate limiter in the robot's time; the first call is due at once.
+
+    Parameters
+    ----------
+    rate_hz
+        How often `is_due` returns True; 0 is never.
+
+    """
+
+    def __init__(self, rate_hz: float) -> None:
+        self._period_s = 1.0 / rate_hz if rate_hz > 0.0 else float('inf')
+        self._next_s = float('-inf') if rate_hz > 0.0 else float('inf')
+
+    def is_due(self, now_s: float) -> bool:
+        """
+        Check whether the next period is due; a call that returns True starts the following one.
+
+        Periods that were missed are skipped; a clock that was set back restarts the schedule.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+
+        """
+        if now_s < self._next_s - self._period_s - _ROUNDING_S:
+            self._next_s = now_s
+        if now_s < self._next_s - _ROUNDING_S:
+            return False
+        self._next_s += self._period_s
+        if self._next_s <= now_s:
+            self._next_s = now_s + self._period_s
+        return True
+
+
+class Stamps:
+    """Converter from the robot's time, which is regular, to the time of a clock."""
+
+    def __init__(self) -> None:
+        self._ahead_s = 0.0
+        self._clock_s = 0.0
+
+    def stamp_s(self, robot_s: float, clock_s: float) -> Optional[float]:
+        """
+        Convert the robot's time to a message stamp of a clock.
+
+        Stamps keep the regular spacing of the robot's time. Where the two times are more than
+        `MOST_OFF_S` apart, they jump to the clock.
+
+        Parameters
+        ----------
+        robot_s
+            The moment to stamp, in the robot's time.
+        clock_s
+            Current time of the clock.
+
+        Returns
+        -------
+        float or None
+            The stamp in s of the clock. None before the clock has a time, and once a clock that
+            stands still is more than `MOST_OFF_S` behind.
+
+        """
+        stands, self._clock_s = clock_s == self._clock_s, clock_s
+        if clock_s <= 0.0:
+            return None
+        off_s = robot_s + self._ahead_s - clock_s
+        if abs(off_s) > MOST_OFF_S:
+            if stands:
+                return None
+            self._ahead_s = clock_s - robot_s
+        return robot_s + self._ahead_s

@@ -23,17 +23,18 @@ from humanoid_control.controllers import (
     TrajectoryRequest,
     TrajectoryRunner,
 )
-from humanoid_control.controllers.limbs import gripper_controllers, limb_controllers
-from humanoid_control.controllers.silence import Clock
-from humanoid_control.controllers.still import Still
-from humanoid_control.hosting.velocity_input import VelocityInput
+from humanoid_control.controllers.commands import Clock, Silence
+from humanoid_control.controllers.gripper_controller import gripper_controllers
+from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
+from humanoid_control.controllers.modes import Still
 from humanoid_control.limits import JointLimits
 from humanoid_control.walking.body_pose import BodyPose
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
-Drive = Callable[[VelocityCommand], None]
+Walk = Callable[[VelocityCommand], None]
 HoldBody = Callable[[BodyPose | None], None]
 HELD = 'The robot must hold still; stop_state says why.'
+VELOCITY_TIMEOUT_S = 0.5
 
 
 class RobotControl:
@@ -52,7 +53,7 @@ class RobotControl:
         Range, velocity, effort and stiffness of the n joints.
     modes
         The modes, whose controllers claim all joints in that order; the first one is entered.
-    drive
+    walk
         Called in each period with the velocity at which to walk; None if the robot cannot walk.
     clock
         Returns the computer's time in s: commands expire when the timeout has passed by it and by
@@ -75,18 +76,18 @@ class RobotControl:
         joints: Sequence[str],
         limits: JointLimits,
         modes: Sequence[Mode],
-        drive: Drive | None = None,
+        walk: Walk | None = None,
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
         hold_body: HoldBody | None = None,
     ) -> None:
         self._hold_body = hold_body
-        self._names, self._limits, self._drive = JointNames(joints), limits, drive
+        self._names, self._limits, self._walk = JointNames(joints), limits, walk
         self.still = Still(joints)
         """Claims the joints while the robot must hold still."""
         self._runner = TrajectoryRunner(joints)
         self._follower = Follower(joints, clock=clock)
-        self._velocity = VelocityInput(clock=clock)
+        self._velocity, self._silence = STANDING, Silence(VELOCITY_TIMEOUT_S, clock)
         self.trajectory_controllers = {each.name: each for each in limb_controllers(joints)}
         """Joint trajectory controllers of arms, head and waist, by name."""
         self.gripper_controllers = {
@@ -250,10 +251,11 @@ class RobotControl:
             The robot cannot walk.
 
         """
-        if self._drive is None:
+        if self._walk is None:
             raise CommandError('This robot does not walk: nothing in it takes a velocity.')
         if not self.must_hold:
-            self._velocity.accept(velocity)
+            self._velocity = velocity
+            self._silence.heard()
 
     def hold_body(self, pose: BodyPose) -> None:
         """
@@ -303,7 +305,8 @@ class RobotControl:
         """
         Compute the joint targets for the coming control period. Call once per period.
 
-        While the robot must hold still or is leaving its mode, the velocity is zero.
+        The velocity is zero once its command has expired, and while the robot must hold still or
+        is leaving its mode.
 
         Parameters
         ----------
@@ -316,10 +319,10 @@ class RobotControl:
             Targets of all n joints, each array (n,), within their limits.
 
         """
-        if self._drive is not None:
-            velocity = self._velocity.at(observation.time_s)
-            must_stand = self.must_hold or self.manager.is_leaving
-            self._drive(STANDING if must_stand else velocity)
+        if self._walk is not None:
+            has_expired = self._silence.lasts(observation.time_s)
+            must_stand = has_expired or self.must_hold or self.manager.is_leaving
+            self._walk(STANDING if must_stand else self._velocity)
         targets = self.manager.update(observation)
         self._end_lost_goals()
         return targets
@@ -342,6 +345,6 @@ class RobotControl:
 
     def _forget(self) -> None:
         """Drop all commands."""
-        self._velocity.clear()
+        self._silence.end()
         self._runner.cancel()
         self._follower.cancel()

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walking robot: its walker and its control."""
+"""Walking robot: its walker as the controller of a mode, and its control."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from humanoid_control.backends import ImuNoise
+from humanoid_control.backends import ImuNoise, JointTargets, Observation
 from humanoid_control.controllers import follow_mode, hold_mode
-from humanoid_control.controllers.silence import Clock
-from humanoid_control.controllers.walking import walking_mode, WalkingController
+from humanoid_control.controllers.commands import Clock
+from humanoid_control.controllers.modes import Mode
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.limits import JointLimits
 from humanoid_control.walking.body_pose import BodyPose
@@ -18,6 +18,113 @@ from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
+
+CLAIMABLE = ('head_', 'waist_', 'shoulder', 'elbow', 'wrist', 'gripper')
+"""A joint whose name contains one of these is not needed to walk."""
+MOVING = ('walk', 'stop', 'stand_up')
+DOWN = 'the robot has fallen, and is not on its feet again'
+Able = Callable[[VelocityCommand], VelocityCommand]
+"""Maps a commanded velocity to what the robot can do, before the limits of the gait."""
+
+
+class WalkingController:
+    """
+    Controller of all joints that walks, or stands when its velocity is zero.
+
+    Parameters
+    ----------
+    walker
+        Computes the joint targets of the gait; it has the joints of the robot.
+    able
+        Maps a commanded velocity to what the robot can do; by default it is the same.
+
+    """
+
+    name = 'walking'
+
+    def __init__(self, walker: Walker, able: Able = lambda velocity: velocity) -> None:
+        self.walker, self._able = walker, able
+        self.joints = walker.robot.joints
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """
+        Restart the walk from where the feet are at the next `update`, with zero velocity.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`; not used.
+
+        """
+        self.walker.restart()
+
+    def update(self, observation: Observation) -> JointTargets:
+        """
+        Compute the joint targets of the walk, as for `Controller.update`.
+
+        Parameters
+        ----------
+        observation
+            Sensor values of the current period.
+
+        Returns
+        -------
+        JointTargets
+            Targets of all n joints of the robot, including claimed ones.
+
+        Raises
+        ------
+        WalkingError
+            The observation has arrays of the wrong length or values that are not finite.
+
+        """
+        return self.walker.update(observation)
+
+    def is_at_rest(self) -> bool:
+        """Check whether the robot can be held as it is; in the middle of a step it would fall."""
+        return self.walker.phase not in MOVING
+
+    def needs_all_because(self) -> str:
+        """Return the reason for keeping all joints at the moment; empty if there is none."""
+        return DOWN if self.walker.has_fallen else ''
+
+    def walk(self, velocity: VelocityCommand) -> None:
+        """
+        Pass a walking velocity on to the walker when it has changed; zero stops.
+
+        Parameters
+        ----------
+        velocity
+            Velocity of the body in its own axes; the gait limits it to what is feasible.
+
+        """
+        velocity = self._able(velocity)
+        if velocity != self.walker.velocity:
+            self.walker.command(velocity)
+
+
+def walking_mode(controller: WalkingController) -> Mode:
+    """
+    Build the mode in which the robot walks and leaves the joints above the legs to controllers.
+
+    Parameters
+    ----------
+    controller
+        The controller of all joints of the robot.
+
+    """
+    claimable = tuple(
+        joint for joint in controller.joints if any(part in joint for part in CLAIMABLE)
+    )
+    return Mode(
+        controller.name,
+        controller,
+        claimable,
+        may_end=controller.is_at_rest,
+        needs_all_because=controller.needs_all_because,
+        forget=controller.walker.reset,
+        supports=True,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +148,7 @@ class WalkingRobotControl:
         walk: WalkParameters = WalkParameters(),
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
-        able: Callable[[VelocityCommand], VelocityCommand] = lambda velocity: velocity,
+        able: Able = lambda velocity: velocity,
         imu: ImuNoise = ImuNoise(),
     ) -> WalkingRobotControl:
         """
@@ -68,12 +175,9 @@ class WalkingRobotControl:
         """
         joints = tuple(drives)
         walker = Walker.of(robot, drives, joints, walk, imu)
-        walking = WalkingController(walker)
+        walking = WalkingController(walker, able)
         modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))
         limits = JointLimits.of(drives, joints)
-
-        def drive(velocity: VelocityCommand) -> None:
-            walking.drive(able(velocity))
 
         def hold_body(pose: BodyPose | None) -> None:
             if pose is None:
@@ -81,5 +185,5 @@ class WalkingRobotControl:
             else:
                 walker.hold(pose)
 
-        control = RobotControl(joints, limits, modes, drive, clock, say, hold_body)
+        control = RobotControl(joints, limits, modes, walking.walk, clock, say, hold_body)
         return cls(walker, control)

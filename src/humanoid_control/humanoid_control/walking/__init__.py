@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bipedal walking control, in pure numpy."""
 
-from humanoid_control.walking.errors import WalkingError
+from humanoid_control.errors import WalkingError
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.status import WalkStatus
 from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
-from humanoid_control.walking.walker import Walker
+from humanoid_control.walking.walker import Walker, WalkStatus
 
 __all__ = [
     'Footstep',

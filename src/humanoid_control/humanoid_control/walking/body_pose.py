@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from humanoid_control.walking.errors import WalkingError
+from humanoid_control.errors import WalkingError
 from humanoid_control.walking.parameters import WalkParameters
 
 

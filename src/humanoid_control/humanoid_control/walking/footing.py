@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Footholds, support polygon and load distribution of the feet."""
+"""Footholds of the feet, with their load points, support polygons and loads."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.planar import dot, limited, PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.support_polygon import SupportPolygon
+from humanoid_control.walking.support_polygon import FootShape, SupportPolygon
 from humanoid_control.walking.terrain import GroundPlane, LEVEL
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +28,18 @@ class Foothold:
         """Return the position (3,) of the origin of the sole."""
         point = self.pose.position_m
         return np.array([point.real, point.imag, self.plane.height_m])
+
+
+@dataclass(frozen=True)
+class SoleReading:
+    """Measured pose and load of a sole."""
+
+    pose: PlanarPose
+    plane: GroundPlane
+    load: float
+    """Normal force on it, as a fraction of the weight of the robot."""
+    drag: Point = 0j
+    """Horizontal force on it, as a fraction of the weight of the robot."""
 
 
 class Footing:

@@ -4,30 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from humanoid_control.walking.dcm_plan import BalanceReference
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.gait_context import GaitContext, GaitInput
+from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.phases import Phase, Standing
-from humanoid_control.walking.planar import Point
-from humanoid_control.walking.swing_foot import Swing
-from humanoid_control.walking.turning import Turning
-from humanoid_control.walking.velocity_command import VelocityCommand
-
-
-@dataclass(frozen=True)
-class GaitOutput:
-    """Output of the gait in a control period."""
-
-    reference: BalanceReference
-    zmp_m: Point
-    """Zero-moment point with feedback, within the support polygon."""
-    turning: Turning
-    """Target heading of the pelvis."""
-    swing: Swing | None
-    sides: tuple[int, ...]
-    """Sides of the feet that carry the robot."""
 
 
 class Gait:
@@ -59,18 +39,6 @@ class Gait:
     def is_blocked(self) -> bool:
         """Whether an obstacle is in the way of the robot."""
         return self._context.guard.blockage is not None
-
-    def command(self, velocity: VelocityCommand) -> None:
-        """
-        Set the velocity to walk at, which the gait approaches with limited accelerations.
-
-        Parameters
-        ----------
-        velocity
-            Velocity in the axes of the robot; it is clamped to the limits of the gait.
-
-        """
-        self._context.wanted = self._context.parameters.velocity.limits.applied(velocity)
 
     def update(self, now: GaitInput) -> GaitOutput:
         """

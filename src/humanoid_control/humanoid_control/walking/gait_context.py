@@ -1,40 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Context shared by the phases of the gait: parameters, planners, footholds and velocity."""
+"""Context shared by the phases of the gait, with their input and their output."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from humanoid_control.walking.dcm_plan import DcmPlan, ZmpSegment
-from humanoid_control.walking.footing import Footing
-from humanoid_control.walking.footsteps import Footstep, FootstepPlanner
-from humanoid_control.walking.obstacle_guard import Contact, LegInAir, ObstacleGuard
+from humanoid_control.walking.footing import Footing, SoleReading
+from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
+from humanoid_control.walking.obstacle_guard import (
+    Contact,
+    LegInAir,
+    NOTHING,
+    ObstacleGuard,
+    Touch,
+)
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.pendulum import Pendulum
-from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.reference_path import ReferencePath
+from humanoid_control.walking.pendulum import BalanceReference, DcmPlan, Pendulum, ZmpSegment
+from humanoid_control.walking.planar import PlanarPose, Point, Turning
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.step_adjustment import StepAdjuster
-from humanoid_control.walking.terrain import GroundPlane
-from humanoid_control.walking.touch import NOTHING, Touch
+from humanoid_control.walking.swing_foot import Swing
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 
 @dataclass(frozen=True)
-class SoleReading:
-    """Measured pose and load of a sole."""
-
-    pose: PlanarPose
-    plane: GroundPlane
-    load: float
-    """Normal force on it, as a fraction of the weight of the robot."""
-    drag: Point = 0j
-    """Horizontal force on it, as a fraction of the weight of the robot."""
-
-
-@dataclass(frozen=True)
 class GaitInput:
-    """Estimates and measurements of a control period."""
+    """Estimates, measurements and velocity command of a control period."""
 
     passed_s: float
     """Time since the last control period."""
@@ -42,11 +33,27 @@ class GaitInput:
     zmp_m: Point
     """Zero-moment point in use, as commanded in the last control period."""
     soles: tuple[SoleReading, SoleReading]
+    velocity: VelocityCommand = STANDING
+    """Commanded velocity in the axes of the robot, before it is clamped to the limits."""
     error_m: Point = 0j
     """Error of the divergent component of motion in the last control period."""
     force_n: Point = 0j
     """Horizontal external force on the robot, other than at its feet."""
     touch: Touch = NOTHING
+
+
+@dataclass(frozen=True)
+class GaitOutput:
+    """Output of the gait in a control period."""
+
+    reference: BalanceReference
+    zmp_m: Point
+    """Zero-moment point with feedback, within the support polygon."""
+    turning: Turning
+    """Target heading of the pelvis."""
+    swing: Swing | None
+    sides: tuple[int, ...]
+    """Sides of the feet that carry the robot."""
 
 
 @dataclass
@@ -56,11 +63,9 @@ class GaitContext:
     parameters: WalkParameters
     pendulum: Pendulum
     footing: Footing
-    wanted: VelocityCommand = STANDING
-    """Commanded velocity, clamped to the limits of the gait."""
     target: VelocityCommand = STANDING
     """What obstacles allow of the commanded velocity, or that of a retreat."""
-    command: VelocityCommand = STANDING
+    velocity: VelocityCommand = STANDING
     """Present velocity, which approaches the target."""
     slope: Point = 0j
     """Expected tilt of the ground ahead."""
@@ -95,16 +100,14 @@ class GaitContext:
 
         """
         left, right = (self.planner.middle_beside(self.footing.pose(side), side) for side in SIDES)
-        going = self.command if self.command.linear_m_s else self.wanted
+        limits = self.parameters.velocity.limits
+        wanted = limits.applied(now.velocity)
+        going = self.velocity if self.velocity.linear_m_s else wanted
         contact = Contact(now.force_n, now.touch.arms_nm, leg)
-        met = self.guard.update(
-            contact, (left, right), self.wanted, going, now.error_m, now.passed_s
-        )
-        self.target = self.parameters.velocity.limits.applied(
-            self.guard.allowed(self.wanted, left.halfway(right).yaw_rad)
-        )
+        met = self.guard.update(contact, (left, right), wanted, going, now.error_m, now.passed_s)
+        self.target = limits.applied(self.guard.allowed(wanted, left.halfway(right).yaw_rad))
         if met:
-            self.command = STANDING
+            self.velocity = STANDING
             self.path.restart()
         return met
 
@@ -118,7 +121,7 @@ class GaitContext:
             Duration over which to accelerate: a control period, or a step.
 
         """
-        self.command = self.command.towards(self.target, self.parameters.velocity.change(time_s))
+        self.velocity = self.velocity.towards(self.target, self.parameters.velocity.change(time_s))
 
     def learn_slope(self, tilt: Point) -> None:
         """
@@ -135,7 +138,7 @@ class GaitContext:
     @property
     def is_stopping(self) -> bool:
         """Whether the robot stops as soon as its feet are side by side."""
-        return self.command.is_zero and self.target.is_zero
+        return self.velocity.is_zero and self.target.is_zero
 
     def plan(self, segments: list[ZmpSegment]) -> DcmPlan:
         """
@@ -173,7 +176,7 @@ class GaitContext:
         """
         steps: list[Footstep] = []
         before = Footstep(support, self.footing.pose(support))
-        for step in self.planner.footsteps(landing, support, self.command):
+        for step in self.planner.footsteps(landing, support, self.velocity):
             steps.append(step)
             rests = self.is_stopping and self.planner.is_parallel(
                 before.pose, before.side, step.pose

@@ -18,6 +18,21 @@ _STILL_M_S = 1e-3
 
 
 @dataclass(frozen=True)
+class Touch:
+    """
+    Push on each limb, left and right: its direction, and the moment (N m) about hip or shoulder.
+
+    The ground pushes a stance leg as well: the moment of a leg is valid only while it swings.
+    """
+
+    legs_nm: tuple[Point, Point] = (0j, 0j)
+    arms_nm: tuple[Point, Point] = (0j, 0j)
+
+
+NOTHING = Touch()
+
+
+@dataclass(frozen=True)
 class LegInAir:
     """Swing leg, and the push on it."""
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 from humanoid_common.parameters import parameter, ParameterError
-from humanoid_control.walking.errors import WalkingError
+from humanoid_control.errors import WalkingError
 from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
 
 _POWER = 'humanoid_control.power'

@@ -6,15 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from humanoid_control.walking.dcm_plan import BalanceReference, ZmpSegment
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gait_context import GaitContext, GaitInput
 from humanoid_control.walking.obstacle_guard import LegInAir
-from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.pendulum import BalanceReference, ZmpSegment
+from humanoid_control.walking.planar import PlanarPose, Point, Turning
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.step import Step
 from humanoid_control.walking.swing_foot import Swing
-from humanoid_control.walking.turning import Turning
 
 STAND = 'stand'
 """Name of the phase in which the robot stands still."""
@@ -279,7 +278,7 @@ class Stepping:
         if not step.has_landed(now):
             return self
         self._context.learn_slope(self._context.footing[step.support].plane.tilt)
-        self._context.path.advance(step.support, self._context.command, step.duration_s)
+        self._context.path.advance(step.support, self._context.velocity, step.duration_s)
         self._context.approach_target(self._context.parameters.timing.step_s)
         if self._context.is_stopping and self._may_rest():
             return Stopping(self._context, step.side, now.zmp_m)

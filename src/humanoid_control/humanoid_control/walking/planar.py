@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Planar geometry: points, vectors and poses in the ground plane.
+Planar geometry: points, vectors, poses and headings in the ground plane.
 
 A point or vector of the plane is a complex number x + iy: the equations of the pendulum are the
 same for both axes, and one expression covers both. A rotation is a factor of magnitude one.
@@ -150,3 +150,35 @@ class PlanarPose:
 
         """
         return PlanarPose(self.position_m + offset_m, self.yaw_rad)
+
+
+@dataclass(frozen=True)
+class Turning:
+    """A heading and its rate."""
+
+    heading_rad: float
+    rate_rad_s: float = 0.0
+
+
+def smooth_turn(from_rad: float, to_rad: float, time_s: float, duration_s: float) -> Turning:
+    """
+    Interpolate between two headings the short way round, at rest at both ends.
+
+    Parameters
+    ----------
+    from_rad, to_rad
+        Headings at the start and at the end.
+    time_s, duration_s
+        Time since the start, and duration of the whole turn.
+
+    Returns
+    -------
+    Turning
+        Heading and rate at that time; constant after the end.
+
+    """
+    turn_rad, share = wrap_angle(to_rad - from_rad), min(1.0, time_s / duration_s)
+    return Turning(
+        from_rad + turn_rad * share**2 * (3.0 - 2.0 * share),
+        turn_rad * 6.0 * share * (1.0 - share) / duration_s,
+    )

@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fall recovery: from a fall until the robot stands again."""
+"""Fall recovery: detection of a fall, a compliant fall, and standing up again."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+import math
+
 from humanoid_control.backends import Array, JointTargets
-from humanoid_control.walking.collapse import Collapse
-from humanoid_control.walking.fall_detector import FallDetector, Stance
-from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.rising import Rising
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.sides import NAMES, outwards, SIDES
+from humanoid_control.walking.state_estimator import RobotState
+from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+import numpy as np
+
+_CROUCHED_RAD = {'hip_pitch': -1.1, 'knee': 1.9, 'ankle_pitch': -0.8}
+_ARMS_RAD = {'shoulder': -0.6, 'elbow': -1.2}
+_ARM_ROLL_RAD = 0.4
 
 
 class Recovery:
@@ -83,3 +89,213 @@ class Recovery:
     def _carries_itself(self, time_s: float, rising: Rising, stance: Stance) -> bool:
         """Check whether the robot is in the standing posture and its feet carry it."""
         return rising.is_done(time_s) and stance.load > self._parameters.fall.standing_load
+
+
+@dataclass(frozen=True)
+class Stance:
+    """Stance of the robot: tilt and height of the base, and the load on the soles."""
+
+    tilt_rad: float
+    """Angle between the z axis of the base and the vertical."""
+    tilting_rad_s: float
+    """Rate of the tilt; negative while the robot rights itself."""
+    height_m: float
+    """Height of the base above the lower one of the soles."""
+    load: float
+    """Normal force on the soles, as a fraction of the weight."""
+
+    @classmethod
+    def of(cls, robot: WalkingRobot, sensed: RobotState) -> Stance:
+        """
+        Compute the stance from the estimated state of the robot.
+
+        Parameters
+        ----------
+        robot
+            The robot, with the sole links of its legs.
+        sensed
+            Estimated state of the robot.
+
+        """
+        _, _, z = sensed.state.base_rotation.T.tolist()
+        sine = math.hypot(z[0], z[1])
+        rates = sensed.state.base_angular_velocity_rad_s.tolist()
+        # The tip of the z axis moves with the cross product of the rates and the axis.
+        outwards = rates[1] * z[0] - rates[0] * z[1]
+        soles = (sensed.state.position_m(robot.legs[side].sole)[2] for side in SIDES)
+        return cls(
+            math.atan2(sine, z[2]),
+            outwards / sine if sine > 0.0 else math.hypot(rates[0], rates[1]),
+            -float(min(soles)),
+            sum(sensed.loads),
+        )
+
+
+@dataclass(frozen=True)
+class FallDetector:
+    """Fall detector by thresholds of the tilt and the height of the base."""
+
+    parameters: WalkParameters
+    standing_height_m: float
+
+    def is_falling(self, stance: Stance) -> bool:
+        """
+        Check whether the robot is falling: it leans too far, soon will, or its base is too low.
+
+        The tilt rate of an upright robot is ignored, since the landing of a foot jerks it.
+
+        Parameters
+        ----------
+        stance
+            Tilt and height of the base.
+
+        """
+        p = self.parameters
+        foresight_s = p.fall.foresight_s if stance.tilt_rad > p.fall.upright_tilt_rad else 0.0
+        soon_rad = stance.tilt_rad + foresight_s * max(0.0, stance.tilting_rad_s)
+        return (
+            soon_rad > p.fall.tilt_rad or stance.height_m < p.fall.height * self.standing_height_m
+        )
+
+    def can_stand(self, stance: Stance) -> bool:
+        """
+        Check whether the base is upright and high enough above the soles to stand up from there.
+
+        Parameters
+        ----------
+        stance
+            Tilt and height of the base.
+
+        """
+        p = self.parameters
+        return (
+            stance.tilt_rad < p.fall.upright_tilt_rad
+            and stance.height_m > p.fall.height * self.standing_height_m
+        )
+
+
+class Collapse:
+    """
+    Compliant fall in progress, and the limp state after it.
+
+    Targets near the measured positions reduce the stiffness of the servos to a fraction; their
+    damping is unchanged. The knees yield, and the robot sinks. Later the fraction is zero: the
+    robot lies still, and its joints can be moved by hand.
+
+    Parameters
+    ----------
+    robot
+        The robot, whose joints become compliant.
+    parameters : WalkParameters
+        Gait parameters, with the stiffness and the duration of a compliant fall.
+    time_s
+        Time of the observation at which the fall starts.
+
+    Raises
+    ------
+    DynamicsError
+        The robot lacks a joint of the protective posture.
+
+    """
+
+    name = 'fallen'
+
+    def __init__(self, robot: WalkingRobot, parameters: WalkParameters, time_s: float) -> None:
+        self._parameters = parameters
+        self._start_s = time_s
+        self._posture_rad = _protective_posture(robot)
+
+    def targets(self, time_s: float, positions_rad: Array) -> JointTargets:
+        """
+        Compute the joint targets of a compliant fall.
+
+        Parameters
+        ----------
+        time_s
+            Time of the observation, on the same clock as the start of the fall.
+        positions_rad
+            Measured joint positions (n,).
+
+        Returns
+        -------
+        JointTargets
+            Positions a fraction of the way from the measured ones to a protective posture, which
+            acts as a lower stiffness (none after `collapse_s`); velocities and efforts are zero.
+
+        """
+        p, zeros = self._parameters, np.zeros(len(positions_rad))
+        falls = time_s - self._start_s < p.fall.collapse_s
+        share = p.fall.collapse_stiffness if falls else 0.0
+        wanted = positions_rad + share * (self._posture_rad - positions_rad)
+        return JointTargets(wanted, zeros, zeros.copy())
+
+
+def _protective_posture(robot: WalkingRobot) -> Array:
+    """Compute the protective posture (n,): crouched, with the arms in front of the body."""
+    posture = np.zeros(len(robot.body.joints))
+    for side in SIDES:
+        for joint, angle_rad in {**_CROUCHED_RAD, **_ARMS_RAD}.items():
+            posture[robot.index(f'{NAMES[side]}_{joint}')] = angle_rad
+        roll = robot.index(f'{NAMES[side]}_shoulder_roll')
+        posture[roll] = outwards(side) * _ARM_ROLL_RAD
+    return posture
+
+
+class Rising:
+    """
+    Minimum-jerk motion of the joints to the standing posture (Flash and Hogan, 1985).
+
+    Parameters
+    ----------
+    start_rad, home_rad
+        Joint positions (n,) at the start, as measured, and in the standing posture.
+    parameters : WalkParameters
+        Gait parameters, with the duration.
+    time_s
+        Time of the observation at which the motion starts.
+
+    """
+
+    name = 'stand_up'
+
+    def __init__(
+        self, start_rad: Array, home_rad: Array, parameters: WalkParameters, time_s: float
+    ) -> None:
+        self._start_rad, self._way_rad = start_rad.copy(), home_rad - start_rad
+        self._duration_s = parameters.fall.stand_up_s
+        self._start_s = time_s
+
+    def is_done(self, time_s: float) -> bool:
+        """
+        Check whether the targets have arrived at the standing posture.
+
+        Parameters
+        ----------
+        time_s
+            Present time, on the same clock as the start.
+
+        """
+        return time_s - self._start_s >= self._duration_s
+
+    def targets(self, time_s: float) -> JointTargets:
+        """
+        Compute the joint targets of the minimum-jerk motion to the standing posture.
+
+        Parameters
+        ----------
+        time_s
+            Present time, on the same clock as the start.
+
+        Returns
+        -------
+        JointTargets
+            Positions and velocities (n,); efforts are zero.
+
+        """
+        t = min(1.0, (time_s - self._start_s) / self._duration_s)
+        share = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
+        rate_1_s = 30.0 * t**2 * (1.0 - t) ** 2 / self._duration_s
+        zeros = np.zeros(len(self._start_rad))
+        return JointTargets(
+            self._start_rad + share * self._way_rad, rate_1_s * self._way_rad, zeros
+        )

@@ -1,20 +1,40 @@
 # SPDX-License-Identifier: Apache-2.0
-"""State estimation from observations."""
+"""State estimation: posture and attitude from joints and IMU, the base from leg odometry."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from humanoid_control.backends import Array, Observation
-from humanoid_control.dynamics import BodyState, DynamicsError
-from humanoid_control.dynamics.rotations import to_rpy
-from humanoid_control.walking.attitude import Attitude
-from humanoid_control.walking.errors import WalkingError
-from humanoid_control.walking.heading import HeadingFrame
-from humanoid_control.walking.pendulum import GRAVITY_M_S2
-from humanoid_control.walking.planar import Point
+from humanoid_control.backends import Observation
+from humanoid_control.dynamics.body_state import BodyState
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.dynamics.rotations import about_z, from_quaternion, to_rpy, yaw_of
+from humanoid_control.errors import DynamicsError, WalkingError
+from humanoid_control.walking.footing import Footing
+from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion
+from humanoid_control.walking.planar import limited, Point
+from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+_SURE_LOAD = 0.2
+"""A foot that carries this fraction of the weight certainly stands on the ground."""
+_LEAST_TRUST = 0.02
+"""Below this total the robot is airborne or falling: the commanded shares are used instead."""
+
+
+@dataclass(frozen=True)
+class Attitude:
+    """Attitude of the pelvis, and its angular velocity in its own axes."""
+
+    roll_rad: float
+    pitch_rad: float
+    yaw_rad: float
+    rates_rad_s: tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,3 +139,183 @@ def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
     # The sum is finite only if all are.
     if not math.isfinite(values.sum()):
         raise WalkingError(f'{name} is {values.tolist()}: give finite numbers.')
+
+
+class HeadingFrame:
+    """
+    Heading of the odom frame, whose x axis is the first heading of the base.
+
+    Parameters
+    ----------
+    imu_in_base
+        Rotation matrix (3, 3) from imu_link to base_link.
+
+    """
+
+    def __init__(self, imu_in_base: Array) -> None:
+        self._base_in_imu: Array = imu_in_base.T
+        self._offset_rad: float | None = None
+        self._turn: Array = np.eye(3)
+
+    def base_rotation(self, orientation: Sequence[float] | Array) -> Array:
+        """
+        Compute the rotation of the base from the orientation that the IMU measures.
+
+        The first call sets the zero of the heading: later ones are relative to it.
+
+        Parameters
+        ----------
+        orientation
+            Orientation of the IMU in the world: a quaternion w, x, y, z of any norm.
+
+        Returns
+        -------
+        Array
+            Rotation matrix (3, 3) from base_link to the odom frame.
+
+        Raises
+        ------
+        ValueError
+            The quaternion is zero or not finite, or it does not have four components.
+
+        """
+        rotation: Array = from_quaternion(orientation) @ self._base_in_imu
+        if self._offset_rad is None:
+            self._offset_rad = yaw_of(rotation)
+            self._turn = about_z(-self._offset_rad)
+        turned: Array = self._turn @ rotation
+        return turned
+
+    def base_rates(self, angular_velocity_rad_s: Array) -> Array:
+        """
+        Rotate an angular velocity from the axes of the IMU into those of the base.
+
+        Parameters
+        ----------
+        angular_velocity_rad_s
+            As the gyroscope measures it (3,), in the axes of imu_link.
+
+        Returns
+        -------
+        Array
+            Angular velocity (3,) in rad/s, in the axes of base_link.
+
+        """
+        rates: Array = self._base_in_imu.T @ angular_velocity_rad_s
+        return rates
+
+
+@dataclass(frozen=True, eq=False)
+class BaseMotion:
+    """Pose and twist of the base in the odom frame, measured or wanted."""
+
+    frame: Frame
+    twist: Twist
+
+
+@dataclass(frozen=True, eq=False)
+class BaseEstimate:
+    """Estimated position and velocity of the origin of the base, in the odom frame."""
+
+    position_m: Array
+    """(3,)"""
+    velocity_m_s: Array
+    """(3,)"""
+
+    def motion(self, state: BodyState) -> BaseMotion:
+        """
+        Combine the estimated position and velocity with the measured rotation of the base.
+
+        Parameters
+        ----------
+        state
+            State of the robot, which holds the rotation and the angular velocity of the base.
+
+        Returns
+        -------
+        BaseMotion
+            Pose and twist of base_link, both in the odom frame.
+
+        """
+        return BaseMotion(
+            Frame(self.position_m, state.base_rotation),
+            Twist(self.velocity_m_s, state.base_angular_velocity_rad_s),
+        )
+
+    def com_motion(self, state: BodyState) -> Motion:
+        """
+        Compute the horizontal motion of the centre of mass.
+
+        Parameters
+        ----------
+        state
+            State of the robot, with the centre of mass relative to the origin of base_link.
+
+        Returns
+        -------
+        Motion
+            Position in m and velocity in m/s, in the plane of the odom frame.
+
+        """
+        position = self.position_m + state.com_m
+        velocity = self.velocity_m_s + state.com_velocity_m_s
+        return Motion(complex(position[0], position[1]), complex(velocity[0], velocity[1]))
+
+
+def carrying(shares: tuple[float, float], loads: tuple[float, float]) -> tuple[float, float]:
+    """
+    Compute how much each foot contributes to leg odometry, from the load that it carries.
+
+    A foot that should carry weight but does not may be off its foothold: below a fifth of the
+    weight of the robot its contribution fades out.
+
+    Parameters
+    ----------
+    shares
+        Commanded load distribution, left and right; the sum is 1.
+    loads
+        Measured normal forces on the soles, as fractions of the weight of the robot.
+
+    Returns
+    -------
+    tuple of float
+        Weights of the left and the right foot, which sum to 1; `shares` if neither carries load.
+
+    """
+    left, right = (
+        share * limited(load / _SURE_LOAD, 0.0, 1.0) for share, load in zip(shares, loads)
+    )
+    total = left + right
+    return (left / total, right / total) if total > _LEAST_TRUST else shares
+
+
+def base_on(
+    footing: Footing, shares: tuple[float, float], robot: WalkingRobot, state: BodyState
+) -> BaseEstimate:
+    """
+    Estimate the position and velocity of the base by leg odometry.
+
+    The feet that carry weight are assumed to stand still on their footholds.
+
+    Parameters
+    ----------
+    footing
+        Footholds of both feet, in the odom frame.
+    shares
+        Weights of the left and the right foot, which sum to 1; see `carrying`.
+    robot, state
+        The robot and its measured state, whose points are relative to the origin of base_link.
+
+    Returns
+    -------
+    BaseEstimate
+        Position and velocity of the origin of base_link in the odom frame.
+
+    """
+    position, velocity = np.zeros(3), np.zeros(3)
+    for side in SIDES:
+        if shares[side] > 0.0:
+            sole = robot.legs[side].sole
+            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
+            velocity -= shares[side] * state.velocity_m_s(sole)
+    return BaseEstimate(position, velocity)

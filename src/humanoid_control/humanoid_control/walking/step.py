@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-from humanoid_control.walking.dcm_plan import BalanceReference, DcmPlan
-from humanoid_control.walking.footing import Foothold
+from humanoid_control.walking.footing import Foothold, SoleReading
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.gait_context import GaitContext, GaitInput, SoleReading
+from humanoid_control.walking.gait_context import GaitContext, GaitInput
 from humanoid_control.walking.obstacle_guard import LegInAir
-from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.pendulum import BalanceReference, DcmPlan
+from humanoid_control.walking.planar import PlanarPose, Point, smooth_turn, Turning
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
 from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
 from humanoid_control.walking.terrain import GroundPlane
-from humanoid_control.walking.turning import smooth_turn, Turning
 
 _INSTANT_S = 1e-4
 """Until the foot has landed, the plan is evaluated no later than this before the step ends."""
@@ -317,7 +316,7 @@ class Step:
         start = planner.middle_beside(support, self.support)
         if not self._context.is_stopping:
             start = self._context.path.corrected(start)
-        goal = planner.next_middle(start, self.support, self._context.command)
+        goal = planner.next_middle(start, self.support, self._context.velocity)
         landing = planner.landing(support, self.support, goal)
         return PlanarPose(self._context.guard.kept_off(landing.position_m), landing.yaw_rad)
 

@@ -14,9 +14,9 @@ import cmath
 from dataclasses import dataclass
 import math
 
-from humanoid_control.walking.dcm_plan import BalanceReference
 from humanoid_control.walking.footsteps import FootstepPlanner
 from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.pendulum import BalanceReference
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.support_polygon import SupportPolygon
 

@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Contact detection for the limbs, by external joint torques.
+Contacts of the robot other than its feet on the ground: limbs by torques, the whole by force.
 
 Actuator torques accelerate the limbs and hold them against gravity; inverse dynamics computes
 that part. The residual is due to contacts: A. De Luca et al., "Collision detection and safe
 reaction with the DLR-III lightweight manipulator arm", IROS 2006, here with accelerations from
 finite differences, a low-pass filter after them, and the motion of the root from the IMU.
+
+The momentum of the robot changes by the forces at its feet, which are measured, and by those of
+other contacts, which are not. A momentum observer estimates the difference without
+differentiation: A. De Luca and R. Mattone, "Actuator failure detection and isolation using
+generalized momenta", ICRA 2003, here for the linear momentum in the plane.
 """
 
 from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import math
 
+from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.sides import NAMES
@@ -24,21 +30,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Touch:
-    """
-    Push on each limb, left and right: its direction, and the moment (N m) about hip or shoulder.
-
-    The ground pushes a stance leg as well: the moment of a leg is valid only while it swings.
-    """
-
-    legs_nm: tuple[Point, Point] = (0j, 0j)
-    arms_nm: tuple[Point, Point] = (0j, 0j)
-
-
-NOTHING = Touch()
 
 
 class TouchObserver:
@@ -141,3 +132,41 @@ def _outside(last: RobotState, now: RobotState, passed_s: float) -> Array:
 def _joints(robot: WalkingRobot, pitch: str, roll: str) -> Sequence[tuple[int, int]]:
     """Return the indices of a pitch and a roll joint, for the left and the right side."""
     return [(robot.index(f'{side}_{pitch}'), robot.index(f'{side}_{roll}')) for side in NAMES]
+
+
+@dataclass
+class ForceObserver:
+    """Momentum observer of the horizontal external force that does not act on the soles."""
+
+    mass_kg: float
+    rate_1_s: float
+    """Bandwidth of the estimate."""
+    force_n: Point = field(init=False, default=0j)
+    """In the axes of the odom frame; against the motion of a robot that walks into an obstacle."""
+    _velocity_m_s: Point | None = field(init=False, default=None)
+
+    def update(self, velocity_m_s: Point, ground_n: Point, passed_s: float) -> Point:
+        """
+        Estimate the horizontal external force with a momentum observer.
+
+        Parameters
+        ----------
+        velocity_m_s
+            Measured velocity of the centre of mass, in the odom frame.
+        ground_n
+            Measured horizontal force of the ground on the feet, in the axes of the odom frame.
+        passed_s
+            Time since the last call.
+
+        Returns
+        -------
+        Point
+            Low-pass filtered force in N, in the axes of the odom frame; zero at the first call.
+
+        """
+        last, self._velocity_m_s = self._velocity_m_s, velocity_m_s
+        if last is not None and passed_s > 0.0:
+            change_n = self.mass_kg * (velocity_m_s - last) / passed_s
+            share = 1.0 - math.exp(-self.rate_1_s * passed_s)
+            self.force_n += share * (change_n - ground_n - self.force_n)
+        return self.force_n

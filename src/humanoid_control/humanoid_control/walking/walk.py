@@ -4,33 +4,42 @@
 from __future__ import annotations
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.walking.base_estimate import base_on, BaseEstimate, carrying
-from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.body_pose import BodyPose, BodyPoseFollower, UPRIGHT
-from humanoid_control.walking.com_observer import ComObserver
-from humanoid_control.walking.com_reference import ComReference
-from humanoid_control.walking.external_force import ForceObserver
-from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.foothold_adaptation import FootholdAdaptation
-from humanoid_control.walking.footing import Footing, loads_for
-from humanoid_control.walking.gait import Gait, GaitOutput
-from humanoid_control.walking.gait_context import GaitContext, GaitInput, SoleReading
-from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.foothold_adaptation import (
+    FootholdAdaptation,
+    footing_below,
+    soles_below,
+)
+from humanoid_control.walking.footing import Footing, loads_for, SoleReading
+from humanoid_control.walking.gait import Gait
+from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.inverse_dynamics import InverseDynamics
+from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion, Pendulum
+from humanoid_control.walking.pendulum import (
+    ComObserver,
+    ComReference,
+    GRAVITY_M_S2,
+    Motion,
+    Pendulum,
+)
 from humanoid_control.walking.phases import STAND
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import PlannedAcceleration, within
 from humanoid_control.walking.sides import SIDES
-from humanoid_control.walking.soles import footing_below, soles_below
-from humanoid_control.walking.state_estimator import RobotState
+from humanoid_control.walking.state_estimator import (
+    base_on,
+    BaseEstimate,
+    BaseMotion,
+    carrying,
+    RobotState,
+)
+from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.terrain import GroundLevel, LevelFloor
-from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
+from humanoid_control.walking.touch import ForceObserver, TouchObserver
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
-from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.wanted_base import base_below, within_reach
-from humanoid_control.walking.whole_body import JointMotion, WholeBody
+from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.whole_body import base_below, JointMotion, WholeBody, within_reach
 import numpy as np
 from numpy.typing import NDArray
 
@@ -103,7 +112,6 @@ class Walk:
         self._touch = TouchObserver(robot, parameters)
         self.body = BodyPoseFollower(parameters)
         """Body pose, which follows the commanded one at limited rates."""
-        self._wanted_pose, self._velocity = UPRIGHT, STANDING
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._error_m = 0j
@@ -128,43 +136,22 @@ class Walk:
         """Return the height of the base above the floor on which the walk started."""
         return float(self.base.position_m[2]) + self._floor.rise_m(self._shares)
 
-    def command(self, velocity: VelocityCommand, pose: BodyPose) -> None:
+    def update(
+        self, sensed: RobotState, velocity: VelocityCommand, pose: BodyPose
+    ) -> JointTargets:
         """
-        Set the velocity command, and the body pose to hold while standing.
+        Compute the joint targets of the next control period.
 
         A robot that is bent straightens up before its first step.
 
         Parameters
         ----------
-        velocity
-            Velocity in the axes of the robot; the gait clamps it to its limits.
-        pose
-            Target pose of the body, within the limits of the robot.
-
-        """
-        self._velocity, self._wanted_pose = velocity, pose
-        self._obey()
-
-    def _obey(self) -> None:
-        """Pass the velocity command to the gait; zero until the body is upright."""
-        self.gait.command(self._velocity if self.body.is_upright else STANDING)
-
-    def _hold_body(self, passed_s: float) -> None:
-        """Move the body towards the commanded pose, or upright if the robot is to step."""
-        stands = self.gait.phase == STAND and self._velocity.is_zero
-        was_upright = self.body.is_upright
-        self.body.update(self._wanted_pose if stands else UPRIGHT, passed_s)
-        if self.body.is_upright and not was_upright:
-            self._obey()
-
-    def update(self, sensed: RobotState) -> JointTargets:
-        """
-        Compute the joint targets of the next control period.
-
-        Parameters
-        ----------
         sensed
             Estimated state of the robot.
+        velocity
+            Commanded velocity in the axes of the robot; the gait clamps it to its limits.
+        pose
+            Body pose to hold while standing, within the limits of the robot.
 
         Returns
         -------
@@ -175,7 +162,7 @@ class Walk:
         passed_s = sensed.time_s - self._last_s
         self._last_s, self.sensed = sensed.time_s, sensed
         self._estimate(passed_s)
-        self._hold_body(passed_s)
+        self._hold_body(velocity, pose, passed_s)
         soles = soles_below(self.base.position_m, self._robot, sensed, self._parameters)
         output = self.output = self.gait.update(
             GaitInput(
@@ -183,6 +170,7 @@ class Walk:
                 self.dcm_m,
                 self._zmp_m,
                 soles,
+                velocity if self.body.is_upright else STANDING,
                 self._error_m,
                 self._force.force_n,
                 self._felt(),
@@ -225,6 +213,11 @@ class Walk:
         position = self.base.position_m.copy()
         position[2] = self._footing.height_m(self._shares) - lowest_m
         self.base = BaseEstimate(position, np.zeros(3))
+
+    def _hold_body(self, velocity: VelocityCommand, pose: BodyPose, passed_s: float) -> None:
+        """Move the body towards the commanded pose, or upright if the robot is to step."""
+        stands = self.gait.phase == STAND and velocity.is_zero
+        self.body.update(pose if stands else UPRIGHT, passed_s)
 
     def _estimate(self, passed_s: float) -> None:
         """Estimate the base, the centre of mass and the external force."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walking controller: from observations to joint targets."""
+"""Walking controller: from observations and a velocity command to joint targets."""
 
 from __future__ import annotations
 
@@ -7,21 +7,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
+from humanoid_control.dynamics.rotations import quaternion_of
 from humanoid_control.walking.body_pose import BodyPose, UPRIGHT
-from humanoid_control.walking.fall_detector import Stance
-from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.heading import quaternion_of
-from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.recovery import Recovery
+from humanoid_control.walking.recovery import Recovery, Stance
 from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.state_estimator import RobotState, StateEstimator
-from humanoid_control.walking.status import WalkStatus
+from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walk import Walk
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
 
@@ -131,8 +129,6 @@ class Walker:
         self._velocity = velocity
         if not velocity.is_zero:
             self._body = UPRIGHT
-        if self._walk:
-            self._walk.command(velocity, self._body)
 
     @property
     def pose(self) -> BodyPose:
@@ -155,8 +151,6 @@ class Walker:
 
         """
         self._body = pose.within(self.parameters)
-        if self._walk:
-            self._walk.command(self._velocity, self._body)
 
     def update(self, observation: Observation) -> JointTargets:
         """
@@ -189,7 +183,7 @@ class Walker:
         targets = self._recover(walk, sensed, own.positions_rad)
         if targets is None:
             walk = self._walk or self._begin(sensed)
-            targets = walk.update(sensed)
+            targets = walk.update(sensed, self._velocity, self._body)
         self._uncertainty.update(self._pose(walk), sensed.time_s)
         self._targets = self.robot.whole(targets)
         return self._targets
@@ -215,7 +209,6 @@ class Walker:
         self._walk = Walk(
             self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
         )
-        self._walk.command(self._velocity, self._body)
         return self._walk
 
     def _recover(
@@ -273,3 +266,23 @@ class Walker:
             angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
             covariance=self._uncertainty.covariance,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class WalkStatus:
+    """Status of the walk at a time; points are in the ground plane of the odom frame."""
+
+    phase: str
+    """'stand', 'walk', 'stop', 'fallen' or 'stand_up'."""
+    support: tuple[int, ...]
+    """Sides of the feet that carry the robot: 0 left, 1 right; empty while it is down."""
+    feet: tuple[PlanarPose, PlanarPose]
+    """Present or last footholds, left and right."""
+    footsteps: Sequence[Footstep]
+    """Planned landings, the next one first."""
+    odometry: Odometry
+    dcm_m: Point
+    dcm_reference_m: Point
+    zmp_m: Point
+    """Commanded zero-moment point."""
+    zmp_reference_m: Point

@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whole-body inverse kinematics: legs from pelvis and soles, arms from the legs."""
+"""Whole-body inverse kinematics: base from the centre of mass, legs from base and soles, arms."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+import math
 
+from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.leg_ik import leg_posture
-from humanoid_control.dynamics.leg_rates import leg_rates
-from humanoid_control.walking.base_motion import BaseMotion
+from humanoid_control.dynamics.leg_geometry import LegGeometry
+from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates
+from humanoid_control.dynamics.rotations import about_y, about_z, skew
 from humanoid_control.walking.footing import Footing
-from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.pendulum import Motion
+from humanoid_control.walking.planar import Turning
 from humanoid_control.walking.sides import LEFT, NAMES, RIGHT, SIDES
+from humanoid_control.walking.state_estimator import BaseEstimate, BaseMotion
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
 
@@ -118,3 +122,120 @@ class WholeBody:
             joints.positions_rad[shoulder] += gain * ahead_m
             joints.velocities_rad_s[shoulder] = gain * speed_m_s
             joints.accelerations_rad_s2[shoulder] = gain * gain_m_s2
+
+
+def base_below(
+    wanted: Motion,
+    height_m: float,
+    turning: Turning,
+    com: Motion,
+    base: BaseEstimate,
+    state: BodyState,
+    pitch_rad: float = 0.0,
+    pitch_rate_rad_s: float = 0.0,
+) -> BaseMotion:
+    """
+    Compute the motion of the base that gives the centre of mass its target motion.
+
+    Parameters
+    ----------
+    wanted
+        Target motion of the centre of mass over the ground, in the odom frame.
+    height_m
+        Target height of the centre of mass, in the odom frame.
+    turning
+        Target heading of the base, and its rate.
+    com, base, state
+        Estimates of the centre of mass, the base and the posture: they give the position of the
+        centre of mass relative to the base.
+    pitch_rad, pitch_rate_rad_s
+        Target pitch of the base, positive when it is bent forward, and its rate; upright by
+        default.
+
+    Returns
+    -------
+    BaseMotion
+        Pose and twist of the base, in the odom frame.
+
+    """
+    heading = about_z(turning.heading_rad)
+    rotation = heading @ about_y(pitch_rad)
+    upright = rotation @ state.base_rotation.T
+    from_base = np.array([com.position_m.real, com.position_m.imag, 0.0]) - base.position_m
+    from_base[2] = state.com_m[2]
+    to_com = upright @ from_base
+    # Velocity of the centre of mass in the base by the joints, without the rotation of the base.
+    shifting = upright @ (
+        state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
+    )
+    place, speed = wanted.position_m, wanted.velocity_m_s
+    turn = pitch_rate_rad_s * heading[:, 1] + np.array([0.0, 0.0, turning.rate_rad_s])
+    velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
+    goal = np.array([place.real, place.imag, height_m])
+    return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
+
+
+def within_reach(
+    base: BaseMotion, robot: WalkingRobot, footing: Footing, sides: Sequence[int], reach: float
+) -> BaseMotion:
+    """
+    Lower the base until the legs on the ground reach their footholds.
+
+    Parameters
+    ----------
+    base
+        Target motion of the base, in the odom frame.
+    robot
+        The robot, with the geometry of its legs.
+    footing, sides
+        Footholds of the feet, and the sides of those that carry the robot.
+    reach
+        Fraction of its length to which a leg may be stretched.
+
+    Returns
+    -------
+    BaseMotion
+        The same motion, lowered if necessary.
+
+    """
+    legs = [robot.legs[side].geometry for side in sides]
+    soles = [footing[side].sole_m for side in sides]
+    x, y, _ = base.frame.position_m.tolist()
+    height_m = reachable_height_m(base.frame, legs, soles, reach)
+    return BaseMotion(Frame(np.array([x, y, height_m]), base.frame.rotation), base.twist)
+
+
+def reachable_height_m(
+    base: Frame, legs: Sequence[LegGeometry], soles_m: Sequence[Array], reach: float
+) -> float:
+    """
+    Compute the height of the base at which all legs reach their soles.
+
+    The base is moved along the vertical only, and never up.
+
+    Parameters
+    ----------
+    base
+        Pose of the base, in the same frame as the soles.
+    legs
+        Geometry of the legs on the ground.
+    soles_m
+        Positions (3,) of their soles, which are level, one for each leg.
+    reach
+        Fraction of its length to which a leg may be stretched.
+
+    Returns
+    -------
+    float
+        Height of the base in m, in the frame of the soles.
+
+    """
+    height_m = float(base.position_m[2])
+    for leg, sole in zip(legs, soles_m):
+        hip = base.rotation @ leg.hip_m
+        x, y, _ = (base.position_m + hip - sole).tolist()
+        stretched_m = reach * leg.length_m
+        up_m = math.sqrt(max(0.0, stretched_m**2 - x**2 - y**2))
+        ankle_m = float(sole[2] + leg.ankle_m[2])
+        height_m = min(height_m, ankle_m + up_m - float(hip[2]))
+    return height_m

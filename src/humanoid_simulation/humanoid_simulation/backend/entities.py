@@ -1,69 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""States and bounding boxes of the robots and objects in the world."""
+"""The robots and objects in the world: their names, states and bounding boxes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import Any
 
 from humanoid_control.backends import Array
-from humanoid_simulation.backend.floating import floating_body
-from humanoid_simulation.backend.names import Names
-from humanoid_simulation.choosing import named
-from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.model.world import ALONE
+from humanoid_simulation.backend.state import check_bounds, EntityState, floating_body
+from humanoid_simulation.errors import named
+from humanoid_simulation.model.description import ALONE, FLOATING_BASE, in_world
 from humanoid_simulation.rotations import inverse, rotated
+from humanoid_simulation.scene.scene import Scene
 import mujoco
 import numpy as np
 
-FARTHEST_M = 1e4
-"""Largest coordinate; beyond it, floating-point numbers are too coarse for contacts."""
-FASTEST_M_S, FASTEST_RAD_S = 1e3, 1e3
 _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 """Corners of the cube from -1 to 1 along each axis, (8, 3)."""
-
-
-def _zero() -> Array:
-    """Return a zero vector (3,)."""
-    return np.zeros(3)
-
-
-@dataclass(frozen=True, eq=False)
-class EntityState:
-    """
-    Pose, velocity and acceleration of the origin of an entity, in the world frame.
-
-    The orientation is a unit quaternion w, x, y, z; velocities and accelerations are in world
-    axes. Accelerations are only reported, never set: they follow from forces.
-    """
-
-    position_m: Array
-    orientation: Array
-    linear_velocity_m_s: Array = field(default_factory=_zero)
-    angular_velocity_rad_s: Array = field(default_factory=_zero)
-    linear_acceleration_m_s2: Array = field(default_factory=_zero)
-    angular_acceleration_rad_s2: Array = field(default_factory=_zero)
-
-    def __post_init__(self) -> None:
-        """Check shapes, finite values and the norm of the quaternion."""
-        sizes = {
-            'position_m': 3,
-            'orientation': 4,
-            'linear_velocity_m_s': 3,
-            'angular_velocity_rad_s': 3,
-        }
-        for kind, size in sizes.items():
-            array = getattr(self, kind)
-            if array.shape != (size,) or not np.isfinite(array).all():
-                raise SimulationError(
-                    f'The {kind} of an entity must be {size} finite numbers, but is {array}.'
-                )
-        if abs(self.orientation @ self.orientation - 1.0) > 0.01:
-            raise SimulationError(
-                f'The orientation {self.orientation} of an entity is no rotation: the squares of '
-                'its four numbers must add up to 1. No rotation is w = 1 and the others 0.'
-            )
 
 
 class Entities:
@@ -192,28 +146,100 @@ class Entities:
         qvel[at.angular] = rotated(state.angular_velocity_rad_s, inverse(orientation))
 
 
-def check_bounds(state: EntityState) -> None:
+class Names:
     """
-    Check that a state is within the bounds of the physics.
+    The names of bodies and entities.
+
+    Bodies are the links of robots, prefixed with the robot's name and '/' if it has one, and the
+    objects of the scene. Entities are the robots and the objects; only some objects can be moved.
 
     Parameters
     ----------
-    state
-        Up to `FARTHEST_M`, `FASTEST_M_S` and `FASTEST_RAD_S` along each axis.
-
-    Raises
-    ------
-    SimulationError
-        The state exceeds one of these bounds.
+    model
+        The compiled MuJoCo world.
+    scene
+        The scene that it was compiled from.
+    robots
+        Names of the robots; '' for a single one without a name.
+    base
+        Name of the floating base link, the same in all robots.
 
     """
-    for kind, array, most in (
-        ('position_m', state.position_m, FARTHEST_M),
-        ('linear_velocity_m_s', state.linear_velocity_m_s, FASTEST_M_S),
-        ('angular_velocity_rad_s', state.angular_velocity_rad_s, FASTEST_RAD_S),
-    ):
-        if np.abs(array).max() > most:
-            raise SimulationError(
-                f'The {kind} {array} of an entity is too large to be computed with. Give numbers '
-                f'from {-most:g} to {most:g}.'
-            )
+
+    def __init__(self, model: Any, scene: Scene, robots: Sequence[str], base: str) -> None:
+        self._robots, self._base = robots, base
+        self.bodies = [self._public(model.body(number).name) for number in range(model.nbody)]
+        self._numbers = {name: number for number, name in enumerate(self.bodies)}
+        self._roots = model.body_rootid
+        things = {thing.name: thing.name for thing in scene.things if not thing.is_fixed}
+        self.floating: Mapping[str, str] = {
+            **{robot or ALONE: in_world(robot, FLOATING_BASE) for robot in robots},
+            **things,
+        }
+        """The free joint of each entity that can be moved, by the name of the entity."""
+        self.fixed = tuple(thing.name for thing in scene.things if thing.is_fixed)
+        """The entities that are fixed in the world."""
+
+    def body(self, entity: str, link: str = '') -> str:
+        """
+        Look up the name of a body: a link of a robot, or an object.
+
+        Parameters
+        ----------
+        entity
+            Name of a robot or of an object that can be moved; '' is the robot without a name.
+        link
+            A link of the robot, which is not checked; '' is its base, or the object.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity, or it is fixed.
+
+        """
+        entity = entity or ALONE
+        named('entity that can be moved', entity, self.floating)
+        if entity == ALONE and '' in self._robots:
+            return link or self._base
+        if entity in self._robots:
+            return f'{entity}/{link or self._base}'
+        return f'{entity}/{link}' if link else entity
+
+    def number(self, body: str) -> int:
+        """
+        Look up the id of a body in the MuJoCo model.
+
+        Parameters
+        ----------
+        body
+            Its name, one of `bodies`.
+
+        Raises
+        ------
+        SimulationError
+            There is no such body.
+
+        """
+        return named('body', body, self._numbers)
+
+    def links(self, robot: str) -> list[str]:
+        """
+        List the names of the bodies of a robot.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        Raises
+        ------
+        SimulationError
+            There is no such robot.
+
+        """
+        root = self._roots[self.number(self.body(robot))]
+        return [name for name, of in zip(self.bodies, self._roots) if of == root]
+
+    def _public(self, name: str) -> str:
+        """Convert a MuJoCo body name: the prefix of a robot without a name is dropped."""
+        return name.removeprefix(f'{ALONE}/') if '' in self._robots else name

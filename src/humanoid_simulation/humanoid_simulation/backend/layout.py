@@ -7,10 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from humanoid_control.backends import Array
-from humanoid_simulation.backend.floating import Floating, floating_body
+from humanoid_simulation.backend.state import Floating, floating_body
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.model import in_world, RobotDescription
-from humanoid_simulation.model.robot_spec import ACCELEROMETER, FLOATING_BASE
+from humanoid_simulation.model.description import (
+    ACCELEROMETER,
+    FLOATING_BASE,
+    in_world,
+    RobotDescription,
+)
 import mujoco
 import numpy as np
 from numpy.typing import NDArray

@@ -7,28 +7,30 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
-from humanoid_simulation.backend.contacts import Contact, contacts_in
-from humanoid_simulation.backend.entities import Entities, EntityState
-from humanoid_simulation.backend.hoisting import Hoists
-from humanoid_simulation.backend.last_sound import LastSound
-from humanoid_simulation.backend.names import Names
+from humanoid_simulation.backend.entities import Entities, Names
+from humanoid_simulation.backend.forces import Contact, contacts_in, Wrench, Wrenches
+from humanoid_simulation.backend.hoist import Hoists
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.settings import BackendSettings
-from humanoid_simulation.backend.snapshot import carry_over, numbers_in, Snapshot
-from humanoid_simulation.backend.wrenches import Wrench, Wrenches
-from humanoid_simulation.choosing import named
-from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.backend.state import (
+    carry_over,
+    EntityState,
+    LastSound,
+    numbers_in,
+    Snapshot,
+)
+from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.keyframes import Keyframe, load_keyframes
-from humanoid_simulation.model import (
-    build_world,
+from humanoid_simulation.model.description import (
+    ALONE,
+    CAMERA,
     humanoid,
     in_world,
     Placement,
     RobotDescription,
 )
-from humanoid_simulation.model.robot_spec import CAMERA
-from humanoid_simulation.model.world import ALONE
-from humanoid_simulation.scene import Scene
+from humanoid_simulation.model.world import build_world
+from humanoid_simulation.scene.scene import Scene
 import mujoco
 import numpy as np
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sensor noise: white noise and constant biases."""
+"""Sensor noise: white noise and constant biases of the channels of a robot."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass, fields
 import math
 
 from humanoid_control.backends import Array, ImuNoise
-from humanoid_simulation.backend.channels import Channels, channels_of
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.rotations import rotated
 import numpy as np
@@ -95,7 +94,6 @@ REALISTIC = SensorNoise(
     acceleration_bias_m_s2=0.05,
 )
 """Typical of encoders, of a low-cost inertial measurement unit and of strain gauges."""
-
 
 ATTITUDE_FILTER_S = 1.0
 """Time constant with which the attitude filter of the sensor follows the accelerometers."""
@@ -245,3 +243,44 @@ def _biases(noise: SensorNoise, channels: Channels, random: np.random.Generator)
     result[channels.angular_velocity] = angular * noise.angular_velocity_bias_rad_s
     result[channels.acceleration] = linear * noise.acceleration_bias_m_s2
     return result
+
+
+@dataclass(frozen=True)
+class Channels:
+    """Slices of the measurement array, by quantity; feet in the order left, right."""
+
+    positions: slice
+    velocities: slice
+    efforts: slice
+    angular_velocity: slice
+    acceleration: slice
+    forces: slice
+    torques: slice
+
+    @property
+    def size(self) -> int:
+        """Return the number of values in the array."""
+        return int(self.torques.stop)
+
+
+def channels_of(joints: int) -> Channels:
+    """
+    Assign the measurements of a robot to slices of one array.
+
+    Parameters
+    ----------
+    joints
+        Number n of driven joints.
+
+    Returns
+    -------
+    Channels
+        Slices of an array (3 n + 18,).
+
+    """
+    parts = []
+    at = 0
+    for length in (joints, joints, joints, 3, 3, 6, 6):
+        parts.append(slice(at, at + length))
+        at += length
+    return Channels(*parts)

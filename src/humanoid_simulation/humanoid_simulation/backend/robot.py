@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One robot in a simulated world."""
+"""One robot in a simulated world: its servos, its sensors, and its posture at a reset."""
 
 from __future__ import annotations
 
@@ -8,15 +8,19 @@ from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_description.drives import PRISMATIC
-from humanoid_simulation.backend.layout import layout_of
-from humanoid_simulation.backend.noise import NoiseSource
-from humanoid_simulation.backend.posing import pose
-from humanoid_simulation.backend.sensing import Sensors
+from humanoid_simulation.backend.layout import Layout, layout_of
+from humanoid_simulation.backend.noise import channels_of, NoiseSource
 from humanoid_simulation.backend.servos import check_targets, Servos
 from humanoid_simulation.backend.settings import BackendSettings
+from humanoid_simulation.collisions import COLLISION_GROUP
 from humanoid_simulation.keyframes import Keyframe
-from humanoid_simulation.model import Placement, RobotDescription
+from humanoid_simulation.model.description import Placement, RobotDescription
+from humanoid_simulation.rotations import from_rpy, from_vector, inverse, product, rotated
+import mujoco
 import numpy as np
+
+# Initial penetration of a standing robot into the ground, so that its soles bear load at once.
+_SINK_M = 1e-4
 
 
 class SimulatedRobot:
@@ -174,3 +178,160 @@ class SimulatedRobot:
     def observe(self) -> Observation:
         """Return the measurement that is as old as the latency."""
         return self._measured[0]
+
+
+class Sensors:
+    """
+    Joint encoders, inertial measurement unit and foot force sensors of a robot in a world.
+
+    Joint positions and all velocities are current; forces and accelerations are those of the last
+    physics step.
+
+    Parameters
+    ----------
+    model, data
+        The compiled MuJoCo world, and its state, whose arrays are read at each measurement.
+    layout
+        Indices of the robot in these arrays.
+    noise
+        Source of the measurement errors.
+
+    """
+
+    def __init__(self, model: Any, data: Any, layout: Layout, noise: NoiseSource) -> None:
+        self._qpos, self._qvel = data.qpos, data.qvel
+        self._actuator_force, self._sensordata = data.actuator_force, data.sensordata
+        self._external = [data.cfrc_ext[foot] for foot in layout.feet]
+        self._sole_positions = [data.xpos[sole] for sole in layout.soles]
+        self._sole_turns = [data.xmat[sole] for sole in layout.soles]
+        # The reference point of the external forces on bodies.
+        self._centre = data.subtree_com[model.body_rootid[layout.base]]
+        self._layout = layout
+        self._mount, self._unmount = layout.imu_mount, inverse(layout.imu_mount)
+        self._noise = noise
+        self._channels = channels_of(len(layout.positions))
+
+    def measure(self, time_s: float) -> Observation:
+        """
+        Measure joints, inertial sensor and forces on the feet, with noise.
+
+        Parameters
+        ----------
+        time_s
+            Current simulated time, for the stamp and the drift of the heading.
+
+        """
+        values = self._true_values()
+        orientation = product(self._qpos[self._layout.floating.orientation], self._mount)
+        if not self._noise.is_silent:
+            errors, turn = self._noise.draw(orientation, time_s)
+            values += errors
+            orientation = product(from_vector(turn), orientation)
+        return self._observation(time_s, values, orientation)
+
+    def _true_values(self) -> Array:
+        """Read the noise-free values of all channels."""
+        layout, channels = self._layout, self._channels
+        values = np.empty(channels.size)
+        values[channels.positions] = self._qpos[layout.positions]
+        values[channels.velocities] = self._qvel[layout.velocities]
+        values[channels.efforts] = self._actuator_force[layout.servos]
+        rate = self._qvel[layout.floating.angular]
+        values[channels.angular_velocity] = rotated(rate, self._unmount)
+        values[channels.acceleration] = self._sensordata[layout.acceleration]
+        left, right = self._wrench_about_sole(0), self._wrench_about_sole(1)
+        values[channels.forces] = np.concatenate((left[3:], right[3:]))
+        values[channels.torques] = np.concatenate((left[:3], right[:3]))
+        return values
+
+    def _wrench_about_sole(self, foot: int) -> Array:
+        """Compute the external torque and force (6,) on a foot, about its sole and in its axes."""
+        wrench = np.empty(6)
+        mujoco.mju_transformSpatial(
+            wrench,
+            self._external[foot],
+            1,
+            self._sole_positions[foot],
+            self._centre,
+            self._sole_turns[foot],
+        )
+        return wrench
+
+    def _observation(self, time_s: float, values: Array, orientation: Array) -> Observation:
+        """Build an observation from the values of the channels."""
+        channels = self._channels
+        return Observation(
+            time_s,
+            values[channels.positions],
+            values[channels.velocities],
+            values[channels.efforts],
+            orientation,
+            values[channels.angular_velocity],
+            values[channels.acceleration],
+            values[channels.forces].reshape(2, 3),
+            values[channels.torques].reshape(2, 3),
+        )
+
+
+def pose(
+    model: Any,
+    data: Any,
+    layout: Layout,
+    place: Placement,
+    keyframe: Keyframe,
+    positions_rad: Array,
+) -> None:
+    """
+    Set the base and the joints of a robot, with its lowest point on the ground.
+
+    Of the state, only `qpos` is valid afterwards; derived quantities are not recomputed.
+
+    Parameters
+    ----------
+    model, data
+        The MuJoCo model, and the state that is set.
+    layout
+        Indices of the robot in them.
+    place
+        Its initial position on the ground, and its heading.
+    keyframe
+        Roll and pitch of the base; its joints are not used.
+    positions_rad
+        Positions of the driven joints (n,); mimic joints follow.
+
+    """
+    data.qpos[layout.positions] = positions_rad
+    data.qpos[layout.followers] = data.qpos[layout.followed]
+    data.qpos[layout.floating.orientation] = from_rpy(
+        keyframe.roll_rad, keyframe.pitch_rad, place.yaw_rad
+    )
+    data.qpos[layout.floating.position] = (place.x_m, place.y_m, 0.0)
+    mujoco.mj_kinematics(model, data)
+    height_m = place.z_m - _SINK_M - _lowest_m(model, data, layout.base)
+    data.qpos[layout.floating.position] = (place.x_m, place.y_m, height_m)
+
+
+def _lowest_m(model: Any, data: Any, base: int) -> float:
+    """Compute the height of the lowest point of a robot."""
+    root = model.body_rootid[base]
+    return min(
+        _lowest_of_geom(model, data, geom)
+        for geom in range(model.ngeom)
+        if model.geom_group[geom] == COLLISION_GROUP
+        and model.body_rootid[model.geom_bodyid[geom]] == root
+    )
+
+
+def _lowest_of_geom(model: Any, data: Any, geom: int) -> float:
+    """Compute the height of the lowest point of a geom; for a mesh, of its bounding box."""
+    up: Array = data.geom_xmat[geom].reshape(3, 3)[2]
+    size = model.geom_size[geom]
+    height = float(data.geom_xpos[geom][2])
+    kind = model.geom_type[geom]
+    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+        return height - float(size[0])
+    if kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
+        slant = float(np.hypot(up[0], up[1]))
+        return height - float(size[0]) * slant - float(size[1]) * abs(float(up[2]))
+    centre, half = model.geom_aabb[geom][:3], model.geom_aabb[geom][3:]
+    return height + float(up @ centre) - float(np.abs(up) @ half)

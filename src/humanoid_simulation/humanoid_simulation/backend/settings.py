@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from humanoid_simulation.backend.noise import SensorNoise
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.model import Physics
+from humanoid_simulation.model.description import Physics
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from humanoid_simulation.camera.painter import Color, Depth, FAR_M, NEAR_M
+from humanoid_simulation.camera.images import Color, Depth, FAR_M, NEAR_M
 from humanoid_simulation.errors import SimulationError
 import mujoco
 import numpy as np

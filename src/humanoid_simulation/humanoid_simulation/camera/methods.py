@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rendering methods, from the best to the one that works everywhere."""
+"""Rendering methods, from the best to the one that works everywhere, and how to fall back."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 EGL = 'egl'
 OSMESA = 'osmesa'
@@ -23,6 +23,7 @@ _WAY_OUT = (
     'To have OpenGL, on Debian or Ubuntu: `apt install libegl1 libegl-mesa0 libgl1-mesa-dri`, '
     'or `apt install libosmesa6`; then start the simulator again.'
 )
+_MOST_DEATHS = 3
 
 
 def methods_of(choice: str) -> tuple[str, ...]:
@@ -102,3 +103,59 @@ def give_up_sentence(failures: Mapping[str, str]) -> str:
     """
     reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
     return f'The cameras are off, the simulation goes on. {reasons} {_WAY_OUT}'
+
+
+class Ladder:
+    """
+    Fallback order of rendering methods, and why those that were tried have failed.
+
+    A method that has rendered before is retried when its process ends, until that happens three
+    times without an image in between.
+
+    Parameters
+    ----------
+    methods : Sequence[str]
+        The methods, best first.
+
+    """
+
+    def __init__(self, methods: Sequence[str]) -> None:
+        self._methods = list(methods)
+        self._deaths = 0
+        self._has_drawn = False
+        self.failures: dict[str, str] = {}
+        """The reason why a method cannot be used, by method."""
+
+    @property
+    def method(self) -> str:
+        """Return the method to use; '' if none is left."""
+        left = [method for method in self._methods if method not in self.failures]
+        return left[0] if left else ''
+
+    def note_picture(self) -> None:
+        """Record that the method has rendered an image."""
+        self._has_drawn = True
+        self._deaths = 0
+
+    def note_end(self, reason: str) -> bool:
+        """
+        Record why a render process ended, and decide whether to try its method again.
+
+        Parameters
+        ----------
+        reason
+            Why it ended, as a sentence; it is kept in `failures` if the method is given up.
+
+        Returns
+        -------
+        bool
+            Whether the same method gets another chance; if not, `method` is the next one.
+
+        """
+        self._deaths += 1
+        if self._has_drawn and self._deaths < _MOST_DEATHS:
+            return True
+        self.failures[self.method] = reason
+        self._deaths = 0
+        self._has_drawn = False
+        return False

@@ -13,15 +13,12 @@ import os
 import signal
 import sys
 
-from humanoid_simulation.camera.frames import Frames
 from humanoid_simulation.camera.gl_painter import GlPainter
+from humanoid_simulation.camera.images import Painter, PictureNoiseSource
 from humanoid_simulation.camera.methods import RAYS
-from humanoid_simulation.camera.painter import Painter
-from humanoid_simulation.camera.picture_noise import PictureNoiseSource
-from humanoid_simulation.camera.pinhole import Deprojection
-from humanoid_simulation.camera.protocol import Assignment, DONE, FAILED, READY, wanted_in
+from humanoid_simulation.camera.pinhole import camera_id, Deprojection, pinhole_of
+from humanoid_simulation.camera.protocol import Assignment, DONE, FAILED, Frames, READY, wanted_in
 from humanoid_simulation.camera.ray_painter import RayPainter
-from humanoid_simulation.camera.view import camera_id, pinhole_of
 import mujoco
 import numpy as np
 from numpy.typing import NDArray

@@ -11,10 +11,15 @@ import subprocess
 import sys
 from typing import IO
 
-from humanoid_simulation.camera.frames import unnamed_file
 from humanoid_simulation.camera.methods import environment_of
-from humanoid_simulation.camera.protocol import Assignment, FAILED, READY, request_line
-from humanoid_simulation.camera.view import Wanted
+from humanoid_simulation.camera.pinhole import Wanted
+from humanoid_simulation.camera.protocol import (
+    Assignment,
+    FAILED,
+    READY,
+    request_line,
+    unnamed_file,
+)
 
 _MODULE = 'humanoid_simulation.camera.render_main'
 _LAST_WORDS = 300

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The cameras of all robots of a world, on ROS topics."""
+"""Publish the images of all cameras of a world, at a rate in simulated time."""
 
 from __future__ import annotations
 
@@ -7,14 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 import time
 
-from humanoid_simulation.camera.conversions import stamp_of
+from humanoid_simulation.camera.images import PictureNoise
 from humanoid_simulation.camera.methods import methods_of
-from humanoid_simulation.camera.parameters import CameraParameters
-from humanoid_simulation.camera.picture_noise import PictureNoise
-from humanoid_simulation.camera.publisher import CameraPublisher
+from humanoid_simulation.camera.pinhole import CameraView, pinhole_of
+from humanoid_simulation.camera.publisher import CameraPublisher, stamp_of
 from humanoid_simulation.camera.renderer import Pictures, Renderer
-from humanoid_simulation.camera.shutter import Shutter
-from humanoid_simulation.camera.view import CameraView, pinhole_of
+from humanoid_simulation.simulator_parameters import CameraParameters
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +21,9 @@ from rclpy.node import Node
 
 _LOOK_S = 0.05
 """Period of the checks for images and subscribers besides the ticks, which stop in a pause."""
+_NANOSECONDS = 1_000_000_000
+_TINY = 1e-6
+"""Tolerance for rounding errors at the start of a period, in periods."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,6 +184,52 @@ class CameraTopics:
         views = zip(pictures.wanted, pictures.colors, pictures.depths, pictures.clouds)
         for publisher, view in zip(self._publishers, views):
             publisher.publish(*view, stamp)
+
+
+class Shutter:
+    """
+    Rate limiter for images on a time grid, so that the mean rate does not depend on the ticks.
+
+    An image that could not be taken in time stays due until it is; those in between are skipped.
+
+    Parameters
+    ----------
+    rate_hz
+        Images per second of simulated time, above 0.
+
+    """
+
+    def __init__(self, rate_hz: float) -> None:
+        self._rate_hz = rate_hz
+        self._last: int | None = None
+
+    def is_due(self, time_ns: int) -> bool:
+        """
+        Check whether the period that a time is in has no image yet.
+
+        Parameters
+        ----------
+        time_ns
+            Simulated time, in ns.
+
+        """
+        return self._period_of(time_ns) != self._last
+
+    def release(self, time_ns: int) -> None:
+        """
+        Record that an image was taken.
+
+        Parameters
+        ----------
+        time_ns
+            Simulated time of the image, in ns.
+
+        """
+        self._last = self._period_of(time_ns)
+
+    def _period_of(self, time_ns: int) -> int:
+        """Return the index of the period that a time is in; exact at the start of periods."""
+        return int(time_ns * self._rate_hz / _NANOSECONDS + _TINY)
 
 
 def _folder(robot: str) -> str:

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 import sys
 from typing import Any
 
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter, ParameterError
 from humanoid_common.qos import STATE
 from humanoid_common.running import ending, run_node
 from humanoid_control.hosting.conversions import seconds
@@ -17,16 +19,55 @@ from humanoid_simulation.examples.conversions import (
     push_request,
     refusal,
 )
-from humanoid_simulation.examples.example_parameters import PushTestParameters
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
-from humanoid_simulation.examples.push_series import NeverStoodError, PushSeries, Step
+from humanoid_simulation.examples.push_series import NeverStoodError, PushPlan, PushSeries, Step
 from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.task import Future
 from simulation_interfaces.srv import ResetSimulation
+
+
+@dataclass(frozen=True)
+class PushTestParameters:
+    """Parameters of `push_test`: impulses and duration of the pushes."""
+
+    first_ns: float = parameter(
+        5.0, 'The gentlest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
+    )
+    step_ns: float = parameter(
+        5.0,
+        'How much harder the next one is, in N s.',
+        at_least=0.1,
+        at_most=1000.0,
+        read_only=True,
+    )
+    most_ns: float = parameter(
+        30.0, 'The hardest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
+    )
+    duration_s: float = parameter(
+        0.1, 'How long a push lasts.', at_least=0.002, at_most=0.9, read_only=True
+    )
+    simulator: str = parameter(
+        '/simulator', 'The full name of the simulator, whose services are used.', read_only=True
+    )
+
+    def __post_init__(self) -> None:
+        """Check that the range of impulses is not empty."""
+        if self.first_ns > self.most_ns:
+            raise ParameterError(
+                f"Parameter 'first_ns' is {self.first_ns:g}, but must not be more than "
+                f"'most_ns', which is {self.most_ns:g}.",
+                'first_ns',
+                'most_ns',
+            )
+
+    @property
+    def plan(self) -> PushPlan:
+        """Return the plan that the parameters describe."""
+        return PushPlan(self.first_ns, self.step_ns, self.most_ns)
 
 
 class PushTest(Node):

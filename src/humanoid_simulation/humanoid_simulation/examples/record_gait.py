@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record and plot a walk of the robot: `ros2 run humanoid_simulation record_gait`."""
+"""Record a walk of the robot, plot and tabulate it: `ros2 run humanoid_simulation record_gait`."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
+import csv
 from functools import partial
 from pathlib import Path
 import signal
@@ -12,9 +13,11 @@ import sys
 
 from humanoid_control.walking import VelocityCommand, WalkingError
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.examples.gait_recording import GaitRecording
-from humanoid_simulation.examples.gait_run import GaitPlan, record_walk
+from humanoid_simulation.examples.gait_recording import GaitPlan, GaitRecording, record_walk
 from humanoid_simulation.scene import load_scene
+import numpy as np
+
+_FEET = ('left', 'right')
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -81,7 +84,6 @@ def _plan(arguments: argparse.Namespace) -> GaitPlan:
 def _write(recording: GaitRecording, arguments: argparse.Namespace) -> None:
     """Write the files, and print a summary."""
     from humanoid_simulation.examples.gait_plots import draw_gait  # takes a while to import
-    from humanoid_simulation.examples.gait_table import write_table
 
     _write_file(arguments.output, partial(draw_gait, recording))
     if arguments.csv is not None:
@@ -99,6 +101,47 @@ def _write_file(path: Path, write: Callable[[Path], None]) -> None:
         write(path)
     except OSError as error:
         raise SimulationError(f'{path} cannot be written: {error.strerror}.') from error
+
+
+def write_table(recording: GaitRecording, path: Path) -> None:
+    """
+    Write a recorded walk as comma-separated values, with a header line.
+
+    Parameters
+    ----------
+    recording
+        The walk.
+    path
+        The file to write, with one row per control period.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+
+    """
+    columns = _columns(recording)
+    with path.open('w', newline='', encoding='utf-8') as stream:
+        writer = csv.writer(stream)
+        writer.writerow(columns)
+        for row in np.column_stack(list(columns.values())):
+            writer.writerow([f'{value:.6g}' for value in row])
+
+
+def _columns(recording: GaitRecording) -> dict[str, np.ndarray]:
+    """Return the columns by their names, which end with the unit."""
+    columns = {'time_s': recording.times_s}
+    for number, axis in enumerate('xyz'):
+        columns[f'com_{axis}_m'] = recording.com_m[:, number]
+    for number, axis in enumerate('xy'):
+        columns[f'zmp_{axis}_m'] = recording.zmp_m[:, number]
+    for foot, side in enumerate(_FEET):
+        for number, axis in enumerate('xyz'):
+            columns[f'{side}_sole_{axis}_m'] = recording.soles_m[:, foot, number]
+        columns[f'{side}_load_n'] = recording.loads_n[:, foot]
+    for number, joint in enumerate(recording.joints):
+        columns[f'{joint}_nm'] = recording.efforts_nm[:, number]
+    return columns
 
 
 if __name__ == '__main__':

@@ -3,27 +3,49 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 import sys
 from typing import Any
 
 from geometry_msgs.msg import Twist
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
 from humanoid_common.qos import COMMAND, STATE
 from humanoid_common.running import ending, run_node
 from humanoid_control.hosting.conversions import seconds
-from humanoid_simulation.examples.conversions import (
-    height_and_tilt,
-    planar_pose,
-    twist_message,
-)
-from humanoid_simulation.examples.example_parameters import WalkSquareParameters
+from humanoid_simulation.examples.conversions import height_and_tilt, planar_pose, twist_message
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
-from humanoid_simulation.examples.square_walk import NotRoundError, Progress, SquareWalk
+from humanoid_simulation.examples.square_walk import (
+    NotRoundError,
+    Progress,
+    SquarePlan,
+    SquareWalk,
+)
 from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.duration import Duration
 from rclpy.node import Node
+
+
+@dataclass(frozen=True)
+class WalkSquareParameters:
+    """Parameters of `walk_square`: size of the square, and speeds."""
+
+    side_m: float = parameter(
+        1.0, 'Length of a side.', at_least=0.2, at_most=100.0, read_only=True
+    )
+    speed_m_s: float = parameter(
+        0.2, 'Speed along the sides.', at_least=0.05, at_most=0.5, read_only=True
+    )
+    turn_rad_s: float = parameter(
+        0.4, 'Speed of the turns.', at_least=0.1, at_most=1.0, read_only=True
+    )
+
+    @property
+    def plan(self) -> SquarePlan:
+        """Return the plan that the parameters describe."""
+        return SquarePlan(self.side_m, self.speed_m_s, self.turn_rad_s)
 
 
 class WalkSquare(Node):

@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Build the MuJoCo specification of a robot from its description."""
+"""Build the MuJoCo specification of a robot from its URDF and its drives."""
 
 from __future__ import annotations
 
 from typing import Any
+from xml.etree import ElementTree
 
 from humanoid_description.drives import Drive
-from humanoid_simulation.choosing import named
 from humanoid_simulation.collisions import COLLISION_GROUP, is_collision, robot_bits
-from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.model.description import RobotDescription
-from humanoid_simulation.model.physics import Physics
-from humanoid_simulation.model.urdf import spec_of
+from humanoid_simulation.errors import named, SimulationError
+from humanoid_simulation.model.description import (
+    ACCELEROMETER,
+    CAMERA,
+    FLOATING_BASE,
+    Physics,
+    RobotDescription,
+)
 import mujoco
 
-ACCELEROMETER = 'accelerometer'
-CAMERA = 'head_camera'
-FLOATING_BASE = 'floating_base'
 FIELD_OF_VIEW_DEG = 60.0
 
 _GEAR = (0.004, 1.0)
@@ -26,6 +27,9 @@ _PAD_FRICTION = (1.2, 0.02, 0.001)
 
 # ROS: z forward and y down; MuJoCo: z backward and y up.
 _FROM_OPTICAL_FRAME = (0.0, 1.0, 0.0, 0.0)
+# What MuJoCo discards by default when it reads a URDF: visuals, and links that are fixed to
+# others, such as the frames of sensors.
+_KEEP = {'discardvisual': 'false', 'fusestatic': 'false'}
 
 
 def robot_spec(description: RobotDescription, number: int, physics: Physics) -> Any:
@@ -142,3 +146,39 @@ def _change_masses(spec: Any, physics: Physics) -> None:
         body.mass *= factor
         body.inertia = body.inertia * factor
         body.fullinertia = body.fullinertia * factor
+
+
+def spec_of(urdf: str) -> Any:
+    """
+    Parse a URDF to a MuJoCo specification, with visuals and fixed links kept.
+
+    Parameters
+    ----------
+    urdf
+        Content of the URDF.
+
+    Returns
+    -------
+    mujoco.MjSpec
+        The robot, which can be extended before it is compiled.
+
+    Raises
+    ------
+    SimulationError
+        The text is not XML, or MuJoCo rejects it.
+
+    """
+    try:
+        robot = ElementTree.fromstring(urdf)
+    except ElementTree.ParseError as error:
+        raise SimulationError(f'The robot cannot be simulated: its URDF is no XML: {error}.')
+    for old in robot.findall('mujoco'):
+        robot.remove(old)
+    ElementTree.SubElement(ElementTree.SubElement(robot, 'mujoco'), 'compiler', _KEEP)
+    try:
+        return mujoco.MjSpec.from_string(ElementTree.tostring(robot, encoding='unicode'))
+    except ValueError as error:
+        raise SimulationError(
+            f'The robot cannot be simulated: MuJoCo refuses its URDF: {error}. '
+            'check_model says more about a URDF.'
+        ) from error

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.scene.furnishing import decoration, seating, storage
-from humanoid_simulation.scene.furnishing.shapes import darker, Parts, STEEL, WHITE, WOOD
 from humanoid_simulation.scene.outlines import rectangle
-from humanoid_simulation.scene.parts import Vector
+from humanoid_simulation.scene.parts import darker, Parts, STEEL, Vector, WHITE, WOOD
 from humanoid_simulation.scene.scene import COMPOSED, Surface, Thing
 
 _LIGHT_RGB = (1.0, 0.95, 0.75)

@@ -10,11 +10,10 @@ import math
 from typing import Any
 
 from humanoid_common.naming import did_you_mean
-from humanoid_simulation.scene.colours import COLOURS
 from humanoid_simulation.scene.furniture import furniture_of, KINDS, Piece, surfaces_of
 from humanoid_simulation.scene.objects import CLASSES, Graspable, thing_of
 from humanoid_simulation.scene.outlines import Outline, Point, turned
-from humanoid_simulation.scene.parts import Finish, PATTERNS, Vector
+from humanoid_simulation.scene.parts import COLOURS, Finish, PATTERNS, Vector
 from humanoid_simulation.scene.scene import Place, Room, room_at, Surface, Thing
 from humanoid_simulation.scene.walls import Door, flooring_of, Wall, wall_of
 from humanoid_simulation.tables import Table

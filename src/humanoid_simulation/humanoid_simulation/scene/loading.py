@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from humanoid_simulation.choosing import named
+from humanoid_simulation.errors import named
 from humanoid_simulation.files import installed_scenes, SCENE_SUFFIXES
 from humanoid_simulation.scene.home_reading import colour_in, home_of, KEYS
 from humanoid_simulation.scene.scene import Floor, Scene, SIZES, Thing, Vector

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The shapes that all objects in a scene consist of."""
+"""What all objects in a scene consist of: shapes, finishes and colours."""
 
 from __future__ import annotations
 
@@ -18,6 +18,28 @@ SIZES = {
 MESH = 'mesh'
 """The shape of visual parts that are meshes: a file of the folder `meshes`, scaled to a size."""
 PATTERNS = ('plain', 'tiles', 'planks', 'stripes', 'carpet')
+COLOURS: dict[str, Vector] = {
+    'red': (0.82, 0.1, 0.1),
+    'blue': (0.1, 0.22, 0.82),
+    'green': (0.1, 0.6, 0.16),
+    'yellow': (0.95, 0.82, 0.1),
+    'orange': (0.95, 0.45, 0.05),
+    'purple': (0.45, 0.15, 0.6),
+    'pink': (0.95, 0.45, 0.65),
+    'brown': (0.45, 0.28, 0.14),
+    'white': (0.94, 0.94, 0.92),
+    'grey': (0.5, 0.5, 0.52),
+    'black': (0.08, 0.08, 0.09),
+}
+"""The named colours, which are far enough apart to be distinguished in an image."""
+WOOD = (0.55, 0.38, 0.22)
+DARK = (0.2, 0.2, 0.22)
+WHITE = (0.93, 0.93, 0.91)
+STEEL = (0.72, 0.73, 0.75)
+BOARD_M = 0.03
+"""The thickness of a board."""
+ACROSS = (0.0, math.pi / 2.0, 0.0)
+"""The orientation that lays an upright rod along x."""
 
 
 @dataclass(frozen=True)
@@ -92,3 +114,102 @@ class Part:
             radius, height = self.size_m
             return (2.0 * radius, 2.0 * radius, height)
         return self.size_m
+
+
+Parts = list[Part]
+
+
+def box(
+    size: Vector, at: Vector, rgb: Vector, *, turn: Vector = (0.0, 0.0, 0.0), hits: bool = True
+) -> Part:
+    """
+    Build a box.
+
+    Parameters
+    ----------
+    size
+        Length (x), width (y) and height (z), in m.
+    at
+        Its centre (3,) in the axes of the piece, in m.
+    rgb
+        Red, green and blue, 0 to 1.
+    turn
+        Roll, pitch and yaw, in rad.
+    hits
+        Whether it collides.
+
+    """
+    return Part('box', size, at, turn, (*rgb, 1.0), collides=hits)
+
+
+def rod(
+    radius: float,
+    height: float,
+    at: Vector,
+    rgb: Vector,
+    *,
+    turn: Vector = (0.0, 0.0, 0.0),
+    hits: bool = True,
+    shine: float = 0.0,
+) -> Part:
+    """
+    Build a cylinder.
+
+    Parameters
+    ----------
+    radius, height
+        Its size, in m; its axis is z before it is turned.
+    at, rgb, turn, hits
+        As for `box`.
+    shine
+        Emission of light, 0 to 1.
+
+    """
+    return Part('cylinder', (radius, height), at, turn, (*rgb, 1.0), collides=hits, shine=shine)
+
+
+def mesh(name: str, size: Vector, at: Vector, rgb: Vector, shine: float = 0.0) -> Part:
+    """
+    Build a mesh, which does not collide.
+
+    Parameters
+    ----------
+    name
+        One of `meshes.PROFILES`.
+    size
+        The box that it fills: length (x), width (y) and height (z), in m.
+    at, rgb
+        As for `box`.
+    shine
+        Emission of light, 0 to 1.
+
+    """
+    return Part(MESH, size, at, colour_rgba=(*rgb, 1.0), collides=False, mesh=name, shine=shine)
+
+
+def darker(rgb: Vector, by: float = 0.75) -> Vector:
+    """
+    Darken a colour.
+
+    Parameters
+    ----------
+    rgb
+        Red, green and blue, 0 to 1.
+    by
+        The factor to scale it by, 0 to 1: the smaller, the darker.
+
+    """
+    return tuple(by * part for part in rgb)
+
+
+def lighter(rgb: Vector) -> Vector:
+    """
+    Lighten a colour by 15 % of its distance from white.
+
+    Parameters
+    ----------
+    rgb
+        Red, green and blue, 0 to 1.
+
+    """
+    return tuple(part + 0.15 * (1.0 - part) for part in rgb)

@@ -15,13 +15,12 @@ from humanoid_description.errors import DescriptionError
 from humanoid_description.kinematics import poses
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Array, Shape
-from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.errors import ResourceError, SimulationError
 from humanoid_simulation.files import installed_scenes, SCENE_SUFFIXES
-from humanoid_simulation.scene.colours import COLOURS
 from humanoid_simulation.scene.home_reading import colour_in
 from humanoid_simulation.scene.loading import load_scene, scene_of, thing_in
 from humanoid_simulation.scene.objects import CLASSES, Graspable, thing_of
-from humanoid_simulation.scene.parts import MESH, Part
+from humanoid_simulation.scene.parts import COLOURS, MESH, Part
 from humanoid_simulation.scene.scene import COMPOSED, Scene, Thing
 from humanoid_simulation.tables import load_table, Table, table_of
 import numpy as np
@@ -32,14 +31,6 @@ GIVEN_TEXT = 'resource_string'
 _URDF_SUFFIXES = ('.urdf', '.xml')
 
 T = TypeVar('T')
-
-
-class ResourceError(SimulationError):
-    """A resource cannot be loaded; `problem` names a constant of LoadWorld and SpawnEntity."""
-
-    def __init__(self, problem: str, sentence: str) -> None:
-        super().__init__(sentence)
-        self.problem = problem
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,7 @@ from functools import cached_property
 import math
 from typing import Protocol, TypeVar
 
-from humanoid_simulation.choosing import named
-from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.scene.outlines import area_m2, contains, Outline, Point
 from humanoid_simulation.scene.parts import Finish, Part, SIZES, Vector
 

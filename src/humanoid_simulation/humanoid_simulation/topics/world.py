@@ -3,19 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
+from humanoid_common.qos import STATE
 from humanoid_control.backends import Observation
-from humanoid_control.hosting.rate_limiter import RateLimiter
+from humanoid_control.hosting.diagnostics import Speed
+from humanoid_control.hosting.pacing import RateLimiter
+from humanoid_control.hosting.topics.filling import fill_stamp
 from humanoid_simulation.simulated_robots import SimulatedRobots
 from humanoid_simulation.simulator_parameters import SimulatorParameters
-from humanoid_simulation.topics.clock import ClockTopic
-from humanoid_simulation.topics.contacts import ContactsTopic
-from humanoid_simulation.topics.ground_truth import GroundTruthTopic
+from humanoid_simulation.topics.robot import (
+    ContactsTopic,
+    GroundTruthTopic,
+    WorldFrame,
+    WrenchTopics,
+)
 from humanoid_simulation.topics.scene import SceneTopics
-from humanoid_simulation.topics.world_frame import WorldFrame
-from humanoid_simulation.topics.wrenches import WrenchTopics
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rosgraph_msgs.msg import Clock as ClockMessage
+from std_msgs.msg import Float64
+
+_PERIOD_S = 1.0
 
 
 class WorldTopics:
@@ -108,3 +117,58 @@ class WorldTopics:
                 then_s = observations[name].time_s
                 truth, age_s = self._backend.ground_truth(name), self._backend.time_s - then_s
                 frame.publish(then_s, status.odometry, truth, age_s)
+
+
+class ClockTopic:
+    """
+    Publisher of `/clock`, the same in all namespaces; its time never jumps back.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._message = ClockMessage()
+        self._publisher = node.create_publisher(ClockMessage, '/clock', STATE)
+
+    def publish(self, time_s: float) -> None:
+        """
+        Publish the simulated time.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time since the start.
+
+        """
+        fill_stamp(self._message.clock, time_s)
+        self._publisher.publish(self._message)
+
+
+class RealTimeFactorTopic:
+    """
+    Publisher of `real_time_factor`, once per second of real time, while simulated time passes.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    speed
+        Returns the real-time factors; None if they are not known, as in a pause.
+
+    """
+
+    def __init__(self, node: Node, speed: Callable[[], Speed | None]) -> None:
+        self._speed = speed
+        self._publisher = node.create_publisher(Float64, 'real_time_factor', STATE)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(_PERIOD_S, self._publish, clock=steady)
+
+    def _publish(self) -> None:
+        """Publish the real-time factor, if it is known."""
+        speed = self._speed()
+        if speed is not None:
+            self._publisher.publish(Float64(data=speed.reached))

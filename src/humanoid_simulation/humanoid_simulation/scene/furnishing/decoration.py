@@ -3,19 +3,21 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.scene.furnishing.shapes import (
+from humanoid_simulation.scene.parts import (
     box,
     DARK,
     darker,
+    Finish,
     lighter,
     mesh,
+    Part,
     Parts,
     rod,
     STEEL,
+    Vector,
     WHITE,
     WOOD,
 )
-from humanoid_simulation.scene.parts import Finish, Part, Vector
 
 _SKIN = (0.87, 0.68, 0.55)
 

@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.scene.furnishing.shapes import (
+from humanoid_simulation.scene.parts import (
     BOARD_M,
     box,
     darker,
     lighter,
     Parts,
     rod,
+    Vector,
     WHITE,
     WOOD,
 )
-from humanoid_simulation.scene.parts import Vector
 
 
 def table(size: Vector, rgb: Vector) -> Parts:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.scene.furnishing.shapes import (
+from humanoid_simulation.scene.parts import (
     ACROSS,
     BOARD_M,
     box,
@@ -12,9 +12,9 @@ from humanoid_simulation.scene.furnishing.shapes import (
     Parts,
     rod,
     STEEL,
+    Vector,
     WOOD,
 )
-from humanoid_simulation.scene.parts import Vector
 
 SHELF_LEVEL = 0.55
 """The height of the middle board of a shelf, as a fraction of its height."""
