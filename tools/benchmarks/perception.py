@@ -26,8 +26,8 @@ from humanoid_perception.images import data_of
 from humanoid_perception.lifting import camera_of, lift, surface_of
 from humanoid_perception.object_detector import DetectorParameters, make_detector
 from humanoid_simulation.camera import CameraView
+from humanoid_simulation.camera.pinhole import pinhole_of
 from humanoid_simulation.camera.ray_painter import RayPainter
-from humanoid_simulation.camera.view import pinhole_of
 from humanoid_simulation.model import build_world, humanoid, in_world, Physics, Placement
 from humanoid_simulation.scene import load_scene
 from measuring import child_of, cpu_s, median_of, memory_mb, running

@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from humanoid_control.walking import VelocityCommand
 from humanoid_simulation.backend import BackendSettings, MujocoBackend
-from humanoid_simulation.laser import LaserScanner, ScanNoise
+from humanoid_simulation.laser_scanner import LaserScanner, ScanNoise
 from humanoid_simulation.scene import load_scene
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import mujoco

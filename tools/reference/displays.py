@@ -23,9 +23,9 @@ from rviz_common.properties import (
     Vector,
     Whole,
 )
-from rviz_common.views import KINDS
+from rviz_common.view import KINDS
 from rviz_common.visualizer import tool_box
-from rviz_common.visualizer.options import OPTIONS, UNUSED_OPTIONS
+from rviz_common.visualizer.global_options import OPTIONS, UNUSED_OPTIONS
 
 OWN = (
     'nav2_rviz_plugins',

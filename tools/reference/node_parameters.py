@@ -12,17 +12,15 @@ NODES = {
         'humanoid_simulation.simulator_parameters.SimulatorParameters'
     ),
     'humanoid_simulation walk_square': (
-        'humanoid_simulation.examples.example_parameters.WalkSquareParameters'
+        'humanoid_simulation.examples.walk_square.WalkSquareParameters'
     ),
-    'humanoid_simulation push_test': (
-        'humanoid_simulation.examples.example_parameters.PushTestParameters'
-    ),
+    'humanoid_simulation push_test': 'humanoid_simulation.examples.push_test.PushTestParameters',
     'humanoid_control mock_robot': 'humanoid_control.hosting.parameters.HostParameters',
     'humanoid_control joint_controller': (
-        'humanoid_control.joint_controller_parameters.JointControllerParameters'
+        'humanoid_control.joint_controller.JointControllerParameters'
     ),
     'humanoid_control sensor_processor': (
-        'humanoid_control.sensor_processor_parameters.SensorProcessorParameters'
+        'humanoid_control.sensor_processor.SensorProcessorParameters'
     ),
     'humanoid_perception object_detector': (
         'humanoid_perception.object_detector.DetectorParameters'

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 import os
 from pathlib import Path
 
 from console import SetupError, Steps
 from locations import Locations
+from packages import Package, read_packages
 from processes import environment_variables, last_words, run, run_logged, without_inherited
 from stamp import files_below
 
@@ -98,6 +100,44 @@ def _build_underlay(
         )
 
 
+def remove_outdated_modules(packages: Iterable[Package], build_base: Path) -> None:
+    """
+    Remove the built and installed copies of Python modules that their packages no longer have.
+
+    setuptools copies modules and leaves those of an earlier build where they are: they could still
+    be imported, and a folder that has become a module would hide it.
+
+    Parameters
+    ----------
+    packages
+        Packages that are built next.
+    build_base
+        The folder that colcon builds in.
+
+    """
+    for package in packages:
+        copies = build_base / package.name / 'build' / 'lib'
+        modules = [path.relative_to(copies) for path in copies.rglob('*.py')]
+        outdated = [each for each in modules if not (package.folder / each).exists()]
+        record = build_base / package.name / 'install.log'
+        installed = record.read_text().splitlines() if outdated and record.exists() else []
+        for module in outdated:
+            found = [Path(line) for line in installed if line.endswith(f'{os.sep}{module}')]
+            for path in [copies / module, *found]:
+                _remove_module(path)
+
+
+def _remove_module(path: Path) -> None:
+    """Remove a Python file, its bytecode, and the folders that are empty without them."""
+    path.unlink(missing_ok=True)
+    for compiled in path.parent.glob(f'__pycache__/{path.stem}.*.pyc'):
+        compiled.unlink()
+    with suppress(OSError):  # raised by the first folder that is not empty
+        for folder in (path.parent / '__pycache__', *path.parents):
+            if folder.exists():
+                folder.rmdir()
+
+
 def workspace_sources(locations: Locations) -> Iterator[str]:
     """
     List the files that install/ is built from.
@@ -129,6 +169,8 @@ def build_workspace(locations: Locations, arguments: list[str]) -> int:
         Further arguments of `colcon build`.
 
     """
+    packages = read_packages(locations.root / 'src').values()
+    remove_outdated_modules(packages, locations.root / 'build')
     runner = os.fspath(locations.root / 'tools' / 'in_environment')
     command = [runner, '--underlay', 'colcon', 'build', *arguments]
     return run(command, cwd=locations.root, variables=without_inherited())

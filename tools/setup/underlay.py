@@ -84,6 +84,8 @@ class Underlay:
             self._stamp(name).write(self._digest(name))
             forget(self._packages[name], self._locations)
 
+        changed = [self._packages[name] for name in names]
+        colcon.remove_outdated_modules(changed, self._locations.environment / 'build')
         waiting = sorted(set(self._packages) - self._wanted() - {*names})
         colcon.build_underlay(self._locations, steps, names, waiting, finished)
 

@@ -135,6 +135,33 @@ def test_an_interrupted_build_goes_on(workspace: Locations, built: list[list[str
     assert built[1] == ['tool', 'tool_msgs', 'used_msgs']
 
 
+def test_a_module_that_is_gone_is_removed(workspace: Locations, built: list[list[str]]) -> None:
+    """Its copies would still be imported, and a folder would hide the module of its name."""
+    build = workspace.environment / 'build' / 'tool'
+    packages = workspace.environment / 'lib' / 'python3.12' / 'site-packages'
+    (workspace.underlay / 'tool' / 'tool').mkdir()
+    (workspace.underlay / 'tool' / 'tool' / 'verb.py').touch()
+    installed = []
+    for top in (build / 'build' / 'lib', packages):
+        for name in ('verb.py', 'old/__init__.py', 'old/inner/__init__.py'):
+            path = top / 'tool' / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+            cache = path.parent / '__pycache__'
+            cache.mkdir(exist_ok=True)
+            (cache / f'{path.stem}.cpython-312.pyc').touch()
+            installed.append(str(path))
+    strange = packages / 'tool' / 'of_another.py'
+    strange.touch()
+    (build / 'install.log').write_text('\n'.join(installed[3:]))
+
+    Underlay(workspace, '1').build(['tool'], Steps(1))
+
+    for top in (build / 'build' / 'lib', packages):
+        assert (top / 'tool' / 'verb.py').exists() and not (top / 'tool' / 'old').exists()
+    assert strange.exists()
+
+
 def test_messages_that_wait_are_described(workspace: Locations, built: list[list[str]]) -> None:
     """They are in the index, with their definitions; an import says what to do."""
     make(workspace)

@@ -16,9 +16,9 @@ import math
 from typing import Any
 
 from humanoid_simulation.scene import Scene, scene_of
-from humanoid_simulation.scene.colours import COLOURS
 from humanoid_simulation.scene.furniture import KINDS
 from humanoid_simulation.scene.objects import CLASSES as GRASPABLE
+from humanoid_simulation.scene.parts import COLOURS
 from humanoid_simulation.tables import Place, Table
 import numpy as np
 from pictures import CLASSES

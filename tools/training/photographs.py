@@ -12,8 +12,8 @@ from typing import cast
 from homes import band, Home, thing_colour
 from humanoid_simulation.camera import CameraView
 from humanoid_simulation.camera.gl_painter import GlPainter
+from humanoid_simulation.camera.pinhole import pinhole_of
 from humanoid_simulation.camera.ray_painter import RayPainter
-from humanoid_simulation.camera.view import pinhole_of
 from humanoid_simulation.model import build_world, in_world, Physics, Placement, RobotDescription
 from humanoid_simulation.scene import Thing
 from humanoid_simulation.scene.scene import Surface

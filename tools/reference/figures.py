@@ -1,0 +1,371 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures the structure of the packages: their sizes, and how their modules import each other.
+
+`python3 tools/reference/figures.py` prints a table of all packages, `figures.py NAME ...` of some.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+import statistics
+import sys
+
+ROOT = Path(__file__).resolve().parents[2]
+PLACES = ('src', 'tools/underlay')
+COLUMNS = (
+    'package',
+    'modules',
+    'lines',
+    'lines of a module (median, most)',
+    'lines of a function (median, 9 in 10, most)',
+    'longest class',
+    'one importer',
+    'chain',
+    'circle',
+    'foreign private names',
+)
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+@dataclass(frozen=True)
+class Module:
+    """A Python module and what can be read from its text."""
+
+    name: str
+    """Its name with dots, as it is imported."""
+    path: Path
+    text: str
+
+    @cached_property
+    def tree(self) -> ast.Module:
+        """The syntax tree."""
+        return ast.parse(self.text)
+
+    @property
+    def is_package(self) -> bool:
+        """Whether this is the `__init__` of a package."""
+        return self.path.name == '__init__.py'
+
+    @property
+    def lines(self) -> int:
+        """Number of lines, with comments and blank ones."""
+        return self.text.count('\n')
+
+    @property
+    def functions(self) -> list[Function]:
+        """All functions, also those of classes and of other functions."""
+        return [node for node in ast.walk(self.tree) if isinstance(node, Function)]
+
+    @property
+    def classes(self) -> list[ast.ClassDef]:
+        """All classes."""
+        return [node for node in ast.walk(self.tree) if isinstance(node, ast.ClassDef)]
+
+    def imported(self) -> Iterator[tuple[str, bool]]:
+        """Yield what this module imports.
+
+        Yields
+        ------
+        tuple of str and bool
+            A name with dots, of a module or of something in it, and whether it is imported when
+            this module is (not only by a function, or for types).
+
+        """
+        yield from _imported(self.tree, self._package(), at_once=True)
+
+    def _package(self) -> list[str]:
+        """Return the parts of the name of the package that relative imports begin at."""
+        parts = self.name.split('.')
+        return parts if self.is_package else parts[:-1]
+
+
+def modules(folder: Path) -> dict[str, Module]:
+    """Read the modules of a package, without its tests, launch files and `setup.py`.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder with the package's manifest.
+
+    Returns
+    -------
+    dict of str to Module
+        The modules by their names with dots.
+
+    """
+    found = {}
+    for path in sorted(folder.rglob('*.py')):
+        parts = path.relative_to(folder).with_suffix('').parts
+        if 'test' in parts or path.name == 'setup.py' or path.name.endswith('.launch.py'):
+            continue
+        top = path.parent
+        while (top / '__init__.py').exists():
+            top = top.parent
+        parts = path.relative_to(top).with_suffix('').parts
+        name = '.'.join(parts[:-1] if parts[-1] == '__init__' else parts)
+        found[name] = Module(name, path, path.read_text())
+    return found
+
+
+def packages() -> dict[str, Path]:
+    """Return the folders of all packages by their names."""
+    manifests = [each for place in PLACES for each in (ROOT / place).glob('*/package.xml')]
+    return {path.parent.name: path.parent for path in sorted(manifests)}
+
+
+def imports(these: dict[str, Module], *, at_once: bool = False) -> dict[str, set[str]]:
+    """Return which modules import which others.
+
+    Parameters
+    ----------
+    these : dict of str to Module
+        The modules that count, by their names.
+    at_once : bool
+        Leave out imports inside functions and for types only.
+
+    Returns
+    -------
+    dict of str to set of str
+        For each module, the others that it imports.
+
+    """
+    found: dict[str, set[str]] = {}
+    for name, module in these.items():
+        wanted = {each for each, now in module.imported() if now or not at_once}
+        known = {each if each in these else each.rpartition('.')[0] for each in wanted}
+        found[name] = known & these.keys() - {name}
+    return found
+
+
+def circles(graph: dict[str, set[str]]) -> list[set[str]]:
+    """Return the strongly connected parts of a graph, those first that others lead to.
+
+    Parameters
+    ----------
+    graph : dict of str to set of str
+        The successors of each node.
+
+    Returns
+    -------
+    list of set of str
+        Each node is in one of the sets; a set of several is a circle of imports. After Tarjan,
+        "Depth-first search and linear graph algorithms" (1972).
+
+    """
+    order: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    path: list[str] = []
+    found: list[set[str]] = []
+
+    def visit(node: str) -> None:
+        order[node] = lowest[node] = len(order)
+        path.append(node)
+        for other in sorted(graph[node]):
+            if other not in order:
+                visit(other)
+            if other in path:
+                lowest[node] = min(lowest[node], lowest[other])
+        if lowest[node] == order[node]:
+            start = path.index(node)
+            found.append(set(path[start:]))
+            del path[start:]
+
+    for node in sorted(graph):
+        if node not in order:
+            visit(node)
+    return found
+
+
+def chain(graph: dict[str, set[str]]) -> list[str]:
+    """Return the longest chain of imports; of a circle it passes one module.
+
+    Parameters
+    ----------
+    graph : dict of str to set of str
+        The modules that each module imports.
+
+    Returns
+    -------
+    list of str
+        Modules of which each imports the next, or a module in a circle with it.
+
+    """
+    longest: dict[str, list[str]] = {}
+    for circle in circles(graph):
+        onward = {other for node in circle for other in graph[node]} - circle
+        rest = max((longest[each] for each in sorted(onward)), key=len, default=[])
+        for node in circle:
+            longest[node] = [node, *rest]
+    return max(longest.values(), key=len, default=[])
+
+
+def foreign_private_names(module: Module) -> list[str]:
+    """Return the accesses to private attributes of other objects.
+
+    Parameters
+    ----------
+    module : Module
+        The module to read.
+
+    Returns
+    -------
+    list of str
+        As `line: expression`, without those of `self`, `cls` and the class itself.
+
+    """
+    own = {'self', 'cls', *(each.name for each in module.classes)}
+    found = []
+    for node in ast.walk(module.tree):
+        if not isinstance(node, ast.Attribute) or not node.attr.startswith('_'):
+            continue
+        text = ast.unparse(node)
+        if node.attr.endswith('__') or (text.partition('.')[0] in own and text.count('.') == 1):
+            continue
+        if isinstance(node.value, ast.Call) and ast.unparse(node.value) == 'super()':
+            continue
+        found.append(f'{node.lineno}: {text}')
+    return found
+
+
+def private_imports(these: dict[str, Module], own: Iterable[str]) -> list[str]:
+    """Return the imports of private modules of other packages.
+
+    Parameters
+    ----------
+    these : dict of str to Module
+        The modules that import.
+    own : iterable of str
+        The packages whose private modules these may import: those of the same folder.
+
+    Returns
+    -------
+    list of str
+        As `module: what it imports`.
+
+    """
+    found = []
+    for name, module in these.items():
+        for each, _ in module.imported():
+            top, *inner = each.split('.')
+            private = any(part.startswith('_') and not part.endswith('__') for part in inner[:-1])
+            if top not in own and private and top in _TOPS:
+                found.append(f'{name}: {each}')
+    return found
+
+
+def row(name: str, these: dict[str, Module]) -> list[str]:
+    """Return the figures of a package.
+
+    Parameters
+    ----------
+    name : str
+        What stands in the first column.
+    these : dict of str to Module
+        The modules of the package.
+
+    Returns
+    -------
+    list of str
+        A text for each of `COLUMNS`.
+
+    """
+    with_code = [each for each in these.values() if not _only_exports(each)]
+    graph = imports(these)
+    importers = Counter(other for each in graph.values() for other in each)
+    functions = sorted(_length(each) for module in with_code for each in module.functions)
+    classes = [_length(each) for module in with_code for each in module.classes]
+    lines = [each.lines for each in with_code]
+    alone = sum(importers[each.name] == 1 for each in with_code) / max(len(with_code), 1)
+    return [
+        name,
+        str(len(with_code)),
+        str(sum(lines)),
+        f'{_median(lines)}, {max(lines, default=0)}',
+        f'{_median(functions)}, {_share(functions, 0.9)}, {max(functions, default=0)}',
+        str(max(classes, default=0)),
+        f'{alone:.0%}',
+        str(len(chain(graph))),
+        str(max(map(len, circles(graph)), default=0)),
+        str(sum(len(foreign_private_names(each)) for each in with_code)),
+    ]
+
+
+def _imported(
+    node: ast.AST, package: Sequence[str], *, at_once: bool
+) -> Iterator[tuple[str, bool]]:
+    """Yield what a part of a module imports, and whether it does so at once."""
+    for each in ast.iter_child_nodes(node):
+        if isinstance(each, ast.Import):
+            yield from ((alias.name, at_once) for alias in each.names)
+        elif isinstance(each, ast.ImportFrom):
+            start = package[: len(package) - each.level + 1] if each.level else []
+            base = '.'.join([*start, *([each.module] if each.module else [])])
+            yield from ((f'{base}.{alias.name}', at_once) for alias in each.names)
+        elif isinstance(each, ast.If) and 'TYPE_CHECKING' in ast.unparse(each.test):
+            yield from _imported(each, package, at_once=False)
+        else:
+            later = isinstance(each, Function | ast.Lambda)
+            yield from _imported(each, package, at_once=at_once and not later)
+
+
+def _only_exports(module: Module) -> bool:
+    """Return whether a module is an `__init__` that says only what its package offers."""
+    return module.is_package and not module.functions and not module.classes
+
+
+def _length(node: Function | ast.ClassDef) -> int:
+    """Return the number of lines of a function or class."""
+    return (node.end_lineno or node.lineno) - node.lineno + 1
+
+
+def _median(values: Sequence[int]) -> int:
+    """Return the median, 0 if there is no value."""
+    return round(statistics.median(values)) if values else 0
+
+
+def _share(values: Sequence[int], share: float) -> int:
+    """Return the value below which a share of sorted values lies, 0 if there is none."""
+    return values[int(share * (len(values) - 1))] if values else 0
+
+
+_TOPS = {each.name for path in packages().values() for each in path.iterdir() if each.is_dir()}
+
+
+def main(names: Sequence[str]) -> int:
+    """Print the figures of packages.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The packages; all if there is none.
+
+    Returns
+    -------
+    int
+        Exit status: 0, or 2 if there is no such package.
+
+    """
+    folders = packages()
+    unknown = sorted(set(names) - folders.keys())
+    if unknown:
+        print(f'No such package: {", ".join(unknown)}. There are {", ".join(folders)}.')
+        return 2
+    chosen = {name: modules(folders[name]) for name in names or folders}
+    rows = [list(COLUMNS), ['---'] * len(COLUMNS)]
+    rows += [row(name, these) for name, these in chosen.items() if these]
+    if len(chosen) > 1:
+        rows.append(
+            row('all', {key: value for each in chosen.values() for key, value in each.items()})
+        )
+    for each in rows:
+        print('|', ' | '.join(each), '|')
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
