@@ -26,11 +26,11 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT_S = 45 * 60.0
 MOST_UNSTEADY = 3
-AT_ONCE = min((os.cpu_count() or 1) * 3 // 2, 16)
-"""Processes that run tests at the same time.
+AT_ONCE = min(os.cpu_count() or 1, 10)
+"""Packages whose tests run at the same time.
 
-Tests wait much, so that three fill two cores. With more, robots fall behind real time, and tests
-run out of it; each reserves some of the 100 DDS domains.
+With three on two cores simulators take the processor from each other, and all together takes
+longer; each package reserves some of the 100 DDS domains.
 """
 LONGEST = (
     'humanoid_simulation',
@@ -227,7 +227,10 @@ def _package(name: str) -> Suite:
 
 def tools() -> Suite:
     """Return the tests of tools/ that do not care what runs beside them."""
-    shared = ['-n', str(AT_ONCE), '--dist', 'loadfile', '--no-loadscope-reorder']
+    # Tests wait much, so that three fill two cores. With more, robots fall behind real time, and
+    # tests run out of it; each reserves some of the DDS domains.
+    workers = min((os.cpu_count() or 1) * 3 // 2, 16)
+    shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
     return _pytest('tools/', ['tools', '-m', 'not alone'], shared)
 
 
