@@ -17,10 +17,10 @@ import time
 
 from arguments import in_range
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import log
 from humanoid_description.drives import SIDES
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import log
 from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
 import numpy as np
 

@@ -23,7 +23,7 @@ from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.action import Pick, ScanRoom
 from humanoid_navigation.testing import NavigatingRobot
-from humanoid_simulation.testing.entities import Entities
+from humanoid_simulation.testing.entities import EntityClient
 from navigation_trials import robot_at_home
 
 BOTTLE = 'green_bottle'
@@ -83,7 +83,7 @@ def walk(ros: RosSandbox, ways: int) -> int:
         The robot does not reach the kitchen initially, or falls.
 
     """
-    traveller, entities = NavigatingRobot(ros), Entities(ros)
+    traveller, entities = NavigatingRobot(ros), EntityClient(ros)
     robot = traveller.robot
     arrival = traveller.go(*KITCHEN)
     assert arrival.is_reached, arrival

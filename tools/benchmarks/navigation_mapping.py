@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from arguments import in_range
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_navigation.testing import NavigatingRobot
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from navigation_trials import Belief, REACHED_M, report, robot_at_home
 import numpy as np
 import numpy.typing as npt
@@ -49,7 +49,7 @@ def main() -> int:
         folder = options.output or Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
         with ros_sandbox() as ros, robot_at_home('slam:=True'):
-            drive_round(SimulatedRobot(ros), options.speed)
+            drive_round(RobotClient(ros), options.speed)
             _run('nav2_map_server', 'map_saver_cli', '-f', str(folder / 'drawn'))
         _run(
             *('humanoid_simulation', 'scene_map', 'apartment'),
@@ -63,7 +63,7 @@ def main() -> int:
     return int(share < 0.95 or bad > 0)
 
 
-def drive_round(robot: SimulatedRobot, speed: float) -> None:
+def drive_round(robot: RobotClient, speed: float) -> None:
     """
     Drive through all rooms along `ROUND_M`, steered by ground truth in place of a person.
 
@@ -88,7 +88,7 @@ def drive_round(robot: SimulatedRobot, speed: float) -> None:
     robot.wait(2.0)
 
 
-def _steer(robot: SimulatedRobot, point_m: complex, speed: float, only_turn: bool) -> bool:
+def _steer(robot: RobotClient, point_m: complex, speed: float, only_turn: bool) -> bool:
     way_m = point_m - robot.pose.position_m
     turn_rad = math.remainder(cmath.phase(way_m) - robot.pose.yaw_rad, math.tau)
     if abs(way_m) < 0.15 or (only_turn and abs(turn_rad) < 0.15):

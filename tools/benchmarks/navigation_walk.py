@@ -30,7 +30,7 @@ import rclpy
 from rclpy.action import ActionClient
 from rclpy.context import Context
 from rclpy.node import Node
-from tf2_ros._executing import make_executor
+from tf2_ros.executing import make_executor
 
 __all__ = ['walk_costs']
 

@@ -13,7 +13,7 @@ import math
 import sys
 
 from arguments import in_range
-from humanoid_control.dynamics.rotations import from_quaternion, to_rpy, wrap_angle
+from humanoid_description.rotations import from_quaternion, to_rpy, wrap_angle
 from humanoid_simulation.backend import BackendSettings, SensorNoise
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot

@@ -30,8 +30,8 @@ from humanoid_interfaces.action import Drop, Pick, ScanRoom
 from humanoid_perception.places import load_places, places_path, Surface
 from humanoid_simulation.scene import load_scene, Scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap
-from humanoid_simulation.testing.entities import Entities
-from humanoid_simulation.testing.simulated_robot import FellError, SimulatedRobot
+from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.simulated_robot import FellError, RobotClient
 import numpy as np
 from rclpy.action import ActionClient
 from std_srvs.srv import Trigger
@@ -144,7 +144,7 @@ class Kitchen:
     """
 
     def __init__(self, ros: RosSandbox) -> None:
-        self._ros, self.robot = ros, SimulatedRobot(ros)
+        self._ros, self.robot = ros, RobotClient(ros)
         self._node = ros.observer()
         self._clients = {
             name: ActionClient(self._node, kind, name)
@@ -152,7 +152,7 @@ class Kitchen:
         }
         for name, client in self._clients.items():
             ros.wait_until(client.server_is_ready, 120.0, name)
-        self._entities = Entities(ros)
+        self._entities = EntityClient(ros)
         self._forget = self._node.create_client(Trigger, 'object_memory/forget')
         ros.wait_until(self._forget.service_is_ready, 60.0, 'a memory')
         self._believe = self._node.create_publisher(PoseWithCovarianceStamped, 'initialpose', 1)

@@ -19,7 +19,7 @@ from humanoid_perception.places import load_places, places_path
 from llm_planner.dialogue import Dialogue
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills, skills_path
-from llm_planner.world import base_name, Thing, World
+from llm_planner.world import base_name, KnownObject, World
 import yaml
 
 TESTS = Path(__file__).parents[2] / 'src' / 'llm_planner' / 'test'
@@ -27,9 +27,9 @@ KINDS = ('moving', 'looking', 'fetching', 'asking', 'together')
 LONG = ' and '.join(['go to the kitchen', 'find the red mug', 'turn left'] * 8) + ' and dance'
 MOST_MS = 5.0
 THINGS = (
-    Thing('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85)),
-    Thing('blue_mug_1', 'mug', 'blue', 'desk', 'bedroom', (3.2, 1.2, 0.77)),
-    Thing('green_apple_1', 'apple', 'green', 'kitchen_table', 'kitchen', (0.0, 2.0, 0.74)),
+    KnownObject('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85)),
+    KnownObject('blue_mug_1', 'mug', 'blue', 'desk', 'bedroom', (3.2, 1.2, 0.77)),
+    KnownObject('green_apple_1', 'apple', 'green', 'kitchen_table', 'kitchen', (0.0, 2.0, 0.74)),
 )
 
 

@@ -233,7 +233,7 @@ def foreign_private_names(module: Module) -> list[str]:
 
 
 def private_imports(these: dict[str, Module], own: Iterable[str]) -> list[str]:
-    """Return the imports of private modules of other packages.
+    """Return the imports of private modules and names of other packages.
 
     Parameters
     ----------
@@ -252,7 +252,7 @@ def private_imports(these: dict[str, Module], own: Iterable[str]) -> list[str]:
     for name, module in these.items():
         for each, _ in module.imported():
             top, *inner = each.split('.')
-            private = any(part.startswith('_') and not part.endswith('__') for part in inner[:-1])
+            private = any(part.startswith('_') and not part.endswith('__') for part in inner)
             if top not in own and private and top in _TOPS:
                 found.append(f'{name}: {each}')
     return found

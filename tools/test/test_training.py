@@ -17,7 +17,7 @@ from boxes import assignment, Cells, corners, decoded, iou, suppressed  # noqa: 
 from homes import band, HELD_OUT, home_of, random_home, TRAINING  # noqa: E402
 from humanoid_simulation.camera.pinhole import Pinhole  # noqa: E402
 from humanoid_simulation.scene import load_scene  # noqa: E402
-from humanoid_simulation.scene.objects import Graspable, thing_of  # noqa: E402
+from humanoid_simulation.scene.objects import ObjectInstance, thing_of  # noqa: E402
 from labels import labels_of, Seen, silhouette_area_px  # noqa: E402
 from metrics import Counted, quality  # noqa: E402
 import pictures  # noqa: E402
@@ -34,7 +34,7 @@ def label(kind=BALL, box=(10, 10, 30, 30), visible=1.0, pixels=400.0, distance_m
 
 def thing_at(kind: str, position_m: tuple[float, ...]) -> Seen:
     """Return a thing in front of the camera."""
-    made = thing_of(Graspable(kind, kind, 'red', (1.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    made = thing_of(ObjectInstance(kind, kind, 'red', (1.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     return Seen(made, CLASSES.index(kind), np.array(position_m), np.eye(3))
 
 

@@ -19,7 +19,7 @@ from humanoid_simulation.scene import Scene, scene_of
 from humanoid_simulation.scene.furniture import KINDS
 from humanoid_simulation.scene.objects import CLASSES as GRASPABLE
 from humanoid_simulation.scene.parts import COLOURS
-from humanoid_simulation.tables import Place, Table
+from humanoid_simulation.tables import SourceLocation, Table
 import numpy as np
 from pictures import CLASSES
 
@@ -243,7 +243,7 @@ class _Builder:
             'furniture': self.furniture,
             'objects': [self._thing(number) for number in range(things)],
         }
-        scene = scene_of(Table(content, Place('a random home')), 'home')
+        scene = scene_of(Table(content, SourceLocation('a random home')), 'home')
         return Home(scene, tuple(self.footprints))
 
     def _rooms(self, length_m: float, width_m: float, ceiling_m: float) -> Iterator[Yaml]:

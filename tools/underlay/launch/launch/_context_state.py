@@ -15,10 +15,23 @@ class LaunchConfigurations(dict[str, Any]):
         super().__init__()
         self.looked_up: set[Any] = set()
         self.declared: set[str] = set()
+        self._scopes: list[dict[str, Any]] = []
 
     def snapshot(self) -> dict[str, Any]:
         """Return a plain copy without recording a look-up."""
         return dict(dict.items(self))
+
+    def push_scope(self) -> None:
+        """Save the launch configurations until `pop_scope`."""
+        self._scopes.append(self.snapshot())
+
+    def pop_scope(self) -> None:
+        """Restore the launch configurations saved by the last `push_scope`."""
+        if not self._scopes:
+            raise RuntimeError('cannot pop the launch configurations: none have been pushed')
+        kept = self._scopes.pop()
+        self.clear()
+        self.update(kept)
 
     def __getitem__(self, name: str) -> Any:
         """Return a value and record the look-up."""

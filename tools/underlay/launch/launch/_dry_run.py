@@ -149,7 +149,7 @@ class Recorder(VisitObserver):
 
 def _outline(action: Action) -> Record:
     """Return the record of an unvisited action, as far as it is known."""
-    record = Record(type(action).__name__, action.call_site, facts=action._outline())
+    record = Record(type(action).__name__, action.call_site, facts=action.outline())
     if action.condition is not None:
         record.condition = ConditionRecord(_described(action.condition), None, None)
     if not hasattr(action, 'launch_description_source'):
@@ -158,7 +158,7 @@ def _outline(action: Action) -> Record:
             for each in action.get_sub_entities()
             if isinstance(each, Action) and type(each).__name__ not in _SCOPES
         ]
-    for event, entities in action._outline_of_waiting():
+    for event, entities in action.outline_of_waiting():
         records = [_outline(each) for each in entities if isinstance(each, Action)]
         record.waiting.append((event, records))
     return record
@@ -188,21 +188,21 @@ def rehearse(service: LaunchService) -> tuple[Record, int]:
     """
     from launch.launch_service import cancel_all_tasks
 
-    context, recorder = service.context, Recorder()
+    run, recorder = service.context.run, Recorder()
     launch_config.keep_nothing()
     loop = asyncio.new_event_loop()
     try:
-        processor = EventProcessor(context, loop)
-        context._attach(loop, None)
-        context._observer = recorder
-        while context._event_queue:
-            event = context._event_queue.popleft()
+        processor = EventProcessor(service.context, loop)
+        run.attach(loop)
+        run.observer = recorder
+        while run.event_queue:
+            event = run.event_queue.popleft()
             if isinstance(event, IncludeLaunchDescription):
-                processor._handle(event)
+                processor.handle(event)
                 break
     finally:
-        context._observer = None
-        context._attach(None, None)
+        run.observer = None
+        run.attach(None)
         cancel_all_tasks(loop)
         loop.close()
     if processor.first_error is not None:

@@ -51,6 +51,7 @@ class EventProcessor:
         self.return_code = 0
         self.first_error: Optional[BaseException] = None
         self._context = context
+        self._run = context.run
         self._loop = loop
         self._thread = threading.get_ident()
         self._awake = asyncio.Event()
@@ -84,9 +85,9 @@ class EventProcessor:
 
         """
         while True:
-            self._track(self._context._completion_futures)
-            if self._context._event_queue:
-                self._handle(self._context._event_queue.popleft())
+            self._track(self._run.completion_futures)
+            if self._run.event_queue:
+                self.handle(self._run.event_queue.popleft())
                 await asyncio.sleep(0)
             elif self._pending or not (self._shutting_down or shutdown_when_idle):
                 await self._sleep()
@@ -97,7 +98,7 @@ class EventProcessor:
 
     async def _sleep(self) -> None:
         self._awake.clear()
-        if not self._context._event_queue:
+        if not self._run.event_queue:
             await self._awake.wait()
 
     def fail(self, error: BaseException) -> None:
@@ -113,12 +114,12 @@ class EventProcessor:
         self.return_code = 1
         self.first_error = self.first_error or error
         report_failure(self._logger, error)
-        if self._context._before_start is not None:
-            for text in self._context._before_start.explain_failure(self._context):
+        if self._run.before_start is not None:
+            for text in self._run.before_start.explain_failure(self._context):
                 self._logger.error('%s', text)
-            self._context._before_start = None
-        if not self._context.is_shutdown:
-            self._context._set_is_shutdown(True)
+            self._run.before_start = None
+        if not self._run.is_shutdown:
+            self._run.is_shutdown = True
             self._context.emit_event_sync(Shutdown(reason=str(error)))
 
     def on_loop_error(self, loop: asyncio.AbstractEventLoop, details: dict[str, Any]) -> None:
@@ -139,13 +140,21 @@ class EventProcessor:
 
     # Events.
 
-    def _handle(self, event: Event) -> None:
-        """Run the matching handlers; on shutdown, run all of them even if one raises an error."""
+    def handle(self, event: Event) -> None:
+        """
+        Run the matching handlers; on shutdown, run all of them even if one raises an error.
+
+        Parameters
+        ----------
+        event
+            The event, which is no longer in the queue.
+
+        """
         is_shutdown = isinstance(event, Shutdown)
         if is_shutdown:
             self._shutting_down = True
-            self._context._set_is_shutdown(True)
-        for handler in tuple(self._context._event_handlers):
+            self._run.is_shutdown = True
+        for handler in tuple(self._run.event_handlers):
             try:
                 if handler.matches(event):
                     self._run_handler(handler, event)
@@ -157,22 +166,32 @@ class EventProcessor:
     def _run_handler(self, handler: BaseEventHandler, event: Event) -> None:
         """Run a handler and visit the entities it returns, in a new scope of local variables."""
         futures: list[tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
-        self._context._push_locals()
-        self._context._open_files = getattr(handler, '_open_files', ())
+        self._run.locals.push()
+        self._run.include_stack = getattr(handler, 'include_stack', ())
         try:
             for entity in normalize_to_list_of_entities(handler.handle(event, self._context)):
                 visit_into(entity, self._context, futures)
             if isinstance(event, IncludeLaunchDescription):
                 self._check_before_start()
         finally:
-            self._context._pop_locals()
+            self._run.locals.pop()
             self._track([future for _, future in futures])
 
     def _check_before_start(self) -> None:
-        """Run the pre-start checks once, after the first description has been visited."""
-        checks, self._context._before_start = self._context._before_start, None
-        if checks is not None:
-            checks.run(self._context)
+        """
+        Run the pre-start checks once, after the first description has been visited.
+
+        Entities that wait for events are checked first.
+        """
+        checks, self._run.before_start = self._run.before_start, None
+        if checks is None:
+            return
+        waiting = any(handler.describe()[1] for handler in self._run.event_handlers)
+        if checks.resolves_programs and waiting:
+            from launch._checks.preflight import check_what_waits
+
+            check_what_waits(self._context)
+        checks.run(self._context)
 
     # Futures.
 

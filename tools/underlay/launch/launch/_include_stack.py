@@ -53,12 +53,12 @@ def open_file(context: LaunchContext, path: str, call_site: Optional[CallSite]) 
 
     """
     configurations = context.launch_configurations.snapshot()
-    before = [each for each in context._open_files if each.path == path]
+    before = [each for each in context.run.include_stack if each.path == path]
     if not before or not os.path.isfile(path):
         return OpenFile(path, call_site, configurations, None)
     file = OpenFile(path, call_site, configurations, dict(os.environ))
     if len(before) >= MAX_NESTED or any(_same_state(each, file) for each in before):
-        raise CircularIncludeError(_circle(context._open_files, file))
+        raise CircularIncludeError(_circle(context.run.include_stack, file))
     return file
 
 
@@ -99,9 +99,9 @@ def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile
     """
     known = context.get_locals_as_dict()
     before = {name: known[name] for name in (_PATH, _FOLDER) if name in known}
-    leave = LeaveLaunchFile(before, context._open_files)
+    leave = LeaveLaunchFile(before, context.run.include_stack)
     context.extend_locals({_PATH: file.path, _FOLDER: os.path.dirname(file.path)})
-    context._open_files = (*context._open_files, file)
+    context.run.include_stack = (*context.run.include_stack, file)
     note_file(context, file.path)
     return leave
 
@@ -117,14 +117,14 @@ class LeaveLaunchFile(LaunchDescriptionEntity):
     ----------
     before
         The local variables about the including file; empty if there is none.
-    open_files
+    include_stack
         The include stack without the included file.
 
     """
 
-    def __init__(self, before: dict[str, str], open_files: tuple[OpenFile, ...]) -> None:
+    def __init__(self, before: dict[str, str], include_stack: tuple[OpenFile, ...]) -> None:
         self._before = before
-        self._open_files = open_files
+        self._include_stack = include_stack
 
     def visit(self, context: LaunchContext) -> None:
         """
@@ -136,8 +136,8 @@ class LeaveLaunchFile(LaunchDescriptionEntity):
             The launch context.
 
         """
-        context._open_files = self._open_files
-        if self._before and context._scopes_location:
+        context.run.include_stack = self._include_stack
+        if self._before and context.run.scopes_location:
             context.extend_locals(self._before)
 
 
@@ -167,20 +167,20 @@ def launch_file_location(context: LaunchContext, variable: str, name: str) -> st
         raise SubstitutionFailure(
             f'{name} cannot be used in a script: no launch file is being read'
         )
-    if context._open_files:
+    if context.run.include_stack:
         _warn_of_another_file(
-            context, name, context._open_files[-1].path, known['current_launch_file_path']
+            context, name, context.run.include_stack[-1].path, known['current_launch_file_path']
         )
     return str(known[variable])
 
 
 def _warn_of_another_file(context: LaunchContext, name: str, reading: str, meant: str) -> None:
     """Warn, once for each pair of files, that the location is that of an earlier include."""
-    if reading == meant or (reading, meant) in context._warned_locations:
+    if reading == meant or (reading, meant) in context.run.warned_locations:
         return
     from launch.logging import get_logger
 
-    context._warned_locations.add((reading, meant))
+    context.run.warned_locations.add((reading, meant))
     get_logger('launch').warning(
         "%s in '%s' stands for '%s', which has been included before; pass --scoped-location to "
         'ros2 launch, or use the substitution before the include',

@@ -141,15 +141,15 @@ class Action(LaunchDescriptionEntity):
     def _is_wanted(self, condition: Condition, context: LaunchContext) -> bool:
         """Evaluate the condition, and notify the observer."""
         value = bool(condition.evaluate(context))
-        if context._observer is not None:
-            context._observer.decided(self, value)
+        if context.run.observer is not None:
+            context.run.observer.decided(self, value)
         return value
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
         """Return the facts that are known about the action before it is executed."""
         return {}
 
-    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the entities that the action will leave waiting, with the event in words."""
         return []
 

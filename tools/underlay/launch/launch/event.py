@@ -11,6 +11,6 @@ class Event:
 
     name = 'launch.Event'
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
         """Return the facts about the event that a dry run shows."""
         return {'event': type(self).__name__}

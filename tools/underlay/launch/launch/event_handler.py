@@ -26,9 +26,14 @@ class BaseEventHandler:
     handle_once
         Whether the handler unregisters itself when it handles an event.
 
+    Attributes
+    ----------
+    include_stack
+        The launch files that were being read when the handler was registered.
+
     """
 
-    _open_files: tuple[OpenFile, ...] = ()
+    include_stack: tuple[OpenFile, ...] = ()
 
     def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
         self.__matcher = matcher
@@ -49,8 +54,8 @@ class BaseEventHandler:
         """Return a human-readable description of the accepted events."""
         return getattr(self.__matcher, '__name__', repr(self.__matcher))
 
-    def _awaited(self) -> str:
-        """Describe the event that the handler waits for."""
+    def describe_event(self) -> str:
+        """Return a description of the event that the handler waits for."""
         return f'an event ({type(self).__name__})'
 
     def matches(self, event: Event) -> bool:

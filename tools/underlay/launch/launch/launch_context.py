@@ -3,26 +3,16 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._context_state import (
-    ContextLocals,
-    EnvironmentScopes,
-    LaunchConfigurations,
-    LocalsView,
-)
+from launch._context_state import LaunchConfigurations, LocalsView
+from launch.launch_run import LaunchRun
 
 if TYPE_CHECKING:
     import asyncio
 
-    from launch._checks.before_start import BeforeStart
-    from launch._dry_run_record import VisitObserver
-    from launch._include_stack import OpenFile
-    from launch._supervision.process_registry import ProcessRegistry
-    from launch._supervision.program import Spawn
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
     from launch.substitution import Substitution
@@ -51,26 +41,15 @@ class LaunchContext:
     ) -> None:
         self.__argv = list(argv) if argv is not None else []
         self.__noninteractive = noninteractive
-        self.__is_shutdown = False
-        self.__loop: Optional[asyncio.AbstractEventLoop] = None
-        self.__wake_up: Optional[Callable[[], None]] = None
-        self.__locals = ContextLocals()
         self.__launch_configurations = LaunchConfigurations()
-        self.__configurations_stack: list[dict[str, Any]] = []
-        self.__environment = EnvironmentScopes()
-        self._event_handlers: deque[BaseEventHandler] = deque()
-        self._event_queue: deque[Event] = deque()
-        self._completion_futures: list[asyncio.Future[Any]] = []
-        self._processes: Optional[ProcessRegistry] = None
-        self._spawn: Optional[Spawn] = None
-        self._open_files: tuple[OpenFile, ...] = ()
-        self._scopes_location = False
-        self._warned_locations: set[tuple[str, str]] = set()
-        self._observer: Optional[VisitObserver] = None
-        self._before_start: Optional[BeforeStart] = None
-        self._first_failure: Optional[int] = None
+        self.__run = LaunchRun()
 
     # Arguments and state of the launch.
+
+    @property
+    def run(self) -> LaunchRun:
+        """Return the state of the launch that its service, checks and supervision share."""
+        return self.__run
 
     @property
     def argv(self) -> list[str]:
@@ -85,24 +64,12 @@ class LaunchContext:
     @property
     def is_shutdown(self) -> bool:
         """Whether the launch is shutting down."""
-        return self.__is_shutdown
-
-    def _set_is_shutdown(self, state: bool) -> None:
-        self.__is_shutdown = state
+        return self.__run.is_shutdown
 
     @property
     def asyncio_loop(self) -> Optional[asyncio.AbstractEventLoop]:
         """Return the event loop while the launch runs, else None."""
-        return self.__loop
-
-    def _attach(
-        self,
-        loop: Optional[asyncio.AbstractEventLoop],
-        wake_up: Optional[Callable[[], None]],
-    ) -> None:
-        """Set the event loop that runs the launch, and the callback that wakes it up."""
-        self.__loop = loop
-        self.__wake_up = wake_up
+        return self.__run.loop
 
     # Substitutions and launch configurations.
 
@@ -128,16 +95,6 @@ class LaunchContext:
         """Return the launch configurations, which may be modified."""
         return self.__launch_configurations
 
-    def _push_launch_configurations(self) -> None:
-        self.__configurations_stack.append(self.__launch_configurations.snapshot())
-
-    def _pop_launch_configurations(self) -> None:
-        if not self.__configurations_stack:
-            raise RuntimeError('cannot pop the launch configurations: none have been pushed')
-        kept = self.__configurations_stack.pop()
-        self.__launch_configurations.clear()
-        self.__launch_configurations.update(kept)
-
     # The environment.
 
     @property
@@ -145,25 +102,33 @@ class LaunchContext:
         """Return the environment of this process, which children inherit."""
         return os.environ
 
+    # Scopes, by the private names of ROS 2 Jazzy that public launch files call.
+
+    def _push_launch_configurations(self) -> None:
+        self.__launch_configurations.push_scope()
+
+    def _pop_launch_configurations(self) -> None:
+        self.__launch_configurations.pop_scope()
+
     def _push_environment(self) -> None:
-        self.__environment.push()
+        self.__run.environment.push()
 
     def _pop_environment(self) -> None:
-        self.__environment.pop()
+        self.__run.environment.pop()
 
     def _reset_environment(self) -> None:
-        self.__environment.reset()
+        self.__run.environment.reset()
 
     # Locals.
 
     @property
     def locals(self) -> LocalsView:  # noqa: A003, RUF100
         """Return the local variables, each as an attribute."""
-        return self.__locals.view
+        return self.__run.locals.view
 
     def get_locals_as_dict(self) -> dict[str, Any]:
         """Return a copy of the local variables."""
-        return self.__locals.as_dict()
+        return self.__run.locals.as_dict()
 
     def extend_locals(self, extra_locals: Mapping[str, Any]) -> None:
         """
@@ -175,7 +140,7 @@ class LaunchContext:
             The values by name.
 
         """
-        self.__locals.extend(extra_locals)
+        self.__run.locals.extend(extra_locals)
 
     def extend_globals(self, extra_globals: Mapping[str, Any]) -> None:
         """
@@ -187,13 +152,7 @@ class LaunchContext:
             The values by name; local variables of the same names hide them.
 
         """
-        self.__locals.extend_globals(extra_globals)
-
-    def _push_locals(self) -> None:
-        self.__locals.push()
-
-    def _pop_locals(self) -> None:
-        self.__locals.pop()
+        self.__run.locals.extend_globals(extra_globals)
 
     # Events.
 
@@ -213,11 +172,11 @@ class LaunchContext:
             Whether it comes after all other handlers rather than before them.
 
         """
-        event_handler._open_files = self._open_files
+        event_handler.include_stack = self.__run.include_stack
         if append:
-            self._event_handlers.append(event_handler)
+            self.__run.event_handlers.append(event_handler)
         else:
-            self._event_handlers.appendleft(event_handler)
+            self.__run.event_handlers.appendleft(event_handler)
 
     def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
         """
@@ -234,9 +193,9 @@ class LaunchContext:
             The handler is not registered.
 
         """
-        if event_handler not in self._event_handlers:
+        if event_handler not in self.__run.event_handlers:
             raise ValueError(f'the event handler {event_handler!r} is not registered')
-        self._event_handlers.remove(event_handler)
+        self.__run.event_handlers.remove(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
         """
@@ -248,7 +207,7 @@ class LaunchContext:
             The event, which need not have been emitted.
 
         """
-        return any(handler.matches(event) for handler in tuple(self._event_handlers))
+        return any(handler.matches(event) for handler in tuple(self.__run.event_handlers))
 
     def emit_event_sync(self, event: Event) -> None:
         """
@@ -260,9 +219,8 @@ class LaunchContext:
             The event, which is handled after those that were queued before.
 
         """
-        self._event_queue.append(event)
-        if self.__wake_up is not None:
-            self.__wake_up()
+        self.__run.event_queue.append(event)
+        self.__run.wake_up()
 
     async def emit_event(self, event: Event) -> None:
         """
@@ -286,6 +244,5 @@ class LaunchContext:
             The future, of the event loop that runs the launch; its exception ends the launch.
 
         """
-        self._completion_futures.append(completion_future)
-        if self.__wake_up is not None:
-            self.__wake_up()
+        self.__run.completion_futures.append(completion_future)
+        self.__run.wake_up()

@@ -13,9 +13,17 @@ if TYPE_CHECKING:
 
 
 class LaunchDescriptionEntity:
-    """Base class of the parts of a launch description; visiting an entity executes it."""
+    """
+    Base class of the parts of a launch description; visiting an entity executes it.
 
-    _runs_code_of_the_user = False
+    Attributes
+    ----------
+    runs_code_of_the_user
+        Whether a visit runs a function of the launch file, which may do anything.
+
+    """
+
+    runs_code_of_the_user = False
 
     def visit(
         self,
@@ -58,8 +66,16 @@ class LaunchDescriptionEntity:
         """Return the entities that may be visited, each list with a reason."""
         return []
 
-    def _check_in_advance(self, context: LaunchContext) -> None:
-        """Raise an error if a later visit of the entity is certain to fail."""
+    def check_in_advance(self, context: LaunchContext) -> None:
+        """
+        Raise an error if a later visit of the entity is certain to fail.
+
+        Parameters
+        ----------
+        context
+            The launch context, which is not changed.
+
+        """
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[Any]]:
         """Return a future that is done when the entity is complete; None if it is at once."""

@@ -71,7 +71,7 @@ class LaunchDescriptionSource:
             The description is to be loaded from a file that does not exist.
 
         """
-        location = self._expand_location(context)
+        location = self.expand_location(context)
         if self.__launch_description is None:
             self._require_file(location, context)
             self.__launch_description = self._from_preview(
@@ -82,22 +82,31 @@ class LaunchDescriptionSource:
     def _require_file(self, location: str, context: LaunchContext) -> None:
         """Raise an error if the location must be a file, but is not."""
         if self._loads_file and not os.path.isfile(location):
-            from launch._checks.missing_file import explain_missing_include
+            from launch._checks.missing_include import explain_missing_include
 
-            reading = {each.path for each in context._open_files}
+            reading = {each.path for each in context.run.include_stack}
             raise FileNotFoundError(explain_missing_include(location, reading))
 
-    def _expand_location(self, context: LaunchContext) -> str:
-        """Return the location, which is performed once and then cached."""
+    def expand_location(self, context: LaunchContext) -> str:
+        """
+        Return the location, which is performed once and then cached.
+
+        Parameters
+        ----------
+        context
+            The launch context, in which the location is performed.
+
+        """
         if self.__expanded_location is None:
             self.__expanded_location = perform_substitutions(context, self.__location)
         return self.__expanded_location
 
     @property
-    def _location_parts(self) -> list[Substitution]:
+    def location_parts(self) -> list[Substitution]:
+        """Return the location as a list of substitutions."""
         return self.__location
 
-    def _location_in_advance(self) -> Optional[str]:
+    def location_in_advance(self) -> Optional[str]:
         """Return the location if it is known before the launch runs, else None."""
         from launch.launch_context import LaunchContext
 

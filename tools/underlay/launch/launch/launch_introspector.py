@@ -46,7 +46,7 @@ def _lines(entity: LaunchDescriptionEntity, locations: tuple[str, ...]) -> Itera
     yield _head(entity)
     source = getattr(entity, 'launch_description_source', None)
     if source is not None:
-        location = source._location_in_advance() or ''
+        location = source.location_in_advance() or ''
         if location in locations:
             yield f'{_STEP}(a file that includes itself)'
             return
@@ -63,7 +63,7 @@ def _head(entity: LaunchDescriptionEntity) -> str:
     """Return the description of an entity, or the name of its class with the known facts."""
     if not isinstance(entity, Action) or type(entity).describe is not Action.describe:
         return entity.describe()
-    facts = (f'{name}={value}' for name, value in entity._outline().items() if value is not None)
+    facts = (f'{name}={value}' for name, value in entity.outline().items() if value is not None)
     return f'{type(entity).__name__}({", ".join(facts)})'
 
 
@@ -152,7 +152,7 @@ def _is_inside_itself(
     includes: list[IncludeLaunchDescription],
 ) -> bool:
     """Check whether an include refers to a file that is already being searched."""
-    location = entity.launch_description_source._location_in_advance()
+    location = entity.launch_description_source.location_in_advance()
     return location is not None and any(
-        each.launch_description_source._location_in_advance() == location for each in includes
+        each.launch_description_source.location_in_advance() == location for each in includes
     )

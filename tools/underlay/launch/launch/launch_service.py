@@ -47,7 +47,7 @@ class LaunchService:
         prefork: bool = True,
     ) -> None:
         self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
-        self.__context._before_start = BeforeStart()
+        self.__context.run.before_start = BeforeStart()
         self.__context.register_event_handler(_IncludeHandler())
         self.__debug = debug
         self.__prefork = prefork
@@ -201,13 +201,12 @@ class LaunchService:
 
         self._set_level()
         log_launch_config()
-        context = self.__context
-        context._set_is_shutdown(False)
+        run = self.__context.run
+        run.is_shutdown = False
         self.__interrupted = False
-        processor = EventProcessor(context, loop)
-        context._processes = registry = ProcessRegistry(loop, forks=self.__prefork)
-        context._spawn = registry.spawn
-        context._attach(loop, processor.wake_up)
+        processor = EventProcessor(self.__context, loop)
+        run.processes = registry = ProcessRegistry(loop, forks=self.__prefork)
+        run.attach(loop, processor.wake_up)
         screen.when_closed(self._on_screen_closed)
         loop_error_handler = loop.get_exception_handler()
         loop.set_exception_handler(processor.on_loop_error)
@@ -220,9 +219,9 @@ class LaunchService:
         finally:
             loop.set_exception_handler(loop_error_handler)
             screen.when_closed(None)
-            context._attach(None, None)
+            run.attach(None)
             registry.close()
-            context._processes = context._spawn = None
+            run.processes = None
 
     def _set_level(self) -> None:
         if self.__debug:

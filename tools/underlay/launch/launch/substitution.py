@@ -13,9 +13,17 @@ if TYPE_CHECKING:
 
 
 class Substitution:
-    """A text that is known only when the launch runs."""
+    """
+    A text that is known only when the launch runs.
 
-    _is_constant = False  # whether it depends only on what is installed, and changes nothing
+    Attributes
+    ----------
+    is_constant
+        Whether the text depends only on what is installed, and performing it changes nothing.
+
+    """
+
+    is_constant = False
     # Arguments of `$(name ...)` in a launch file, by the names that the constructor has for them.
     frontend_required: ClassVar[tuple[str, ...]] = ()
     frontend_optional: ClassVar[tuple[str, ...]] = ()

@@ -88,11 +88,11 @@ def test_unset_of_what_is_not_set(context: LaunchContext) -> None:
 
 def test_locals(context: LaunchContext) -> None:
     """Locals are attributes which last until the pop; globals stay."""
-    context._push_locals()
+    context.run.locals.push()
     context.extend_locals({'a': 1})
     context.extend_globals({'b': 2})
     assert (context.locals.a, context.locals.b) == (1, 2)
-    context._pop_locals()
+    context.run.locals.pop()
     assert context.get_locals_as_dict() == {'b': 2}
     with pytest.raises(AttributeError, match="'a'; the available ones are: 'b'"):
         _ = context.locals.a
@@ -106,7 +106,7 @@ def test_handlers_are_prepended(context: LaunchContext) -> None:
     context.register_event_handler(first)
     context.register_event_handler(second)
     context.register_event_handler(third, append=True)
-    assert list(context._event_handlers) == [second, first, third]
+    assert list(context.run.event_handlers) == [second, first, third]
 
 
 def test_unregister_of_an_unknown_handler(context: LaunchContext) -> None:

@@ -36,7 +36,7 @@ def _first_failure(*entities: Any) -> Any:
     service = LaunchService(noninteractive=True)
     service.include_launch_description(LaunchDescription(entities))
     assert service.run() == 0
-    return service.context._first_failure
+    return service.context.run.first_failure
 
 
 def test_last_lines_of_a_process_that_died(run: Run) -> None:

@@ -103,7 +103,7 @@ def test_location_after_an_include(run: Run, top_file: str) -> None:
 def test_location_is_scoped_if_wanted(capfd: Any, top_file: str) -> None:
     """The folder is again that of the including file if the context is told so."""
     service = LaunchService(noninteractive=True)
-    service.context._scopes_location = True
+    service.context.run.scopes_location = True
     service.include_launch_description(LaunchDescription([IncludeLaunchDescription(top_file)]))
     assert service.run() == 0
     text = capfd.readouterr().out

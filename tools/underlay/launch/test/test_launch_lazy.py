@@ -7,7 +7,6 @@ from importlib import import_module
 import subprocess
 import sys
 
-from launch._lazy import snake_case
 import pytest
 
 PACKAGES = (
@@ -97,15 +96,6 @@ def test_misspelt_name() -> None:
 
     with pytest.raises(AttributeError, match="Did you mean: 'ExecuteProcess'"):
         _ = launch.actions.ExecutProcess
-
-
-@pytest.mark.parametrize(
-    'name, module',
-    [('LogInfo', 'log_info'), ('SetROSLogDir', 'set_ros_log_dir'), ('Command', 'command')],
-)
-def test_snake_case(name: str, module: str) -> None:
-    """A run of capitals counts as one word."""
-    assert snake_case(name) == module
 
 
 def test_bare_import_reaches_everything_and_loads_little() -> None:

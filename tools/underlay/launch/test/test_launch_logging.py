@@ -71,6 +71,7 @@ def test_folder_that_cannot_be_made(tmp_path: Path) -> None:
         ('default', r'\[INFO\] \[x\]: hi'),
         ('default_with_timestamp', r'\d+\.\d{7} \[INFO\] \[x\]: hi'),
         (r'{name}\t{message}', 'x\thi'),
+        ('\u00e9\u20ac\\t{message}', '\u00e9\u20ac\thi'),
     ],
 )
 def test_screen_format(capfd: pytest.CaptureFixture[str], text: str, line: str) -> None:

@@ -421,8 +421,8 @@ def test_processes_of_the_program_that_launches(run: Callable[..., Any]) -> None
 def test_files_for_processes(launcher: Start, wait_until: Wait, tmp_path: Path) -> None:
     """Temporary files go with the launch that they were written for, also if it is killed."""
     write_it = (
-        "OpaqueFunction(function=lambda context: __import__('launch._temporary_files')"
-        "._temporary_files.write_temporary_file('launch_params_', 'x') and None)"
+        "OpaqueFunction(function=lambda context: __import__('ros_environment.temporary_files')"
+        ".temporary_files.write_temporary_file('launch_params_', 'x') and None)"
     )
     os.environ['TMPDIR'] = str(tmp_path / 'tmp')
     (tmp_path / 'tmp').mkdir()

@@ -99,16 +99,18 @@ def _launching(function: Callable[..., Any], *, auto_shutdown: bool) -> Callable
             kwargs['request'] = request
         produced = function(*args, **kwargs)
         value = next(produced) if inspect.isgenerator(produced) else produced
-        session = LaunchSession(_description(value, function), auto_shutdown=auto_shutdown)
-        name = request.fixturename or function.__name__
-        request.node.stash.setdefault(SESSIONS, {})[name] = session
         try:
-            session.start()
-            yield value
+            session = LaunchSession(_description(value, function), auto_shutdown=auto_shutdown)
+            name = request.fixturename or function.__name__
+            request.node.stash.setdefault(SESSIONS, {})[name] = session
+            try:
+                session.start()
+                yield value
+            finally:
+                session.close()
         finally:
-            session.close()
-        if inspect.isgenerator(produced):
-            next(produced, None)
+            if inspect.isgenerator(produced):
+                next(produced, None)
 
     functools.update_wrapper(launching, function)
     del launching.__wrapped__  # type: ignore[attr-defined]

@@ -11,8 +11,8 @@ from typing import Any, Optional
 
 from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.actions import RegisterEventHandler
-from launch_testing._observation import Observation, ready_actions, ReadyHandler
 from launch_testing.actions.ready_to_test import ReadyToTest
+from launch_testing.observation import Observation, ready_actions, ReadyHandler
 import pytest
 
 _READY_TIMEOUT_S = 15.0

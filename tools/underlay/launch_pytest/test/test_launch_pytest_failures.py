@@ -23,6 +23,36 @@ def test_it(): pass
     assert '\nThe launch failed before it was ready: division by zero\n' in report.text
 
 
+def test_teardown_after_failures(run: Run) -> None:
+    """A fixture is torn down even if its launch fails at the start or at the shutdown."""
+    report = run("""
+from launch.actions import RegisterEventHandler
+from launch.event_handlers import OnShutdown
+
+FAIL = OpaqueFunction(function=lambda context: 1 / 0)
+
+@launch_pytest.fixture
+def broken():
+    yield LaunchDescription([FAIL])
+    print('broken is torn down')
+
+@launch_pytest.fixture
+def broken_later():
+    yield LaunchDescription([RegisterEventHandler(OnShutdown(on_shutdown=[FAIL]))])
+    print('broken_later is torn down')
+
+@pytest.mark.launch(fixture=broken)
+def test_start(): pass
+
+@pytest.mark.launch(fixture=broken_later)
+def test_end(): pass
+""")
+    assert ('test_start', 'ERROR') in report.outcomes, report.text
+    assert ('test_end', 'ERROR') in report.outcomes, report.text
+    for name in ('broken', 'broken_later'):
+        assert f'\n{name} is torn down\n' in report.text, report.text
+
+
 def test_launch_that_fails_meanwhile(run: Run) -> None:
     """A launch that fails during a test lets it fail at once."""
     report = run("""

@@ -91,7 +91,7 @@ def test_outside_of_a_launch(context: LaunchContext) -> None:
 
 def test_not_while_the_launch_ends(context: LaunchContext) -> None:
     """A launch that ends makes no new node."""
-    context._set_is_shutdown(True)
+    context.run.is_shutdown = True
     with pytest.raises(RuntimeError, match='the launch is ending'):
         get_ros_node(context)
 

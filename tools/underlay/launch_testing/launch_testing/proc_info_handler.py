@@ -110,7 +110,8 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         Parameters
         ----------
         process, cmd_args
-            As for `resolveProcesses`; without a process, all started processes are awaited.
+            As for `resolveProcesses`; without a process, all started processes are awaited, and
+            at least one unless the launch ends.
         timeout
             The timeout in s.
 
@@ -125,13 +126,14 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
             At the end of the wait, no process matches, or more than one.
 
         """
-        return self.wait_until(
-            lambda: all(
-                isinstance(self._infos[action], ProcessExited)
-                for action in self._matching(process, cmd_args)
-            ),
-            timeout,
-        )
+
+        def has_ended() -> bool:
+            awaited = self._matching(process, cmd_args)
+            return (bool(awaited) or self._closed) and all(
+                isinstance(self._infos[action], ProcessExited) for action in awaited
+            )
+
+        return self.wait_until(has_ended, timeout)
 
     def assertWaitForStartup(  # noqa: N802
         self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
@@ -180,9 +182,8 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
                 for action in self._matching(process, cmd_args)
                 if not isinstance(self._infos[action], ProcessExited)
             ]
-            raise AssertionError(
-                f'{self.why_in_vain(timeout)} for the end of {", ".join(running)}'
-            )
+            awaited = ', '.join(running) or 'any process: none has started'
+            raise AssertionError(f'{self.why_in_vain(timeout)} for the end of {awaited}')
 
     def _matching(self, process: Optional[SomeProcess], cmd_args: Any) -> list[ExecuteLocal]:
         return resolveProcesses(

@@ -12,9 +12,9 @@ import unittest
 from launch import LaunchDescription, LaunchService
 from launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from launch.launch_description_source import LaunchDescriptionSource
-from launch_testing._observation import Observation, ReadyHandler
 from launch_testing.loader import TestRun
 from launch_testing.markers import is_kept_alive
+from launch_testing.observation import Observation, ReadyHandler
 from launch_testing.test_result import TestResult
 
 __all__ = ['LaunchTestRunner']

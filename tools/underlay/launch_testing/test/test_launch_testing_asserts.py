@@ -158,6 +158,21 @@ def test_waiting(talker: Any) -> None:
         output.assertWaitFor('two', talker, timeout=0.01)
 
 
+def test_waiting_for_the_end_of_all(talker: Any) -> None:
+    """All processes have ended only after one has started, or when the launch is over."""
+    info = ActiveProcInfoHandler()
+    assert not info.waitForShutdown(None, timeout=0.01)
+    with pytest.raises(AssertionError, match='the end of any process: none has started'):
+        info.assertWaitForShutdown(None, timeout=0.01)
+    info.append(talker.started())
+    assert not info.waitForShutdown(None, timeout=0.01)
+    info.append(talker.exited(0))
+    assert info.waitForShutdown(None, timeout=0.01)
+    over = ActiveProcInfoHandler()
+    over.close()
+    assert over.waitForShutdown(None, timeout=1000)
+
+
 def test_nobody_waits_for_what_is_over(talker: Any) -> None:
     """When the launch is over, waiting ends at once."""
     info = ActiveProcInfoHandler()

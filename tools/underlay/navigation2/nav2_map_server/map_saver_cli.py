@@ -13,7 +13,7 @@ from nav2_map_server.map_saver import MapSaver, SaveOptions
 from nav2_map_server.occupancy_map import MODES, Thresholds
 from nav2_util.errors import NavigationError
 from rclpy.task import Future
-from tf2_ros._executing import make_executor, spin_until
+from tf2_ros.executing import make_executor, spin_until
 from tf2_ros.program import run
 
 __all__ = ['main']

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-import difflib
 import math
 from typing import Any
 
 from rclpy.parameter import Parameter
+from ros_environment.suggestions import closest_name
 
 __all__ = ['Spec', 'check_limits', 'coerced', 'typed_parameter']
 
@@ -114,8 +114,8 @@ def check_limits(value: Any, spec: Spec) -> None:
         if isinstance(each, float) and math.isnan(each):
             raise ValueError('has to be a number, and is nan')
         if spec.choices and each not in spec.choices:
-            close = difflib.get_close_matches(str(each), [str(c) for c in spec.choices], 1, 0.6)
-            meant = f"; did you mean '{close[0]}'?" if close else ''
+            close = closest_name(str(each), map(str, spec.choices))
+            meant = f"; did you mean '{close}'?" if close else ''
             allowed = ', '.join(f"'{choice}'" for choice in spec.choices)
             raise ValueError(f"has to be one of {allowed}, and is '{each}'{meant}")
         if spec.low is not None and each < spec.low:

@@ -81,7 +81,10 @@ class ParameterSet(Generic[ParametersT]):
     def __init__(self, current: ParametersT) -> None:
         self.current = current
         self.on_change: Callable[[ParametersT], None] | None = None
-        """Called with the new snapshot after a change; may raise ValueError to reject it."""
+        """
+        Called with the new snapshot before it replaces `current`; may raise ValueError to reject
+        it. If another set rejects the same change later, it is called with the old one again.
+        """
 
 
 class ParameterServer:
@@ -250,15 +253,24 @@ class ParameterServer:
                     return _refused(f"The parameter '{each.name}' {error}.")
                 changed.setdefault(id(found), (found, {}))[1][name] = value
         new = [(found, replace(found.current, **values)) for found, values in changed.values()]
+        replaced: list[tuple[ParameterSet[Any], Any]] = []
         for found, snapshot in new:
-            if found.on_change is not None:
-                try:
-                    found.on_change(snapshot)
-                except ValueError as error:
-                    return _refused(str(error))
-        for found, snapshot in new:
-            found.current = snapshot
+            before = found.current
+            try:
+                _put(found, snapshot)
+            except ValueError as error:
+                for earlier, old in reversed(replaced):
+                    _put(earlier, old)
+                return _refused(str(error))
+            replaced.append((found, before))
         return SetParametersResult(successful=True)
+
+
+def _put(found: ParameterSet[ParametersT], snapshot: ParametersT) -> None:
+    """Replace the snapshot of a set, unless its `on_change` raises ValueError."""
+    if found.on_change is not None:
+        found.on_change(snapshot)
+    found.current = snapshot
 
 
 def _full(prefix: str, name: str) -> str:

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-import difflib
 from importlib import import_module
 from typing import Any
 
 from nav2_util.errors import ConfigurationError
+from ros_environment import suggestions
 
 __all__ = ['did_you_mean', 'find_plugin']
 
@@ -57,6 +57,5 @@ def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.5) -> str:
         The minimum similarity, from 0 to 1, as in difflib.
 
     """
-    lower = {each.lower(): each for each in known}
-    close = difflib.get_close_matches(name.lower(), list(lower), 1, cutoff)
-    return f" Did you mean '{lower[close[0]]}'?" if close else ''
+    question = suggestions.did_you_mean(name, known, cutoff, ignore_case=True)
+    return f' {question}' if question else ''

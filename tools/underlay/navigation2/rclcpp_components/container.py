@@ -22,7 +22,7 @@ from rclpy.logging import LoggingSeverity
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.task import Future
-from tf2_ros._executing import make_executor, spin_until
+from tf2_ros.executing import make_executor, spin_until
 from tf2_ros.program import run, spin, wait_for_signal
 
 __all__ = [

@@ -10,13 +10,13 @@ setup.py, as entry points of the group `rclcpp_components`.
 
 from __future__ import annotations
 
-import difflib
 from importlib import import_module
 from importlib.metadata import entry_points
 from typing import Any
 
 from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 from ament_index_python.resources import get_resource
+from ros_environment.suggestions import did_you_mean
 
 __all__ = ['ComponentError', 'find_component', 'registered_components']
 
@@ -96,6 +96,5 @@ def _why_not(package: str, name: str, known: list[str]) -> str:
         except (PackageNotFoundError, ValueError):
             return f"Could not find the package '{package}' in the index of resources"
         return f"The package '{package}' registers no components"
-    close = difflib.get_close_matches(name, known, 1, 0.5)
-    meant = f"Did you mean '{close[0]}'?" if close else f'It has {", ".join(known)}.'
+    meant = did_you_mean(name, known, 0.5) or f'It has {", ".join(known)}.'
     return f"Failed to find the class '{name}' in the package '{package}'. {meant}"

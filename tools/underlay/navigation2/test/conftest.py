@@ -15,7 +15,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from tf2_ros._executing import make_executor
+from tf2_ros.executing import make_executor
 
 
 class Ros:

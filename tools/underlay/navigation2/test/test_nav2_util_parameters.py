@@ -138,7 +138,7 @@ def test_change_that_the_node_refuses(made):
     node, server = made()
     first, second = server.declare(Told), server.declare(Told, 'plugin')
     seen = []
-    first.on_change = seen.append
+    first.on_change = lambda new: seen.append((first.current.rate, new.rate))
 
     def refuse(new: Told) -> None:
         raise ValueError(f'There is no frame {new.frame} now.')
@@ -149,6 +149,7 @@ def test_change_that_the_node_refuses(made):
     )
     assert not outcome.successful and outcome.reason == 'There is no frame odom now.'
     assert first.current == second.current == Told()
+    assert seen == [(2.0, 3.0), (3.0, 2.0)]  # what was applied is taken back
     assert node.get_parameter('rate').value == 2.0
 
 

@@ -79,17 +79,19 @@ class JointStates:
     def _look(self) -> None:
         """Process the stored messages; lists whose length does not match the names are ignored."""
         waiting, self._waiting = self._waiting, {}
+        complaint = ''
         for names, (positions, velocities, efforts, at_s) in waiting.items():
             lists = {'positions': positions, 'velocities': velocities, 'efforts': efforts}
-            self.complaint = _complaint(names, lists)
+            complaint = complaint or _complaint(names, lists)
             for index, name in enumerate(names):
                 if len(self._states) >= MAX_JOINTS and name not in self._states:
-                    self.complaint = f'There are more than {MAX_JOINTS} joints.'
+                    complaint = f'There are more than {MAX_JOINTS} joints.'
                     break
                 position, velocity, effort = (
                     _number(each, index, len(names)) for each in lists.values()
                 )
                 self._states[name] = JointState(position, velocity, effort, at_s)
+        self.complaint = complaint
         newest_s = self.last_s or 0.0
         self._states = {
             name: state for name, state in self._states.items() if newest_s - state.at_s < FORGET_S

@@ -6,12 +6,14 @@ from __future__ import annotations
 from datetime import datetime
 import os
 from pathlib import Path
+import subprocess
+import sys
 from typing import Any
 
 import pytest
 from recorded_samples import find_definition, LATCHED, MS, S, START_NS, text, topic, write_bag
 from robot_console.recordings.bags import Bag, BagTopic, commands_among, Shelf
-from robot_console.recordings.child import last_sentence
+from robot_console.recordings.child import Child, last_sentence
 from robot_console.recordings.programs.remember import MessageMemory
 from robot_console.recordings.programs.remember import write_bag as write_kept
 from robot_console.recordings.record_folder import bag_folder, regex_of_robot, topics_in
@@ -179,6 +181,18 @@ def test_memory_words() -> None:
     assert said == 'Keeps 30 s: 5 messages of 2 topics, 2.0 KiB.'
     assert '200 MiB' in memory_text({**facts, 'is_short': True}, 30, 200)
     assert memory_text({}, 30, 200) == 'Starting ...'
+
+
+def test_output_of_a_program_that_is_no_object(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is kept as text, and the facts after it are heard."""
+    start, code = subprocess.Popen, r"""print('3\n[]\nnull\n{"a": 1}')"""
+    monkeypatch.setattr(
+        subprocess, 'Popen', lambda _, **options: start([sys.executable, '-c', code], **options)
+    )
+    child = Child('play', [])
+    child.close()
+    assert child.facts == {'a': 1}
+    assert [line.strip() for line in child._lines] == ['3', '[]', 'null']
 
 
 def test_last_sentence() -> None:

@@ -57,7 +57,7 @@ def closest(name: str, known: Iterable[str]) -> str:
         The existing names.
 
     """
-    from ros2cli.suggest import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     names = list(known)
     with_slash = f'/{name}'

@@ -16,7 +16,7 @@ import os
 import re
 import sys
 
-from ros2cli.suggest import did_you_mean
+from ros_environment.suggestions import did_you_mean
 
 TYPE_CHECKING = False
 

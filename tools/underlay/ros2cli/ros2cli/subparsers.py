@@ -7,7 +7,7 @@ import argparse
 from collections.abc import Callable, Mapping, Sequence
 
 from ros2cli.entry import entries_of_group, Entry, find_entry
-from ros2cli.suggest import did_you_mean
+from ros_environment.suggestions import did_you_mean
 
 TYPE_CHECKING = False
 

@@ -69,7 +69,7 @@ def unknown_package_text(package: str) -> str:
         The message, with the closest name or the cause in a further line if known.
 
     """
-    from ros2cli.suggest import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     hint = did_you_mean(package, get_interface_packages()) or _cause(package)
     return '\n'.join([f"Unknown package '{package}'", hint]).rstrip()

@@ -19,6 +19,7 @@ from ros2pkg.api import get_share_directory
 
 FIELD = re.compile(r'\s*(?P<type>[A-Za-z][A-Za-z0-9_/]*)(\[[^\]]*\])?\s+[a-z][A-Za-z0-9_]*\b')
 COMMENT = re.compile(r"""#.*|("[^"]*"|'[^']*')""")
+IDL_COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\])*")', re.DOTALL)
 PRIMITIVES = frozenset(
     'bool byte char float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 string '
     'wstring'.split()
@@ -28,10 +29,11 @@ PARTS = {'srv': 'Request', 'action': 'Goal'}
 
 
 class Definition(NamedTuple):
-    """The name of an interface and the text that defines it."""
+    """The name of an interface, the text that defines it, and whether that is OMG IDL."""
 
     name: str
     text: str
+    is_idl: bool = False
 
 
 def read_definition(name: str) -> Definition:
@@ -59,7 +61,7 @@ def read_definition(name: str) -> Definition:
     for path in (f'{stem}.{kind}', f'{stem}.idl'):
         if os.path.isfile(path):
             with open(path, encoding='utf-8') as stream:
-                return Definition(name, stream.read())
+                return Definition(name, stream.read(), path.endswith('.idl'))
     raise RuntimeError(_missing_text(name, f'{stem}.idl'))
 
 
@@ -99,7 +101,7 @@ def _missing_text(name: str, path: str) -> str:
 
 def _closest(name: str) -> str:
     """Return a line that suggests the interface probably meant, or ''."""
-    from ros2cli.suggest import closest_name
+    from ros_environment.suggestions import closest_name
 
     package, _, rest = name.partition('/')
     if not rest or rest in HEADINGS or package not in get_interface_packages():
@@ -114,6 +116,8 @@ def expand(
 ) -> Iterator[str]:
     """
     Expand a definition: below each field of a message type, that type's own definition.
+
+    Nothing is expanded in a definition in OMG IDL.
 
     Parameters
     ----------
@@ -135,12 +139,24 @@ def expand(
         The type of a field is not installed.
 
     """
+    if definition.is_idl:
+        yield from _idl_lines(definition.text, no_comments=no_comments)
+        return
     for line in definition.text.splitlines():
         shown = _without_comment(line) if no_comments else line
         if shown.strip() or not no_comments:
             yield shown
         for nested in _nested_lines(line, definition.name, all_comments and not no_comments):
             yield f'\t{nested}' if nested else ''
+
+
+def _idl_lines(text: str, *, no_comments: bool) -> Iterator[str]:
+    """Yield the lines of an .idl file, optionally without comments and empty lines."""
+    if no_comments:
+        text = IDL_COMMENT.sub(lambda match: match[1] or '', text)
+    for line in text.splitlines():
+        if line.strip() or not no_comments:
+            yield line.rstrip() if no_comments else line
 
 
 def _nested_lines(line: str, name: str, with_comments: bool) -> Iterator[str]:

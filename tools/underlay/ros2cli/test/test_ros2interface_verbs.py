@@ -3,6 +3,8 @@
 
 from collections.abc import Callable
 import io
+import os
+from pathlib import Path
 from subprocess import CompletedProcess
 
 import pytest
@@ -74,6 +76,46 @@ def test_show_with_all_comments(ros2_here: Ros2) -> None:
     """Comments of nested definitions are shown when they are asked for."""
     output = ros2_here('interface', 'show', 'geometry_msgs/msg/Pose', '--all-comments').stdout
     assert '\t# This contains the position of a point in free space\n' in output
+
+
+IDL = """// A corner.
+module idl_msgs {
+  module msg {
+    struct Corner {
+      @verbatim (language="comment", text="no // comment")
+      double x;  /* in
+        m */
+    };
+  };
+};
+"""
+
+
+@pytest.fixture
+def idl_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Install a package with one interface in IDL, and one that uses it."""
+    index = tmp_path / 'share/ament_index/resource_index'
+    for kind, text in (('packages', ''), ('rosidl_interfaces', 'msg/Corner.idl\nmsg/Box.msg\n')):
+        (index / kind).mkdir(parents=True)
+        (index / kind / 'idl_msgs').write_text(text)
+    folder = tmp_path / 'share/idl_msgs/msg'
+    folder.mkdir(parents=True)
+    (folder / 'Corner.idl').write_text(IDL)
+    (folder / 'Box.msg').write_text('Corner low\n')
+    monkeypatch.setenv('AMENT_PREFIX_PATH', f'{tmp_path}:{os.environ["AMENT_PREFIX_PATH"]}')
+
+
+@pytest.mark.usefixtures('idl_package')
+def test_interfaces_in_idl(ros2_here: Ros2) -> None:
+    """They are listed as others, and shown as they are in the file."""
+    listed = ros2_here('interface', 'package', 'idl_msgs').stdout.splitlines()
+    assert listed == ['idl_msgs/msg/Box', 'idl_msgs/msg/Corner']
+    shown = ros2_here('interface', 'show', 'idl_msgs/msg/Corner')
+    assert (shown.returncode, shown.stdout, shown.stderr) == (0, IDL, '')
+    bare = ros2_here('interface', 'show', 'idl_msgs/msg/Corner', '--no-comments').stdout
+    assert bare == IDL.replace('// A corner.\n', '').replace('  /* in\n        m */', '')
+    nested = ros2_here('interface', 'show', 'idl_msgs/msg/Box').stdout.splitlines()
+    assert nested == ['Corner low', *(f'\t{line}' for line in bare.splitlines())]
 
 
 def test_show_reads_the_type_from_stdin(ros2_here: Ros2, monkeypatch: pytest.MonkeyPatch) -> None:

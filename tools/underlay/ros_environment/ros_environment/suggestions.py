@@ -6,7 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 
-def closest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+def closest_name(
+    name: str, known: Iterable[str], cutoff: float = 0.6, *, ignore_case: bool = False
+) -> str:
     """
     Find the known name that is most similar to a misspelt one.
 
@@ -19,6 +21,8 @@ def closest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     cutoff
         The least similarity, from 0 to 1, as in `difflib`; 0.75 suits names that are like each
         other, such as those of joints.
+    ignore_case
+        Whether capitals and small letters are the same.
 
     Returns
     -------
@@ -28,17 +32,21 @@ def closest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     """
     from difflib import get_close_matches
 
-    close = get_close_matches(name, list(known), n=1, cutoff=cutoff)
-    return close[0] if close else ''
+    by_key = {each.lower() if ignore_case else each: each for each in known}
+    key = name.lower() if ignore_case else name
+    close = get_close_matches(key, list(by_key), n=1, cutoff=cutoff)
+    return by_key[close[0]] if close else ''
 
 
-def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+def did_you_mean(
+    name: str, known: Iterable[str], cutoff: float = 0.6, *, ignore_case: bool = False
+) -> str:
     """
     Suggest the known name that is most similar to a misspelt one.
 
     Parameters
     ----------
-    name, known, cutoff
+    name, known, cutoff, ignore_case
         As for `closest_name`.
 
     Returns
@@ -47,5 +55,5 @@ def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
         "Did you mean '...'?", or '' if no name is similar enough.
 
     """
-    close = closest_name(name, known, cutoff)
+    close = closest_name(name, known, cutoff, ignore_case=ignore_case)
     return f"Did you mean '{close}'?" if close else ''

@@ -10,9 +10,9 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from rviz_common.polled_topic import WaitingGroup
-from tf2_py._caches import Sample
-from tf2_py._pose import inverse
-from tf2_py._pose import Pose as Numbers
+from tf2_py.poses import inverse
+from tf2_py.poses import Pose as Numbers
+from tf2_py.samples import Sample
 from tf2_ros import Buffer, TransformException, TransformListener
 
 __all__ = ['FIXED_FRAME', 'FrameError', 'FrameListener', 'Frames', 'Pose']

@@ -30,9 +30,10 @@ class Place(NamedTuple):
 
 
 class Kept(NamedTuple):
-    """A message that is drawn, and its node of the scene."""
+    """A message that is drawn, the pose of its frame, and its node of the scene."""
 
     waiting: Waiting
+    pose: Pose
     place: Place
 
 
@@ -43,7 +44,8 @@ class HistoryDisplay(TopicDisplay):
     Each is placed in the fixed frame by the transform of its own frame at its stamp; it waits
     until that transform is available. A waiting message is dropped once a newer one of the same
     frame can be drawn: transforms from before the listener started, say, never become available.
-    `draw` is called once for each message, and again for those shown when a property changes.
+    `draw` is called once for each message, and again for those shown when a property changes;
+    they stay where they are, even if their transform is no longer known.
     """
 
     PATIENCE: ClassVar[int] = 10
@@ -59,6 +61,7 @@ class HistoryDisplay(TopicDisplay):
         self._waiting: deque[Waiting] = deque()
         self._kept: deque[Kept] = deque()
         self._free: list[Place] = []
+        self._is_outdated = False
         self._missing_since_s: float | None = None
         self._fixed_frame = self.context.frames.fixed_frame
         super().start()
@@ -75,7 +78,10 @@ class HistoryDisplay(TopicDisplay):
         super().update()
         if self.context.frames.fixed_frame != self._fixed_frame:
             self._fixed_frame = self.context.frames.fixed_frame
-            self.redraw()
+            self._place_again()
+        elif self._is_outdated:
+            self._redraw_kept()
+        self._is_outdated = False
         if self._waiting:
             self._draw_ready()
         self._remove_old()
@@ -126,7 +132,17 @@ class HistoryDisplay(TopicDisplay):
             self._waiting.popleft()
 
     def redraw(self) -> None:
-        """Redraw the messages that are shown."""
+        """Redraw the messages that are shown, in the next frame."""
+        self._is_outdated = True
+
+    def _redraw_kept(self) -> None:
+        """Draw the messages that are shown again, where they are."""
+        shown, self._kept = self._kept, deque()
+        for kept in shown:
+            self._draw_at(kept.place, kept.waiting, kept.pose)
+
+    def _place_again(self) -> None:
+        """Queue the messages that are shown, to place them in another fixed frame."""
         for kept in reversed(self._kept):
             self._waiting.appendleft(kept.waiting)
         self._keep_last(0)
@@ -169,6 +185,9 @@ class HistoryDisplay(TopicDisplay):
         place = self._free.pop() if self._free else self._new_place()
         place.node.position, place.node.wxyz = pose
         place.node.visible = True
+        self._draw_at(place, waiting, pose)
+
+    def _draw_at(self, place: Place, waiting: Waiting, pose: Pose) -> None:
         try:
             with place.canvas.anew():
                 self.draw(place.canvas, waiting.message, pose)
@@ -176,7 +195,7 @@ class HistoryDisplay(TopicDisplay):
             self._leave(place)
             self.say_left_out(error)
             return
-        self._kept.append(Kept(waiting, place))
+        self._kept.append(Kept(waiting, pose, place))
         self.say_shown()
 
     def _new_place(self) -> Place:

@@ -14,7 +14,7 @@ from rclpy.qos import QoSProfile
 from rviz_common.guarded_node import GuardedNode
 from rviz_common.polled_topic import PolledTopic
 from std_msgs.msg import Int32
-from tf2_ros._executing import make_executor
+from tf2_ros.executing import make_executor
 
 PATIENCE_S = 60.0
 

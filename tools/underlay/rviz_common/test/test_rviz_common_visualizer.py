@@ -2,6 +2,7 @@
 """Tests of what is shown: displays, groups, options, and what is missing."""
 
 from collections.abc import Callable, Iterator
+from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
 
@@ -150,6 +151,24 @@ def test_what_cannot_be_made_is_kept_for_the_file(show: Show) -> None:
         {'Class': 'a/B', 'X': 1},
         {'Class': 'test/Broken', 'Name': 'n'},
     ]
+
+
+def test_what_cannot_be_imported_is_said(
+    show: Show, node: Node, capfd: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The log says which import failed, instead of that no package offers the class."""
+    absent = EntryPoint('test/Absent', 'absent_module:Absent', 'test')
+    monkeypatch.setattr(plugins, '_plugins', lambda group: {absent.name: absent})
+    show(
+        'Panels:\n  - Class: test/Absent\n'
+        'Visualization Manager:\n'
+        '  Displays:\n    - Class: test/Absent\n'
+        '  Tools:\n    - Class: test/Absent\n'
+    )
+    said = capfd.readouterr().err
+    assert said.count("'test/Absent' cannot be used: No module named 'absent_module'") == 3
+    assert "'absent_module': 'test/Absent' (test.rviz:5) left out." in said
+    assert 'No package offers' not in said
 
 
 def test_what_is_unknown_is_said_once(show: Show, node: Node, capfd: Any) -> None:

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from enum import Enum
 import re
 
-from tf2_py._caches import Sample
-from tf2_py._pose import chain, IDENTITY, inverse, Pose
+from tf2_py.poses import chain, IDENTITY, inverse, Pose
+from tf2_py.samples import Sample
 
 __all__ = ['Age', 'Ageing', 'FrameFilter', 'placed']
 

@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
-from tf2_py._pose import Pose
+from tf2_py.poses import Pose
 
 if TYPE_CHECKING:
     from viser import LabelHandle, SceneApi

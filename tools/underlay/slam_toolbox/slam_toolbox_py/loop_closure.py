@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 from slam_toolbox_py.correlation import correlate
 from slam_toolbox_py.mapper import Mapper
-from slam_toolbox_py.pose_graph import Edge
+from slam_toolbox_py.pose_graph import carried, Edge
 from slam_toolbox_py.poses import FloatArray, relative
 from slam_toolbox_py.refinement import refine
 
@@ -94,16 +94,15 @@ def close_loops(mapper: Mapper, node: int) -> Iterator[str]:
 
 
 def _corrected(mapper: Mapper, edge: Edge) -> Iterator[str]:
-    """Optimize the graph with a new edge; remove the edge if the graph disagrees with it."""
+    """Optimize the graph with a new edge; undo both if the graph disagrees with the edge."""
     before = mapper.graph.poses.copy()
     for _ in mapper.graph.optimizing():
         yield ''
     if mapper.graph.error_of(edge) > _DISAGREEMENT2:
         mapper.graph.edges.remove(edge)
-        if len(before) == len(mapper.graph.poses):
-            mapper.graph.poses = before
-            mapper.follow_graph()
-            return
+        mapper.graph.poses = carried(mapper.graph.poses, before)
+        mapper.follow_graph()
+        return
     shift = mapper.graph.poses[: len(before), :2] - before[:, :2]
     mapper.follow_graph()
     most = float(np.hypot(*shift.T).max())

@@ -18,7 +18,7 @@ from scipy.sparse import csc_matrix, diags
 from scipy.sparse.linalg import splu
 from slam_toolbox_py.poses import compose, FloatArray, relative, wrap
 
-__all__ = ['Edge', 'PoseGraph']
+__all__ = ['Edge', 'PoseGraph', 'carried']
 
 _CAUCHY = 3.0
 _ITERATIONS = 12
@@ -125,7 +125,7 @@ class PoseGraph:
             if change < _CONVERGED_M:
                 break
         # Nodes added meanwhile keep their poses relative to the last optimized one.
-        self.poses = _carried(self.poses, poses)
+        self.poses = carried(self.poses, poses)
 
 
 class _Problem:
@@ -216,8 +216,23 @@ def _differences(first: FloatArray, second: FloatArray, measured: FloatArray) ->
     return relative(measured, relative(first, second))
 
 
-def _carried(current: FloatArray, moved: FloatArray) -> FloatArray:
-    """Return all poses after the first ones moved, carrying the others with the last one."""
+def carried(current: FloatArray, moved: FloatArray) -> FloatArray:
+    """
+    Move the first poses of a chain, and carry the others with the last one of them.
+
+    Parameters
+    ----------
+    current
+        (N, 3) all poses before.
+    moved
+        (M, 3) the new values of the first M poses.
+
+    Returns
+    -------
+    FloatArray
+        (N, 3) all poses; the others keep their poses relative to the last moved one.
+
+    """
     first = len(moved)
     later: npt.NDArray[np.float64] = current[first:]
     if not len(later):

@@ -6,10 +6,12 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from slam_toolbox_py import loop_closure
 from slam_toolbox_py.localizer import Localizer
 from slam_toolbox_py.loop_closure import close_loops, find_chains
-from slam_toolbox_py.mapper import Mapper
+from slam_toolbox_py.mapper import Keyframe, Mapper
 from slam_toolbox_py.occupancy import FREE, MapDrawing, OCCUPIED
+from slam_toolbox_py.pose_graph import Edge
 from slam_toolbox_py.poses import compose, wrap
 from slam_toolbox_py.session import Session, SessionSettings
 from slam_toolbox_py.settings import MapperSettings
@@ -116,6 +118,33 @@ def test_long_corridor_closes_no_false_loop():
     drive(world, [(40.0, 1.3), (4.0, 1.3)], mapper, robot, range_max_m=6.0)
     length = mapper.graph.poses[len(true) - 1, 0] - mapper.graph.poses[0, 0]
     assert length == pytest.approx(36.0, abs=1.0)
+
+
+def test_rejected_loop_leaves_no_trace(monkeypatch):
+    """Even if a keyframe comes during the optimization, all poses are those of before."""
+    mapper, ahead = Mapper(), np.array([1.0, 0.0, 0.0])
+    scan = room().scan(np.array([3.6, 2.0, 0.0]))
+
+    def add():
+        node = len(mapper.keyframes)
+        pose = ahead * node
+        mapper.add_known(Keyframe(scan, pose, float(node)), pose, float(node))
+        if node:
+            mapper.graph.add_edge(Edge(node - 1, node, ahead, np.diag([100.0, 100.0, 100.0])))
+
+    for _ in range(10):
+        add()
+    wrong = Edge(0, 9, np.array([0.0, 30.0, 0.0]), np.diag([100.0] * 3), is_loop=True)
+    monkeypatch.setattr(loop_closure, 'find_chains', lambda *_: [[0]])
+    monkeypatch.setattr(loop_closure, '_match', lambda *_: wrong)
+    closing = close_loops(mapper, 9)
+    said = [next(closing), next(closing)]
+    add()
+    said += closing
+    assert len(said) > 2 and not any(said)
+    assert wrong not in mapper.graph.edges
+    assert mapper.graph.poses == pytest.approx(np.arange(11)[:, None] * ahead, abs=1e-12)
+    assert mapper.map_to_odom == pytest.approx(np.zeros(3), abs=1e-12)
 
 
 def test_chains_are_old_and_near(mapped):

@@ -20,9 +20,9 @@ from geometry_msgs.msg import (
     Vector3Stamped,
     WrenchStamped,
 )
-from tf2_py._messages import pose_of
-from tf2_py._pose import chain
-from tf2_py._pose import Pose as PoseNumbers
+from tf2_py.messages import pose_of
+from tf2_py.poses import chain
+from tf2_py.poses import Pose as PoseNumbers
 from tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
 
 if TYPE_CHECKING:

@@ -6,17 +6,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
-from tf2_py import _pose
+from tf2_py import poses
 
 
-def random_pose(generator: np.random.Generator) -> _pose.Pose:
+def random_pose(generator: np.random.Generator) -> poses.Pose:
     """Return a pose."""
     quaternion = generator.normal(size=4)
     quaternion /= np.linalg.norm(quaternion)
     return (*generator.uniform(-2, 2, 3).tolist(), *quaternion.tolist())
 
 
-def matrix(pose: _pose.Pose) -> np.ndarray:
+def matrix(pose: poses.Pose) -> np.ndarray:
     """Return the 4x4 matrix by scipy."""
     result = np.eye(4)
     result[:3, :3] = Rotation.from_quat(pose[3:]).as_matrix()
@@ -30,9 +30,9 @@ def test_chain_and_inverse(seed: int) -> None:
     generator = np.random.default_rng(seed)
     first, second = random_pose(generator), random_pose(generator)
     product = matrix(first) @ matrix(second)
-    np.testing.assert_allclose(matrix(_pose.chain(first, second)), product, atol=1e-12)
+    np.testing.assert_allclose(matrix(poses.chain(first, second)), product, atol=1e-12)
     inverse = np.linalg.inv(matrix(first))
-    np.testing.assert_allclose(matrix(_pose.inverse(first)), inverse, atol=1e-12)
+    np.testing.assert_allclose(matrix(poses.inverse(first)), inverse, atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_interpolation(angle: float, fraction: float) -> None:
     )
     last = (*generator.uniform(-2, 2, 3).tolist(), *turn.as_quat().tolist())
     expected = Slerp([0, 1], Rotation.from_quat([first[3:], last[3:]]))(fraction)
-    result = _pose.interpolate(first, last, fraction)
+    result = poses.interpolate(first, last, fraction)
     between = Rotation.from_quat(result[3:]).inv() * expected
     assert between.magnitude() < 1e-11
     # scipy's rotations have the length 1 whatever they are made of.
@@ -62,14 +62,14 @@ def test_opposite_quaternions_are_the_same_rotation() -> None:
     """Between q and -q nothing turns."""
     first = (0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 0.8)
     last = (1.0, 0.0, 0.0, -0.6, 0.0, 0.0, -0.8)
-    assert _pose.interpolate(first, last, 0.5) == pytest.approx((0.5, *first[1:]))
+    assert poses.interpolate(first, last, 0.5) == pytest.approx((0.5, *first[1:]))
 
 
 def test_normalized() -> None:
     """A quaternion nearly of length 1 is corrected; others are refused."""
-    assert _pose.normalized((1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.001)) == (
+    assert poses.normalized((1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.001)) == (
         1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0,
     )  # fmt: skip
-    assert _pose.normalized((0.0,) * 7) is None
-    assert _pose.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.01)) is None
-    assert _pose.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0)) is None
+    assert poses.normalized((0.0,) * 7) is None
+    assert poses.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.01)) is None
+    assert poses.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0)) is None

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._lazy import lazy_exports
+from ros_environment.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from tf2_py.buffer_core import BufferCore

@@ -6,9 +6,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tf2_py._caches import Link, Sample, StaticCache, TimeCache
-from tf2_py._pose import chain, IDENTITY, inverse, Pose
-from tf2_py._route import (
+from tf2_py.exceptions import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+)
+from tf2_py.poses import chain, IDENTITY, inverse, Pose
+from tf2_py.route import (
     empty_frame,
     extrapolation,
     find_route,
@@ -18,12 +23,7 @@ from tf2_py._route import (
     unconnected_frames,
     unknown_frame,
 )
-from tf2_py.exceptions import (
-    ConnectivityException,
-    ExtrapolationException,
-    InvalidArgumentException,
-    LookupException,
-)
+from tf2_py.samples import Link, Sample, StaticCache, TimeCache
 
 Cache = TimeCache | StaticCache
 

@@ -9,12 +9,12 @@ import threading
 from typing import Optional, TYPE_CHECKING
 
 from tf2_py import _listing
-from tf2_py._caches import Sample
 from tf2_py._frame_store import FrameStore
-from tf2_py._messages import nanoseconds, Reading, reading_of, transform_message
-from tf2_py._pose import chain, normalized, Pose
-from tf2_py._refusals import bad_quaternion, both_kinds, Complaints, old_data, refusal
 from tf2_py.exceptions import TransformException
+from tf2_py.messages import nanoseconds, Reading, reading_of, transform_message
+from tf2_py.poses import chain, normalized, Pose
+from tf2_py.refusals import bad_quaternion, both_kinds, Complaints, old_data, refusal
+from tf2_py.samples import Sample
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped

@@ -11,7 +11,7 @@ from geometry_msgs.msg import TransformStamped
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from tf2_msgs.msg import TFMessage
-from tf2_py._messages import reading_of
+from tf2_py.messages import reading_of
 from tf2_ros import Buffer, TransformListener
 from tf2_ros.transform_listener import TfReader
 

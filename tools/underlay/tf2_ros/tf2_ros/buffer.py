@@ -15,9 +15,9 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
-from tf2_py._messages import nanoseconds, Reading
-from tf2_py._refusals import Complaints
-from tf2_py._route import after_waiting
+from tf2_py.messages import nanoseconds, Reading
+from tf2_py.refusals import Complaints
+from tf2_py.route import after_waiting
 from tf2_ros._waiting import Waiting
 from tf2_ros.buffer_interface import BufferInterface
 

@@ -12,7 +12,7 @@ from rclpy.duration import Duration
 from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
 from tf2_py import TimeoutException, TransformException
-from tf2_py._messages import nanoseconds
+from tf2_py.messages import nanoseconds
 from tf2_ros._error_codes import raise_error
 from tf2_ros.buffer_interface import BufferInterface
 

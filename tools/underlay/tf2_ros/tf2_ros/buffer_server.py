@@ -91,7 +91,7 @@ class BufferServer:
         """Wait until the transform of a goal is available, it times out, or it is canceled."""
         from rclpy.clock import Clock, ClockType
         from rclpy.task import Future
-        from tf2_py._messages import nanoseconds
+        from tf2_py.messages import nanoseconds
 
         timeout_s = nanoseconds(goal.request.timeout) / 1e9
         if waiting.done() or timeout_s <= 0.0:

@@ -237,7 +237,7 @@ def wait_for_signal(timeout_s: float | None) -> bool:
 
 def _work(node: Node, stop: Future[None], failures: list[Exception]) -> None:
     """Spin a node and its companions; an error is stored for the main thread to raise."""
-    from tf2_ros._executing import make_executor, spin_until
+    from tf2_ros.executing import make_executor, spin_until
 
     executor = make_executor()
     for each in (node, *getattr(node, 'companions', ())):

@@ -19,7 +19,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 from tf2_msgs.msg import TFMessage
-from tf2_py._messages import Reading, reading_of
+from tf2_py.messages import Reading, reading_of
 from tf2_ros._qos import DYNAMIC, STATIC_LISTENER
 
 if TYPE_CHECKING:

@@ -81,13 +81,10 @@ def _broken_xml(error: BrokenXmlError, trail: Trail) -> str:
 
 def _missing_package(error: BaseException, trail: Trail) -> str:
     found = re.match(r"package '(.*?)' not found", str(error.args[0]))
+    from ros_environment.workspace import explain_missing_package
+
     package = found[1] if found else str(error.args[0])
-    text = f"there is no package '{package}'"
-    try:
-        from ros_environment.workspace import explain_missing_package
-    except ImportError:
-        return text
-    return _join(text, explain_missing_package(package))
+    return _join(f"there is no package '{package}'", explain_missing_package(package))
 
 
 def _missing_argument(error: BaseException, trail: Trail) -> str:
@@ -119,7 +116,7 @@ def _unreadable(error: OSError) -> str:
     path = os.path.normpath(error.filename or '')
     if not isinstance(error, FileNotFoundError):
         return f"'{path}' cannot be read: {error.strerror}"
-    from launch._checks.missing_file import explain_missing_file
+    from ros_environment.missing_file import explain_missing_file
 
     return explain_missing_file('file', path)
 

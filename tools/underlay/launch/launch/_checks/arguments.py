@@ -173,7 +173,7 @@ def unknown_keyword(owner: type, keyword: str) -> TypeError:
         The error, for the caller to raise.
 
     """
-    from launch._did_you_mean import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     known = {
         name

@@ -50,10 +50,7 @@ class BeforeStart:
 
     def run(self, context: LaunchContext) -> None:
         """
-        Run all checks before the first process is started.
-
-        Entities that wait for events are checked first, then the added checks run. Finally, it
-        warns about installed files that are older than their source.
+        Run the added checks, then warn about installed files that are older than their source.
 
         Parameters
         ----------
@@ -66,11 +63,6 @@ class BeforeStart:
             The error raised by a check.
 
         """
-        waiting = any(handler.describe()[1] for handler in context._event_handlers)
-        if self.resolves_programs and waiting:
-            from launch._checks.preflight import check_what_waits
-
-            check_what_waits(context)
         for check in self.checks:
             check(context)
         installed = [path for path in self.files if _SHARE in path]
@@ -107,15 +99,13 @@ def note_file(context: LaunchContext, path: str) -> None:
         The path of the file, as it is opened.
 
     """
-    if context._before_start is not None:
-        context._before_start.files[path] = None
+    if context.run.before_start is not None:
+        context.run.before_start.files[path] = None
 
 
 def warn_of_stale_files(paths: Iterable[str]) -> None:
     """
     Warn about installed files whose source is newer and differs.
-
-    Without the package `ros_environment` nothing is checked.
 
     Parameters
     ----------
@@ -123,11 +113,8 @@ def warn_of_stale_files(paths: Iterable[str]) -> None:
         The paths of the installed files.
 
     """
-    try:
-        from ros_environment.source_tree import StaleFiles
-    except ImportError:
-        return
     from launch.logging import get_logger
+    from ros_environment.source_tree import StaleFiles
 
     files = StaleFiles()
     for path in paths:
@@ -152,7 +139,7 @@ def note_files_of_command(context: LaunchContext, command: str) -> None:
         The command line, which is split as a shell does.
 
     """
-    if context._before_start is None or _SHARE not in command:
+    if context.run.before_start is None or _SHARE not in command:
         return
     import shlex
 

@@ -209,7 +209,7 @@ def note_place(
 
 
 def _runs_code_of_the_user(entity: LaunchDescriptionEntity) -> bool:
-    return getattr(entity, '_runs_code_of_the_user', False)
+    return getattr(entity, 'runs_code_of_the_user', False)
 
 
 def _place_of_entity(
@@ -218,8 +218,8 @@ def _place_of_entity(
     context: LaunchContext,
 ) -> Optional[FailurePlace]:
     """Return the origin of an entity; without a line, use the launch file being read."""
-    if call_site is None and context._open_files:
-        call_site = CallSite(context._open_files[-1].path, 0)
+    if call_site is None and context.run.include_stack:
+        call_site = CallSite(context.run.include_stack[-1].path, 0)
     if call_site is None:
         return None
     return FailurePlace(call_site, action, _includes(call_site, None, context))
@@ -231,7 +231,7 @@ def _includes(
     context: LaunchContext,
 ) -> tuple[CallSite, ...]:
     """Return the lines of the includes that led to a line, innermost first."""
-    lines = [including, *(each.call_site for each in reversed(context._open_files))]
+    lines = [including, *(each.call_site for each in reversed(context.run.include_stack))]
     return tuple(dict.fromkeys(each for each in lines if each is not None and each != call_site))
 
 

@@ -34,8 +34,8 @@ def check_what_waits(context: LaunchContext) -> None:
 
     """
     seen: set[int] = set()
-    for handler in tuple(context._event_handlers):
-        context._open_files = handler._open_files
+    for handler in tuple(context.run.event_handlers):
+        context.run.include_stack = handler.include_stack
         _check_all(handler.describe()[1], context, seen)
 
 
@@ -50,7 +50,7 @@ def waiting_entities(context: LaunchContext) -> list[LaunchDescriptionEntity]:
 
     """
     found: list[LaunchDescriptionEntity] = []
-    for handler in tuple(context._event_handlers):
+    for handler in tuple(context.run.event_handlers):
         for entity in handler.describe()[1]:
             _collect(entity, found)
     return found
@@ -76,7 +76,7 @@ def constant_text(parts: Any, context: LaunchContext) -> Optional[str]:
     from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
     substitutions = normalize_to_list_of_substitutions(parts)
-    if not all(each._is_constant for each in substitutions_in(substitutions)):
+    if not all(each.is_constant for each in substitutions_in(substitutions)):
         return None
     return perform_substitutions(context, substitutions)
 
@@ -99,11 +99,11 @@ def may_look_up(name: str, context: LaunchContext) -> bool:
     from launch.utilities import perform_substitutions
 
     waiting = waiting_entities(context)
-    if any(entity._runs_code_of_the_user for entity in waiting):
+    if any(entity.runs_code_of_the_user for entity in waiting):
         return True
     found = [each for each in substitutions_in(waiting) if isinstance(each, LaunchConfiguration)]
     return any(
-        not all(part._is_constant for part in substitutions_in(each.variable_name))
+        not all(part.is_constant for part in substitutions_in(each.variable_name))
         or perform_substitutions(context, each.variable_name) == name
         for each in found
     )
@@ -139,7 +139,7 @@ def _check_all(
             continue
         seen.add(id(entity))
         try:
-            entity._check_in_advance(context)
+            entity.check_in_advance(context)
             _check_all(_inside(entity), context, seen)
         except Exception as error:
             note_place(error, entity, context)

@@ -153,8 +153,8 @@ def explain_missing_program(
         The message, with a suggestion if there is one.
 
     """
-    from launch._checks.missing_file import explain_missing_file
-    from launch._did_you_mean import did_you_mean
+    from ros_environment.missing_file import explain_missing_file
+    from ros_environment.suggestions import did_you_mean
 
     if os.path.dirname(program):
         path = os.path.join(folder or '', program)
@@ -281,7 +281,7 @@ def _split_path(parts: Sequence[str]) -> str:
 
 def _missing_path(command: str, said: str) -> str:
     """Return advice on the first path that does not exist."""
-    from launch._checks.missing_file import explain_missing_file
+    from ros_environment.missing_file import explain_missing_file
 
     for word in shlex.split(command)[1:]:
         if word.startswith('/') and not os.path.exists(word):

@@ -11,7 +11,7 @@ from typing import Optional, TYPE_CHECKING
 from launch._supervision.family import detached_environment, Family, unmarked
 from launch._supervision.orphan_guard import OrphanGuard
 from launch._supervision.program import Child, execute, Program
-from launch._temporary_files import FileListening
+from ros_environment.temporary_files import FileListening
 
 if TYPE_CHECKING:
     from launch._supervision.prefork.prefork import Prefork

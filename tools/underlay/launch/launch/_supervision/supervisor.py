@@ -61,6 +61,7 @@ class Supervisor:
         self._action = action
         self._options = options
         self._context = context
+        self._run = context.run
         self._loop = loop
         self._details: dict[str, Any] = action.description_of_process()
         self._label: str = self._details['name']
@@ -144,14 +145,14 @@ class Supervisor:
 
     def _stop_waiting(self) -> None:
         """Speed up a pending start if the launch is shutting down."""
-        if self._context.is_shutdown and self._context._processes is not None:
-            self._context._processes.hurry()
+        if self._run.is_shutdown and self._run.processes is not None:
+            self._run.processes.hurry()
 
     # Life cycle of the process.
 
     async def _supervise(self) -> None:
         respawned = 0
-        while not self._context.is_shutdown and not self._stopped.done():
+        while not self._run.is_shutdown and not self._stopped.done():
             if not await self._run_once():
                 return
             if not self._options.may_respawn(respawned):
@@ -185,7 +186,7 @@ class Supervisor:
         return True
 
     def _is_detached_by_environment(self) -> bool:
-        processes = self._context._processes
+        processes = self._run.processes
         return processes is not None and processes.family.detaches(self._details['env'])
 
     async def _ends_before_launch(self, process: RunningProcess) -> bool:
@@ -198,23 +199,23 @@ class Supervisor:
         return False
 
     async def _start(self) -> Optional[RunningProcess]:
-        details = self._details
+        processes = self._run.processes
         try:
             process = await start_process(
                 self._program(),
-                spawn=self._context._spawn or execute,
+                spawn=execute if processes is None else processes.spawn,
                 emulate_tty=self._options.emulate_tty,
                 loop=self._loop,
                 on_output=self._on_output,
                 output_path=self._output_path(),
             )
         except (OSError, ValueError) as error:
-            self._logger.error('%s', explain_spawn_failure(details, error))
+            self._logger.error('%s', explain_spawn_failure(self._details, error))
             self._logger.debug('the traceback of it', exc_info=True)
-            self._note_failure(127)
+            self._run.note_failure(127)
             return None
-        if self._context._processes is not None and not self._is_detached:
-            self._context._processes.add(
+        if self._run.processes is not None and not self._is_detached:
+            self._run.processes.add(
                 process, float(self._options.sigterm_timeout), float(self._options.sigkill_timeout)
             )
         return process
@@ -269,22 +270,16 @@ class Supervisor:
             self._command_line(),
         )
         if self._escalation is None:
-            self._note_failure(self.return_code or 0)
+            self._run.note_failure(self.return_code or 0)
             self.output.show_last_lines()
-
-    def _note_failure(self, return_code: int) -> None:
-        """Record the exit status of the first failed process, as a shell reports it."""
-        if self._context._first_failure is None:
-            status = 128 - return_code if return_code < 0 else return_code
-            self._context._first_failure = status
 
     def _forget(self, process: RunningProcess) -> None:
         """Release a process that has exited; one that has not is left to the registry."""
         self._process = None
         if process.exited.done():
             process.close()
-            if self._context._processes is not None and not self._is_detached:
-                self._context._processes.remove(process)
+            if self._run.processes is not None and not self._is_detached:
+                self._run.processes.remove(process)
 
     def _on_output(self, stream: int, data: bytes) -> None:
         self.output.feed(stream, data)
@@ -305,12 +300,12 @@ class Supervisor:
             sigkill_timeout=self._options.sigkill_timeout,
         )
         self._escalation.begin(self._loop)
-        if self._context.is_shutdown and self._context._processes is not None:
-            self._context._processes.end_remainder()
+        if self._run.is_shutdown and self._run.processes is not None:
+            self._run.processes.end_remainder()
 
     def _send(self, process: RunningProcess, number: signal.Signals) -> None:
         """Send a signal to the group of a process, and to its descendants outside the group."""
-        processes = None if self._context.is_shutdown else self._context._processes
+        processes = None if self._run.is_shutdown else self._run.processes
         if processes is None:  # the launch itself terminates all processes outside the groups
             process.send_signal(number)
             return

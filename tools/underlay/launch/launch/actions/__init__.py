@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._lazy import also_found_at, lazy_exports
 from launch.action import Action
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.actions.append_environment_variable import AppendEnvironmentVariable
@@ -71,7 +71,7 @@ class PushLaunchConfigurations(Action):
             The launch context.
 
         """
-        context._push_launch_configurations()
+        context.launch_configurations.push_scope()
 
 
 class PopLaunchConfigurations(Action):
@@ -92,7 +92,7 @@ class PopLaunchConfigurations(Action):
             Nothing has been pushed.
 
         """
-        context._pop_launch_configurations()
+        context.launch_configurations.pop_scope()
 
 
 class PushEnvironment(Action):
@@ -108,7 +108,7 @@ class PushEnvironment(Action):
             The launch context.
 
         """
-        context._push_environment()
+        context.run.environment.push()
 
 
 class PopEnvironment(Action):
@@ -129,7 +129,7 @@ class PopEnvironment(Action):
             Nothing has been pushed.
 
         """
-        context._pop_environment()
+        context.run.environment.pop()
 
 
 class ResetEnvironment(Action):
@@ -145,7 +145,7 @@ class ResetEnvironment(Action):
             The launch context.
 
         """
-        context._reset_environment()
+        context.run.environment.reset()
 
 
 # ROS 2 Jazzy has a module for each of them; launch files import from those, too.

@@ -110,5 +110,4 @@ class AppendEnvironmentVariable(Action):
             values.insert(len(values) if before else 0, context.environment[name])
         separator = perform_substitutions(context, self.__separator)
         context.environment[name] = value = separator.join(values)
-        if context._observer is not None:
-            context._observer.note(name=name, value=value)
+        context.run.note(name=name, value=value)

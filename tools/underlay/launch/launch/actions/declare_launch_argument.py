@@ -134,7 +134,8 @@ class DeclareLaunchArgument(Action):
         choices: Optional[Container[str]] = self.__choices
         return choices
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the name of the argument."""
         return {'name': self.__name}
 
     def execute(self, context: LaunchContext) -> None:
@@ -164,10 +165,9 @@ class DeclareLaunchArgument(Action):
                 context, self.__default_value
             )
         value = context.launch_configurations[self.__name]
-        if context._observer is not None:
-            context._observer.note(name=self.__name, value=value, is_default=not is_given)
+        context.run.note(name=self.__name, value=value, is_default=not is_given)
         if self.__choices is not None and value not in self.__choices:
-            from launch._did_you_mean import did_you_mean
+            from ros_environment.suggestions import did_you_mean
 
             hint = did_you_mean(value, [str(choice) for choice in self.__choices])
             _fail(

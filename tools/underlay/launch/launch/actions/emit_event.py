@@ -55,8 +55,9 @@ class EmitEvent(Action):
 
         """
         context.emit_event_sync(self.__event)
-        if context._observer is not None:
-            context._observer.note(**self._outline())
+        if context.run.observer is not None:
+            context.run.observer.note(**self.outline())
 
-    def _outline(self) -> dict[str, Any]:
-        return self.__event._outline()
+    def outline(self) -> dict[str, Any]:
+        """Return the facts about the event."""
+        return self.__event.outline()

@@ -249,8 +249,8 @@ class ExecuteLocal(Action):
         self.prepare(context)
         self.__executed = True
         self._check_program(context)
-        if context._observer is not None:
-            self._tell(context._observer)
+        if context.run.observer is not None:
+            self._tell(context.run.observer)
         options = self._options().perform(context, self.name)
         if not context.is_shutdown:
             self._begin_supervision(context, options)
@@ -277,7 +277,7 @@ class ExecuteLocal(Action):
 
     def _check_program(self, context: LaunchContext) -> None:
         """Raise an error if the program does not exist and nothing has been started yet."""
-        checks = context._before_start
+        checks = context.run.before_start
         if checks is not None and checks.resolves_programs and not self.shell:
             from launch._checks.programs import require_program
 
@@ -293,18 +293,34 @@ class ExecuteLocal(Action):
             cwd=details['cwd'],
             environment=observer.environment_changes(details['env']),
         )
-        for event, entities in self._outline_of_waiting():
+        for event, entities in self.outline_of_waiting():
             observer.note_waiting(event, entities)
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the description of the command."""
         words = (' + '.join(part.describe() for part in word) for word in self.cmd)
         return {'command': list(words)}
 
-    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the entities that wait for the process to exit."""
         entities = self.get_sub_entities()
         return [('its end', entities)] if entities else []
 
-    def _check_in_advance(self, context: LaunchContext) -> None:
+    def check_in_advance(self, context: LaunchContext) -> None:
+        """
+        Raise an error if the program is already known and does not exist.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        ProgramNotFoundError
+            The program does not exist.
+
+        """
         from launch._checks.programs import require_later_program
 
         description = self.__process_description

@@ -124,7 +124,8 @@ class GroupAction(Action):
             start += [ResetEnvironment(), ResetLaunchConfigurations(self.__launch_configurations)]
         return [*start, *self.__actions, PopEnvironment(), PopLaunchConfigurations()]
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return whether the group is scoped, and whether it forwards configurations."""
         return {'scoped': self.__scoped, 'forwarding': self.__forwarding}
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
@@ -137,8 +138,8 @@ class GroupAction(Action):
             The launch context, in which `scoped` and `forwarding` are performed.
 
         """
-        if context._observer is not None:
-            context._observer.note(**self._outline())
+        if context.run.observer is not None:
+            context.run.observer.note(**self.outline())
         if not is_substitution(self.__scoped) and not is_substitution(self.__forwarding):
             return self.get_sub_entities()
         return self._around_actions(

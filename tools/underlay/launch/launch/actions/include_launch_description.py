@@ -109,13 +109,27 @@ class IncludeLaunchDescription(Action):
         description = self.__launch_description_source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 
-    def _check_in_advance(self, context: LaunchContext) -> None:
-        from launch._checks.missing_file import explain_missing_include
+    def check_in_advance(self, context: LaunchContext) -> None:
+        """
+        Raise an error if the file is already known and does not exist.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        FileNotFoundError
+            The file does not exist.
+
+        """
+        from launch._checks.missing_include import explain_missing_include
         from launch._checks.preflight import constant_text
 
-        path = constant_text(self.__launch_description_source._location_parts, context)
+        path = constant_text(self.__launch_description_source.location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):
-            reading = {each.path for each in context._open_files}
+            reading = {each.path for each in context.run.include_stack}
             raise FileNotFoundError(explain_missing_include(path, reading))
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
@@ -143,20 +157,19 @@ class IncludeLaunchDescription(Action):
             The file declares an argument that has no default and is not given.
 
         """
-        path = os.path.abspath(self.__launch_description_source._expand_location(context))
+        path = os.path.abspath(self.__launch_description_source.expand_location(context))
         file = open_file(context, path, self.call_site)
         description = self.__launch_description_source.get_launch_description(context)
         leave = enter_launch_file(context, file)
         self._check_required(description, context)
-        if context._observer is not None:
-            context._observer.note(path=path)
+        context.run.note(path=path)
         arguments = [_setting(name, value) for name, value in self.__launch_arguments]
         return [*arguments, description, leave]
 
     def _get_launch_file(self) -> str:
         """Return the path of the file as far as it is known; public code uses this method."""
         source = self.__launch_description_source
-        return os.path.abspath(source._location_in_advance() or source.location)
+        return os.path.abspath(source.location_in_advance() or source.location)
 
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
         """
@@ -170,7 +183,8 @@ class IncludeLaunchDescription(Action):
         """
         return [_text(name, context) for name, _ in self.__launch_arguments]
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the location of the file."""
         return {'path': self.__launch_description_source.location}
 
     def _check_required(self, description: LaunchDescription, context: LaunchContext) -> None:

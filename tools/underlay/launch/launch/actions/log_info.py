@@ -58,7 +58,8 @@ class LogInfo(Action):
         """Return the text as a list of substitutions."""
         return self.__msg
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the description of the text."""
         return {'text': ' + '.join(part.describe() for part in self.__msg)}
 
     def execute(self, context: LaunchContext) -> None:
@@ -75,5 +76,4 @@ class LogInfo(Action):
 
         text = perform_substitutions(context, self.__msg)
         get_logger('launch.user').info('%s', text)
-        if context._observer is not None:
-            context._observer.note(text=text)
+        context.run.note(text=text)

@@ -33,7 +33,7 @@ class OpaqueFunction(Action):
 
     """
 
-    _runs_code_of_the_user = True
+    runs_code_of_the_user = True
 
     def __init__(
         self,
@@ -52,7 +52,8 @@ class OpaqueFunction(Action):
         self.__args = tuple(args or ())
         self.__kwargs = dict(kwargs or {})
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the name of the function."""
         return {'function': getattr(self.__function, '__name__', repr(self.__function))}
 
     def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
@@ -75,13 +76,13 @@ class OpaqueFunction(Action):
             The function returns neither an iterable nor None.
 
         """
-        if context._observer is not None:
-            context._observer.note(**self._outline())
+        if context.run.observer is not None:
+            context.run.observer.note(**self.outline())
         result = self.__function(context, *self.__args, **self.__kwargs)
         if result is not None and not isinstance(result, Iterable):
             raise TypeError(
                 f"'{type(result).__name__}' object is not iterable: the function "
-                f"'{self._outline()['function']}' of an "
+                f"'{self.outline()['function']}' of an "
                 'OpaqueFunction must return a list of actions or None'
             )
         return result

@@ -47,12 +47,13 @@ class RegisterEventHandler(Action):
 
         """
         context.register_event_handler(self.__event_handler)
-        if context._observer is not None:
-            for event, entities in self._outline_of_waiting():
-                context._observer.note_waiting(event, entities)
+        if context.run.observer is not None:
+            for event, entities in self.outline_of_waiting():
+                context.run.observer.note_waiting(event, entities)
 
-    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        return [(self.__event_handler._awaited(), self.__event_handler.describe()[1])]
+    def outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the entities of the handler, with the event that they wait for."""
+        return [(self.__event_handler.describe_event(), self.__event_handler.describe()[1])]
 
     def describe_conditional_sub_entities(
         self,

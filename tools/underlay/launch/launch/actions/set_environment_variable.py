@@ -84,5 +84,4 @@ class SetEnvironmentVariable(Action):
         """
         name = perform_substitutions(context, self.__name)
         context.environment[name] = value = perform_substitutions(context, self.__value)
-        if context._observer is not None:
-            context._observer.note(name=name, value=value)
+        context.run.note(name=name, value=value)

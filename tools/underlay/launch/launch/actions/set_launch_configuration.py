@@ -85,5 +85,4 @@ class SetLaunchConfiguration(Action):
         name = perform_substitutions(context, self.__name)
         value = perform_substitutions(context, self.__value)
         context.launch_configurations[name] = value
-        if context._observer is not None:
-            context._observer.note(name=name, value=value)
+        context.run.note(name=name, value=value)

@@ -80,5 +80,4 @@ class Shutdown(Action):
             )
         reason = perform_substitutions(context, self.__reason)
         context.emit_event_sync(ShutdownEvent(reason=reason))
-        if context._observer is not None:
-            context._observer.note(reason=reason)
+        context.run.note(reason=reason)

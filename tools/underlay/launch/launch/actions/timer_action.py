@@ -113,7 +113,8 @@ class TimerAction(Action):
         """Return the actions, which wait for the timer."""
         return [(f'after {self.__period} second(s)', self.__actions)]
 
-    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the actions, which wait for the period to pass."""
         period = self.__period
         if isinstance(period, list):
             period = ' + '.join(part.describe() for part in period)
@@ -143,8 +144,8 @@ class TimerAction(Action):
         if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
             context.register_event_handler(OnShutdown(on_shutdown=lambda *_: self.cancel()))
         period_s = perform_typed_substitution(context, self.__period, float)
-        if context._observer is not None:
-            context._observer.note_waiting(f'{period_s} s to pass', self.__actions)
+        if context.run.observer is not None:
+            context.run.observer.note_waiting(f'{period_s} s to pass', self.__actions)
             return
         self.__timer = self._start(context, context.asyncio_loop, period_s)
 
@@ -240,7 +241,7 @@ class EnterScope(LaunchDescriptionEntity):
             The launch context.
 
         """
-        context._push_launch_configurations()
+        context.launch_configurations.push_scope()
         context.launch_configurations.clear()
         context.launch_configurations.update(self._configurations)
         event = context.get_locals_as_dict().get('event')
@@ -260,4 +261,4 @@ class LeaveScope(LaunchDescriptionEntity):
             The launch context.
 
         """
-        context._pop_launch_configurations()
+        context.launch_configurations.pop_scope()

@@ -70,5 +70,4 @@ class UnsetEnvironmentVariable(Action):
         """
         name = perform_substitutions(context, self.__name)
         context.environment.pop(name, None)
-        if context._observer is not None:
-            context._observer.note(name=name)
+        context.run.note(name=name)

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from typing import Optional, TYPE_CHECKING
 import warnings
 
-from launch._lazy import also_found_at, lazy_exports
 from launch.condition import Condition
 from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
 from launch.substitution import Substitution
@@ -16,6 +15,7 @@ from launch.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -65,8 +65,8 @@ def evaluate_condition_expression(
     """
     parts = list(expression)
     text = perform_substitutions(context, parts).strip().lower()
-    if context._observer is not None:
-        context._observer.expanded(text)
+    if context.run.observer is not None:
+        context.run.observer.expanded(text)
     if text in VALID_TRUE_EXPRESSIONS:
         return True
     if text in VALID_FALSE_EXPRESSIONS:
@@ -162,8 +162,8 @@ class LaunchConfigurationEquals(Condition):
 
     def _equals(self, context: LaunchContext) -> bool:
         value = context.launch_configurations.get(self._name)
-        if context._observer is not None:
-            context._observer.expanded('not set' if value is None else str(value))
+        if context.run.observer is not None:
+            context.run.observer.expanded('not set' if value is None else str(value))
         if self._expected is None or value is None:
             return value is None and self._expected is None
         return str(value) == perform_substitutions(context, self._expected)

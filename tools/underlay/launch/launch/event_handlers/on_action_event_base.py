@@ -78,7 +78,8 @@ class OnActionEventBase(BaseEventHandler):
         """Return a short human-readable description, and the entities that are visited."""
         return super().describe()[0], list(self.__actions_on_event)
 
-    def _awaited(self) -> str:
+    def describe_event(self) -> str:
+        """Return a description of the event that the handler waits for."""
         return f'{self.__target_event_cls.__name__} of {target_in_words(self.__action_matcher)}'
 
     def _is_meant(self, event: Event) -> bool:

@@ -43,7 +43,8 @@ class OnShutdown(BaseEventHandler):
         """Return a human-readable description of the accepted events."""
         return 'event is Shutdown'
 
-    def _awaited(self) -> str:
+    def describe_event(self) -> str:
+        """Return a description of the event that the handler waits for."""
         return 'the shutdown'
 
     def describe(self) -> tuple[str, list[Any]]:

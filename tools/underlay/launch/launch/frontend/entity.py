@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from itertools import count
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._did_you_mean import did_you_mean
 from launch.frontend.type_utils import check_is_list_entity
+from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
     from launch._checks.failures import CallSite

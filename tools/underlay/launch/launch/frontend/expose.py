@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, TYPE_CHECKING, TypeVar
 
-from launch._did_you_mean import did_you_mean
 from launch.frontend._known_names import (
     known_actions,
     known_substitutions,
     load,
     load_extensions,
 )
+from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
     from launch.action import Action

@@ -35,7 +35,7 @@ def get_launch_description_from_any_launch_file(
     """
     path = os.fspath(launch_file_path)
     if not os.path.isfile(path):
-        from launch._checks.missing_file import explain_missing_file
+        from ros_environment.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('launch file', path))
     extension = os.path.splitext(path)[1]

@@ -34,7 +34,7 @@ def get_launch_description_from_frontend_launch_file(
     """
     path = os.fspath(frontend_launch_file_path)
     if not os.path.isfile(path):
-        from launch._checks.missing_file import explain_missing_file
+        from ros_environment.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('launch file', path))
     root, reader = parser.load(path)

@@ -76,7 +76,7 @@ def get_launch_description_from_python_launch_file(
     """
     path = os.fspath(python_launch_file_path)
     if not os.path.isfile(path):
-        from launch._checks.missing_file import explain_missing_file
+        from ros_environment.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('launch file', path))
     try:
@@ -103,7 +103,7 @@ def _generate(path: str) -> LaunchDescription:
 
 def _without_function(path: str, module: ModuleType) -> str:
     """Format the error about a launch file without its function, with a suggestion."""
-    from launch._did_you_mean import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     functions = [name for name, value in vars(module).items() if isinstance(value, FunctionType)]
     text = f"launch file at '{path}' does not contain the required function '{_FUNCTION}()'"

@@ -12,7 +12,6 @@ import os
 import time
 from typing import Optional, TYPE_CHECKING
 
-from launch._lazy import lazy_exports
 from launch.logging._handlers import (
     log_formatter,
     LogFileHandler,
@@ -21,6 +20,7 @@ from launch.logging._handlers import (
     ScreenHandler,
 )
 from launch.logging._screen import screen
+from ros_environment.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from launch.logging._output import get_output_loggers

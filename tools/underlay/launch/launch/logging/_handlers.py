@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import codecs
 from collections.abc import Callable
 import logging
 import re
@@ -189,7 +188,7 @@ class _Stamped(logging.Formatter):
 def _formatter(text: str) -> logging.Formatter:
     """Create a brace-style formatter; backslash escapes are interpreted, {msg} is the message."""
     if '\\' in text:
-        text = codecs.decode(text, 'unicode_escape')
+        text = text.encode('latin-1', 'backslashreplace').decode('unicode_escape')
     text = re.sub(r'\{msg(?=[!:}])', '{message', text)
     return logging.Formatter(text, style='{', validate=False)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._lazy import also_found_at, lazy_exports
 from launch.substitution import SubstitutionFailure
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.substitutions.anon_name import AnonName

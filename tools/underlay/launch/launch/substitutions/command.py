@@ -78,7 +78,7 @@ class Command(Substitution):
         parts = [perform_substitutions(context, [part]) for part in self.__command]
         command = ''.join(parts)
         mode = perform_substitutions(context, self.__on_stderr)
-        if context._before_start is not None:
+        if context.run.before_start is not None:
             from launch._checks.before_start import note_files_of_command
 
             note_files_of_command(context, command)

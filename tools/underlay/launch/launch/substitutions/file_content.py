@@ -60,7 +60,7 @@ class FileContent(Substitution):
             with open(path, encoding='utf-8') as file:
                 return file.read()
         except FileNotFoundError as error:
-            from launch._checks.missing_file import explain_missing_file
+            from ros_environment.missing_file import explain_missing_file
 
             advice = explain_missing_file('file', path)
             raise SubstitutionFailure(f'File not found: {path}\n{advice}') from error

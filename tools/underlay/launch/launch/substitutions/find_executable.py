@@ -25,7 +25,7 @@ class FindExecutable(Substitution):
 
     """
 
-    _is_constant = True
+    is_constant = True
     frontend_required = ('name',)
 
     def __init__(self, *, name: SomeSubstitutionsType) -> None:

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._did_you_mean import did_you_mean
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

@@ -26,7 +26,7 @@ class PathJoinSubstitution(PathOperator):
 
     """
 
-    _is_constant = True
+    is_constant = True
 
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
         if isinstance(substitutions, (str, os.PathLike, Substitution)):

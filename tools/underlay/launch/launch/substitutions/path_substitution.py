@@ -24,7 +24,7 @@ class PathSubstitution(PathOperator):
 
     """
 
-    _is_constant = True
+    is_constant = True
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
         self.__path = normalize_to_list_of_substitutions(path)

@@ -27,7 +27,7 @@ class TextSubstitution(Substitution):
 
     """
 
-    _is_constant = True
+    is_constant = True
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):

@@ -11,11 +11,11 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._lazy import also_found_at, lazy_exports
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     import asyncio
@@ -172,7 +172,7 @@ def visit_into(
         An entity returns an object that is neither an action nor a launch description.
 
     """
-    observer = context._observer
+    observer = context.run.observer
     if observer is not None:
         observer.enter(entity)
     try:

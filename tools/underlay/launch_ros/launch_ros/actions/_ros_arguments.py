@@ -154,11 +154,11 @@ def parameter_arguments(parameters: Iterable[ParameterArgument]) -> list[str]:
 
 def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
     """Register the file for the check against node names, unless a process has started."""
-    if context._before_start is not None:
+    if context.run.before_start is not None:
         from launch_ros.utilities.parameter_file_check import ParameterFilesCheck
 
         note_file(context, path)
-        context._before_start.check_of_type(ParameterFilesCheck).add(path, names)
+        context.run.before_start.check_of_type(ParameterFilesCheck).add(path, names)
 
 
 def remap_pairs(context: LaunchContext, rules: Iterable[RemapRule]) -> list[tuple[str, str]]:

@@ -83,7 +83,7 @@ class LifecycleNode(Node):
 
         """
         entities = super().execute(context)
-        if not context.is_shutdown and context._observer is None:
+        if not context.is_shutdown and context.run.observer is None:
             from launch_ros.actions._lifecycle_link import LifecycleLink
             from launch_ros.ros_adapters import get_ros_adapter
 

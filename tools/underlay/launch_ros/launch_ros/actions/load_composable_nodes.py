@@ -121,9 +121,9 @@ class LoadComposableNodes(Action):
         for request in requests:
             if request.names.name is not None:
                 warn_of_same_names(context, request.names.name_in_root, name)
-        if context._observer is not None:
+        if context.run.observer is not None:
             nodes = [request.as_data() for request in requests]
-            context._observer.note(target_container=name, composable_nodes=nodes)
+            context.run.observer.note(target_container=name, composable_nodes=nodes)
         else:
             self._load(context, requests, name, process)
             self._load_after_respawn(context, requests, name)

@@ -238,7 +238,8 @@ class Node(ExecuteProcess):
         return self.__names
 
     @property
-    def _name_parts(self) -> Optional[list[Substitution]]:
+    def name_parts(self) -> Optional[list[Substitution]]:
+        """Return the given name as a list of substitutions, None without one."""
         return self.__name
 
     def _perform_substitutions(self, context: LaunchContext) -> NodeNames:
@@ -302,9 +303,10 @@ class Node(ExecuteProcess):
             remappings=dict(self.__expanded_remappings or ()),
         )
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the description of the command, and that of the node name."""
         name = None if self.__name is None else ' + '.join(sub.describe() for sub in self.__name)
-        return {**super()._outline(), 'node_name': name}
+        return {**super().outline(), 'node_name': name}
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """

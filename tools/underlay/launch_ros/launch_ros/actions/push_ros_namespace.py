@@ -89,8 +89,7 @@ class PushROSNamespace(Action):
                 f"[previous_namespace='{previous}', pushed_namespace='{pushed}']. {error}",
             ) from error
         context.launch_configurations['ros_namespace'] = namespace
-        if context._observer is not None:
-            context._observer.note(namespace=namespace)
+        context.run.note(namespace=namespace)
 
 
 PushRosNamespace = PushROSNamespace

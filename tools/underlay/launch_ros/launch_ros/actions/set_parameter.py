@@ -91,5 +91,4 @@ class SetParameter(Action):
         known = context.launch_configurations.get('global_params', [])
         added = evaluate_parameter_dict(context, self.__parameter)
         context.launch_configurations['global_params'] = [*known, *added.items()]
-        if context._observer is not None:
-            context._observer.note(parameters=added)
+        context.run.note(parameters=added)

@@ -55,7 +55,21 @@ class SetParametersFromFile(Action):
         kwargs['filename'] = parser.parse_substitution(entity.get_attr('filename'))
         return cls, kwargs
 
-    def _check_in_advance(self, context: LaunchContext) -> None:
+    def check_in_advance(self, context: LaunchContext) -> None:
+        """
+        Raise an error if the file is already known and does not exist.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        FileNotFoundError
+            The file does not exist.
+
+        """
         from launch._checks.preflight import constant_text
 
         path = constant_text(self.__filename, context)
@@ -81,13 +95,12 @@ class SetParametersFromFile(Action):
         _require(path)
         known = context.launch_configurations.get('global_params', [])
         context.launch_configurations['global_params'] = [*known, path]
-        if context._observer is not None:
-            context._observer.note(path=path)
+        context.run.note(path=path)
 
 
 def _require(path: str) -> None:
     """Raise an error if a parameter file does not exist."""
     if not os.path.isfile(path):
-        from launch._checks.missing_file import explain_missing_file
+        from ros_environment.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('parameter file', path))

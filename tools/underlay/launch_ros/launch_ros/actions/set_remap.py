@@ -88,5 +88,4 @@ class SetRemap(Action):
         )
         known = context.launch_configurations.get('ros_remaps', [])
         context.launch_configurations['ros_remaps'] = [*known, rule]
-        if context._observer is not None:
-            context._observer.note(source=rule[0], target=rule[1])
+        context.run.note(source=rule[0], target=rule[1])

@@ -84,7 +84,8 @@ class OnStateTransition(EventHandler):
             conditions.insert(0, f'event.action == {self.__target}')
         return ' and '.join(['event is StateTransition', *conditions])
 
-    def _awaited(self) -> str:
+    def describe_event(self) -> str:
+        """Return a description of the event that the handler waits for."""
         wanted = ''.join(
             f", {name.replace('_', ' ')} '{value}'" for name, value in self.__wanted.items()
         )

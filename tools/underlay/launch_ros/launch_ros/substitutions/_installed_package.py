@@ -40,8 +40,6 @@ def prefix_of(package_name: str) -> str:
 
 def _explain(package_name: str) -> str:
     """Explain a missing package from the workspace around the current directory."""
-    try:
-        from ros_environment.workspace import explain_missing_package
-    except ImportError:
-        return ''
-    return str(explain_missing_package(package_name))
+    from ros_environment.workspace import explain_missing_package
+
+    return explain_missing_package(package_name)

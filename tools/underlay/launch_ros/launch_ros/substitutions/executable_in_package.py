@@ -83,8 +83,6 @@ class ExecutableInPackage(FindPackagePrefix):
 
 def _explain(package: str, executable: str, prefix: str) -> str:
     """Explain a missing executable from the workspace around the current directory."""
-    try:
-        from ros_environment.workspace import explain_missing_executable
-    except ImportError:
-        return ''
-    return str(explain_missing_executable(package, executable, prefix))
+    from ros_environment.workspace import explain_missing_executable
+
+    return explain_missing_executable(package, executable, prefix)

@@ -23,7 +23,7 @@ class FindPackage(PathOperator):
 
     """
 
-    _is_constant = True
+    is_constant = True
     frontend_required: ClassVar[tuple[str, ...]] = ('package',)
 
     def __init__(self, package: SomeSubstitutionsType) -> None:

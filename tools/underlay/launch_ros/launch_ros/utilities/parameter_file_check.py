@@ -81,7 +81,7 @@ def _names_of_waiting_nodes(context: LaunchContext) -> Optional[set[_FullName]]:
     found: set[_FullName] = set()
     for entity in waiting_entities(context):
         if isinstance(entity, Node):
-            name = entity._name_parts and constant_text(entity._name_parts, context)
+            name = entity.name_parts and constant_text(entity.name_parts, context)
             if not name:
                 return None
             found.add((name, None))

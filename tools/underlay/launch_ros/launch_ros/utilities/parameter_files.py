@@ -8,9 +8,9 @@ import math
 import os
 from typing import Any
 
-from launch._temporary_files import is_temporary_file, write_temporary_file
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
+from ros_environment.temporary_files import is_temporary_file, write_temporary_file
 
 
 def is_parameter_file(path: str) -> bool:
@@ -25,7 +25,7 @@ def is_parameter_file(path: str) -> bool:
     """
     if os.path.isfile(path):
         return True
-    from launch._checks.missing_file import explain_missing_file
+    from ros_environment.missing_file import explain_missing_file
 
     logger = get_logger('launch_ros.actions.node')
     logger.warning('Parameter file path is not a file: %s', path)

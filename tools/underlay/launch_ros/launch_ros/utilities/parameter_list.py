@@ -230,7 +230,7 @@ def _load(path: str) -> Any:
         with open(path, encoding='utf-8') as file:
             return yaml.load(file, _loader()) or {}  # noqa: S506  (it is a SafeLoader)
     except FileNotFoundError as error:
-        from launch._checks.missing_file import explain_missing_file
+        from ros_environment.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('parameter file', path)) from error
     except yaml.YAMLError as error:

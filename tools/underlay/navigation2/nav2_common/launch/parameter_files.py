@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Optional
 
-from launch._temporary_files import write_temporary_file
 from launch.condition import Condition
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ros_environment.temporary_files import write_temporary_file
 import yaml
 
 __all__ = ['HasNodeParams', 'ReplaceString', 'RewrittenYaml']

@@ -140,8 +140,12 @@ class Child:
     def _hear(self) -> None:
         for line in self._process.stdout or ():
             try:
-                self.facts = {**self.facts, **json.loads(line)}
+                told = json.loads(line)
             except ValueError:
+                told = None
+            if isinstance(told, dict):
+                self.facts = {**self.facts, **told}
+            else:
                 self._lines.append(line)
 
     def _collect(self) -> None:

@@ -157,6 +157,17 @@ def test_malformed_messages(positions: list[float], complaint: str) -> None:
     assert complaint in joints.measured.complaint
 
 
+def test_good_message_does_not_hide_a_malformed_one() -> None:
+    """Of several publishers that are read at once, any may have made a mistake."""
+    states = JointStates()
+    states.take(['a', 'b'], [1.0], [], [], 1.0)
+    take(states, 1.0, c=1.0)
+    assert set(states.states) == {'a', 'b', 'c'}
+    assert '2 names but 1 positions' in states.complaint
+    states.take(['a', 'b'], [1.0, 2.0], [], [], 2.0)
+    assert states.states['b'].position == 2.0 and states.complaint == ''
+
+
 def test_names_are_no_html() -> None:
     """A name cannot bring anything into the page."""
     states = JointTable()

@@ -19,7 +19,7 @@ from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.latched import RecordedMessage
 from ros2bag.storage.metadata import Topic
 from ros2cli.node.direct import DirectNode
-from ros2cli.suggest import did_you_mean
+from ros_environment.suggestions import did_you_mean
 
 __all__ = ['play']
 

@@ -168,7 +168,7 @@ def _no_metadata_text(folder: str) -> str:
 
 
 def _missing_text(path: str) -> str:
-    from ros2cli.suggest import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     folder, name = os.path.split(os.path.abspath(path))
     known = os.listdir(folder) if os.path.isdir(folder) else []

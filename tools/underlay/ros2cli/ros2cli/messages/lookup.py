@@ -6,7 +6,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from ros2cli.suggest import did_you_mean
+from ros_environment.suggestions import did_you_mean
 
 KINDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
 EXAMPLES = {

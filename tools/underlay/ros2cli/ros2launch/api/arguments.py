@@ -62,7 +62,7 @@ def find_target(
 
 def _refuse_file(path: str) -> NoReturn:
     """Raise an error about a missing file."""
-    from launch._checks.missing_file import explain_missing_file
+    from ros_environment.missing_file import explain_missing_file
 
     lines = [explain_missing_file('launch file', path)]
     if not os.path.isabs(path) and not os.path.lexists(path):
@@ -267,15 +267,15 @@ def misspelt_argument_text(given: Iterable[str], declared: Iterable[str]) -> str
         The message, which suggests the closest name; '' if there is no such argument.
 
     """
-    from difflib import get_close_matches
+    from ros_environment.suggestions import closest_name
 
     known = list(declared)
     for name in given:
-        close = [] if name in known else get_close_matches(name, known, 1, SIMILARITY)
+        close = '' if name in known else closest_name(name, known, SIMILARITY)
         if close:
             return (
                 f"the launch file does not declare an argument '{name}'. "
-                f"Did you mean '{close[0]}'? Pass --allow-unknown-args if "
+                f"Did you mean '{close}'? Pass --allow-unknown-args if "
                 f"'{name}' is meant, or --show-args to see the arguments"
             )
     return ''

@@ -67,7 +67,7 @@ def launch_a_launch_file(
     service = make_service(launch_file_path, launch_file_arguments, LaunchOptions(**options))
     status: int = service.run()
     if strict_exit and status == 0:
-        return service.context._first_failure or 0
+        return service.context.run.first_failure or 0
     return status
 
 
@@ -110,8 +110,8 @@ def make_service(path: str, argument_texts: Sequence[str], options: LaunchOption
     service.include_launch_description(
         LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])
     )
-    service.context._scopes_location = options.scoped_location
-    before_start: Any = service.context._before_start
+    service.context.run.scopes_location = options.scoped_location
+    before_start: Any = service.context.run.before_start
     before_start.resolves_programs &= options.resolve_programs
     if options.check_names and arguments:
         _check_names([name for name, _ in arguments], source, before_start)

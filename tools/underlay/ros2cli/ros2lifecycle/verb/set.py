@@ -67,7 +67,7 @@ class SetVerb(VerbExtension):
 
 
 def _unknown_text(name: str, available: list[Any]) -> str:
-    from ros2cli.suggest import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     lines = ['Unknown transition requested, available ones are:']
     lines += [f'- {each.label} [{each.id}]' for each in available]

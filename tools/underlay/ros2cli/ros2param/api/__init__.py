@@ -188,7 +188,7 @@ def unknown_parameter_text(node_name: str, name: str, known: Collection[str]) ->
         The names of the node's parameters.
 
     """
-    from ros2cli.suggest import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     text = f"The node '{node_name}' has no parameter '{name}'."
     return f'{text} {did_you_mean(name, known)}'.rstrip()

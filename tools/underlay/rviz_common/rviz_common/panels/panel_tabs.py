@@ -35,11 +35,17 @@ class PanelTabs:
     entries
         The entries of the section `Panels` of the file.
 
+    Attributes
+    ----------
+    failures
+        The classes that cannot be imported, with the errors.
+
     """
 
     def __init__(self, context: Context, entries: Sequence[Mapping[str, Any]]) -> None:
         self._context = context
         self._logger = context.node.get_logger()
+        self.failures: dict[str, str] = {}
         self._entries: list[Panel | Mapping[str, Any]] = [self._made(entry) for entry in entries]
         has_tabs = not all(panel.IS_ALWAYS_VISIBLE for panel in self.panels)
         self._tabs: Any = context.gui.add_tab_group(order=TABS_ORDER) if has_tabs else None
@@ -105,7 +111,10 @@ class PanelTabs:
     def _made(self, entry: Mapping[str, Any]) -> Panel | Mapping[str, Any]:
         try:
             panel: Panel = load_plugin(PANELS, entry['Class'])(self._context, entry)
-        except (LookupError, ImportError):
+        except LookupError:
+            return entry
+        except ImportError as error:
+            self.failures[entry['Class']] = str(error)
             return entry
         return panel
 

@@ -204,9 +204,15 @@ class UnknownEntry(Entry):
     reason
         Why it cannot be shown, for the status.
 
+    Attributes
+    ----------
+    reason
+        The same.
+
     """
 
     def __init__(self, given: Mapping[str, Any], reason: str) -> None:
+        self.reason = reason
         self._given = copy.deepcopy(dict(given))
         self.class_name = str(given['Class'])
         self._first_name = self.name = str(given.get('Name') or self.class_name)

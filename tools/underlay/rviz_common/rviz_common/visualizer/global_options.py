@@ -125,7 +125,7 @@ def _tops(names: Iterable[str], parents: Mapping[str, str]) -> dict[str, str]:
 
 def _unknown(fixed: str, names: list[str]) -> str:
     """Report an unknown fixed frame, and list the known frames."""
-    from launch._did_you_mean import did_you_mean
+    from ros_environment.suggestions import did_you_mean
 
     meant = did_you_mean(fixed, names)
     listed = ', '.join(names[:SHOWN]) + (', ...' if len(names) > SHOWN else '')

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.config import Configuration, Place
@@ -36,9 +36,9 @@ def surprises(shown: Visualizer) -> Iterator[str]:
     source = shown.configuration.document.source
     view = shown.cameras.view
     yield from _about_displays(shown.configuration, shown.displays.children)
-    yield from _about_classes('tools', source, shown.tools.unknown)
-    yield from _about_classes('panels', source, shown.panels.unknown)
-    yield from _about_classes('views', source, [] if view.is_known else [view.class_name])
+    yield from _about_classes('tools', source, shown.tools.unknown, shown.tools.failures)
+    yield from _about_classes('panels', source, shown.panels.unknown, shown.panels.failures)
+    yield from _about_classes('views', source, [] if view.is_known else [view.class_name], {})
     for name in shown.options.unknown(UNUSED_OPTIONS):
         yield f"{source}: The global option '{name}' is not known. The file keeps it."
     yield from (f'{source}: Of the global options, {each}' for each in shown.options.refusals)
@@ -51,26 +51,29 @@ def surprises(shown: Visualizer) -> Iterator[str]:
 
 
 def _about_displays(configuration: Configuration, entries: list[Entry]) -> Iterator[str]:
-    """Yield a message for each unknown class, and for each display with unknown content."""
-    classes: dict[str, list[str]] = {}
+    """Yield a message for each reason to leave displays out, and for each unknown content."""
+    left_out: dict[str, list[str]] = {}
     document = configuration.document
     for place, entry in _placed(entries, DISPLAYS):
         if isinstance(entry, UnknownEntry):
             where = document.where(place)
-            classes.setdefault(entry.class_name, []).append(f"'{entry.name}' ({where})")
+            left_out.setdefault(entry.reason, []).append(f"'{entry.name}' ({where})")
         elif isinstance(entry, DisplayEntry):
             yield from _about_properties(document.where(place), entry)
-    for class_name, names in classes.items():
-        yield (
-            f"No package offers displays of the class '{class_name}': {', '.join(names)} left "
-            'out. The file keeps what it says.'
-        )
+    for reason, names in left_out.items():
+        yield f'{reason.rstrip(".")}: {", ".join(names)} left out. The file keeps what it says.'
 
 
-def _about_classes(what: str, source: str, classes: Iterable[str]) -> Iterator[str]:
-    """Yield a message for each unknown class of other entries."""
+def _about_classes(
+    what: str, source: str, classes: Iterable[str], failures: Mapping[str, str]
+) -> Iterator[str]:
+    """Yield a message for each class of other entries that is unknown or cannot be imported."""
     for name in dict.fromkeys(classes):
-        yield f"{source}: No package offers {what} of the class '{name}'. The file keeps it."
+        if name in failures:
+            reason = f"'{name}' cannot be used: {failures[name].rstrip('.')}"
+        else:
+            reason = f"No package offers {what} of the class '{name}'"
+        yield f'{source}: {reason}. The file keeps it.'
 
 
 def _about_properties(where: str, entry: DisplayEntry) -> Iterator[str]:

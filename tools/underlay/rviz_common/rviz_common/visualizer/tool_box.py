@@ -43,6 +43,8 @@ class ToolBox:
     ----------
     in_use
         The active tool, if any.
+    failures
+        The classes that cannot be imported, with the errors.
 
     """
 
@@ -53,6 +55,7 @@ class ToolBox:
         entries: Sequence[Mapping[str, Any]],
     ) -> None:
         self._logger = context.node.get_logger()
+        self.failures: dict[str, str] = {}
         self._entries: list[Tool | Mapping[str, Any]] = [
             self._made(context, f'{WORLD}/tools/{number}', entry)
             for number, entry in enumerate(entries)
@@ -108,7 +111,10 @@ class ToolBox:
     ) -> Tool | Mapping[str, Any]:
         try:
             tool: Tool = load_plugin(TOOLS, entry['Class'])(context, root, entry)
-        except (LookupError, ImportError):
+        except LookupError:
+            return entry
+        except ImportError as error:
+            self.failures[entry['Class']] = str(error)
             return entry
         return tool
 

@@ -15,8 +15,8 @@ from rviz_default_plugins.decoding.geometry import FARTHEST
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.tf_frames import Age, Ageing, FrameFilter, placed
 from rviz_default_plugins.tf_scene import FramesScene, FrameStyle, Segments
-from tf2_py._caches import Sample
-from tf2_py._pose import Pose
+from tf2_py.poses import Pose
+from tf2_py.samples import Sample
 
 __all__ = ['TF']
 

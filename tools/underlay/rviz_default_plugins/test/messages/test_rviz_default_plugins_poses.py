@@ -230,6 +230,29 @@ def test_last_paths_stay_where_they_were(message_stage):
     assert near(stage.at(display, '3').position, 3, 0, 0)
 
 
+def test_changed_property_keeps_old_messages(message_stage):
+    """They are redrawn where they are, though their transforms are no longer known."""
+    stage = message_stage
+    display = stage.listen(PointStamped, {'Radius': 0.5, 'History Length': 20})
+    for x in range(20):
+        stage.move('map', 'base', float(x))
+        message = PointMessage()
+        message.header.stamp.sec = x + 1
+        stage.tell(display, message, frame='base')
+    stage.buffer.clear()
+    stage.move('map', 'base', 20.0)
+    display.values['Radius'] = 0.25
+    display.on_change('Radius')
+    message = PointMessage()
+    message.header.stamp.sec = 21
+    stage.tell(display, message, frame='base')
+    drawn = [path for path in stage.drawn(display) if path.endswith('/point')]
+    assert len(drawn) == 20
+    assert {stage.at(display, path).radius for path in drawn} == {0.25}
+    assert near(stage.at(display, '2').position, 1, 0, 0)
+    assert near(stage.at(display, '21').position, 20, 0, 0)
+
+
 def test_message_waits_for_its_transform(message_stage):
     """What comes before its transform is drawn when that comes; other fixed frames move it."""
     stage = message_stage

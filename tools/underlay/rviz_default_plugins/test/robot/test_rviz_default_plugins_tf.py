@@ -11,7 +11,7 @@ import pytest
 from rviz_default_plugins.displays.tf import TF
 from rviz_default_plugins.tf_frames import Age, Ageing, FrameFilter, placed
 from stage import sentence, Stage
-from tf2_py._caches import Sample
+from tf2_py.samples import Sample
 
 TURNED = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import signal
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._lazy import also_found_at, lazy_exports
 from launch.event import Event
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.actions.execute_local import ExecuteLocal

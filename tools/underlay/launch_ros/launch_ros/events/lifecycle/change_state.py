@@ -60,9 +60,10 @@ class ChangeState(Event):
         self.__lifecycle_node_matcher = lifecycle_node_matcher
         self.__transition_id = transition_id
 
-    def _outline(self) -> dict[str, Any]:
+    def outline(self) -> dict[str, Any]:
+        """Return the facts about the event: its class and the transition."""
         transition = self.valid_transitions[self.__transition_id]
-        return {**super()._outline(), 'transition': transition}
+        return {**super().outline(), 'transition': transition}
 
     @property
     def lifecycle_node_matcher(self) -> Callable[[LifecycleNode], bool]:

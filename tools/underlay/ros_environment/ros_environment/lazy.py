@@ -85,7 +85,7 @@ def _unknown(package: str, name: str, known: Iterable[str]) -> str:
     text = f"module '{package}' has no attribute '{name}'"
     if name.startswith('_'):
         return text
-    from launch._did_you_mean import closest_name
+    from ros_environment.suggestions import closest_name
 
     close = closest_name(name, known)
     return text + (f". Did you mean: '{close}'?" if close else '')

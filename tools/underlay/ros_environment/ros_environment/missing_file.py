@@ -1,43 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Error messages for missing files, with suggestions."""
+"""Explain that a file does not exist, and suggest a similar one."""
 
 from __future__ import annotations
 
 from collections.abc import Container
 import os
 
-from launch._did_you_mean import did_you_mean
+from ros_environment.suggestions import did_you_mean
+from ros_environment.workspace import explain_uninstalled_file
 
 _LISTED = 12
-
-
-_RELATIVE = (
-    "A relative path is looked up from the current folder, '{folder}'. Beside this launch file "
-    'is $(dirname)/..., or ThisLaunchFileDir() in Python; in a package it is '
-    '$(find-pkg-share PACKAGE)/..., or FindPackageShare().'
-)
-
-
-def explain_missing_include(path: str, reading: Container[str]) -> str:
-    """
-    Explain that an included launch file does not exist.
-
-    Parameters
-    ----------
-    path
-        The path of the file, as requested.
-    reading
-        The absolute paths of the launch files being read, which are not suggested.
-
-    Returns
-    -------
-    str
-        The lines of the message; for a relative path they state where it is looked up.
-
-    """
-    text = explain_missing_file('launch file', path, reading)
-    relative = '' if os.path.isabs(path) else _RELATIVE.format(folder=os.getcwd())
-    return '\n'.join(filter(None, [text, relative]))
 
 
 def explain_missing_file(what: str, path: str, but: Container[str] = ()) -> str:
@@ -60,7 +32,7 @@ def explain_missing_file(what: str, path: str, but: Container[str] = ()) -> str:
         the source of an installed package has the file.
 
     """
-    return '\n'.join(filter(None, [_sentence(what, path, but), _source_of(path)]))
+    return '\n'.join(filter(None, [_sentence(what, path, but), explain_uninstalled_file(path)]))
 
 
 def _sentence(what: str, path: str, but: Container[str]) -> str:
@@ -96,15 +68,6 @@ def _closest_folder(folder: str) -> str:
     there = os.listdir(above) if os.path.isdir(above) else []
     hint = '' if name in there else did_you_mean(name, there)
     return f'. {hint}' if hint else ''
-
-
-def _source_of(path: str) -> str:
-    """Return advice if the file exists only in the source of an installed package."""
-    try:
-        from ros_environment.workspace import explain_uninstalled_file
-    except ModuleNotFoundError:
-        return ''
-    return explain_uninstalled_file(path)
 
 
 def _listing(names: list[str]) -> str:

@@ -7,7 +7,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tf2_py._pose import interpolate, Pose
+from tf2_py.poses import interpolate, Pose
 
 
 class Sample(NamedTuple):

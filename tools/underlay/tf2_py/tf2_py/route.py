@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 from ros_environment.suggestions import did_you_mean
-from tf2_py._caches import Gap
 from tf2_py.exceptions import LookupException
+from tf2_py.samples import Gap
 
 _MAX_LINKS = 1000
 

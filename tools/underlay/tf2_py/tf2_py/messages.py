@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
-from tf2_py._pose import Pose
+from tf2_py.poses import Pose
 
 _NS_PER_S = 10**9
 Reading = tuple[str, str, int, Pose]

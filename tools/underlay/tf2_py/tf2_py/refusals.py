@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import time
 
-from tf2_py._pose import is_finite, Pose
+from tf2_py.poses import is_finite, Pose
 
 _SILENCE_S = 10.0
 

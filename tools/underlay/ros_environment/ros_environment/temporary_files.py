@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Temporary files for the processes of a launch, removed when it ends."""
+"""Temporary files for other processes, removed with the last listener or at exit."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class FileListening:
 
 def write_temporary_file(prefix: str, text: str) -> str:
     """
-    Write a temporary file, which is removed when the launch ends.
+    Write a temporary file, which is removed with the last listener or at exit.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ from __future__ import annotations
 import random
 
 import pytest
-from tf2_py._caches import Gap, Sample, StaticCache, TimeCache
+from tf2_py.samples import Gap, Sample, StaticCache, TimeCache
 
 S = 10**9
 

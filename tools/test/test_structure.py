@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of how the packages depend on each other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import figures  # tools/reference is on the path here
+import pytest
+
+PACKAGES = figures.packages()
+# Packages of one product, which may share what is private to it.
+LAUNCH = {
+    'launch',
+    'launch_pytest',
+    'launch_ros',
+    'launch_testing',
+    'launch_testing_ros',
+    'launch_xml',
+    'launch_yaml',
+    'ros2launch',
+}
+
+
+def private_imports(folder: Path) -> list[str]:
+    """Return what a package imports of the private parts of others, outside of launch."""
+    own = {path.name for path in folder.iterdir()}
+    found = figures.private_imports(figures.modules(folder), own)
+    return [each for each in found if not is_within_launch(each)]
+
+
+def is_within_launch(private_import: str) -> bool:
+    """Return whether `module: what it imports` stays within launch."""
+    return {name.partition('.')[0] for name in private_import.split(': ')} <= LAUNCH
+
+
+@pytest.mark.parametrize('package', PACKAGES)
+def test_what_is_private_stays_in_its_package(package: str) -> None:
+    """No package imports a private module of another one."""
+    assert private_imports(PACKAGES[package]) == []
+
+
+@pytest.mark.parametrize(
+    ('line', 'found'),
+    [
+        ('from tf2_py._frame_store import FrameStore', ['launch: tf2_py._frame_store.FrameStore']),
+        ('from tf2_py import _frame_store', ['launch: tf2_py._frame_store']),
+        ('import tf2_py._frame_store', ['launch: tf2_py._frame_store']),
+        ('def late(): import tf2_py._frame_store', ['launch: tf2_py._frame_store']),
+        ('from tf2_py import __doc__, BufferCore', []),
+        ('from launch_ros.actions._ros_arguments import RosArguments', []),
+        ('from launch._dry_run import rehearse', []),
+        ('from concurrent.futures._base import Future', []),
+    ],
+)
+def test_private_imports_are_seen(tmp_path: Path, line: str, found: list[str]) -> None:
+    """Each way of importing counts, but not the standard library or within launch."""
+    (tmp_path / 'launch.py').write_text(f'{line}\n')
+    assert private_imports(tmp_path) == found
