@@ -14,7 +14,7 @@ from humanoid_common.testing.waiting import WaitedInVainError
 from humanoid_control.walking.planar import PlanarPose
 
 __all__ = [
-    'AS_ASKED', 'EXPLAINED', 'WRONG', 'Check', 'Play', 'Scene', 'Story', 'stays', 'tell_all',
+    'AS_ASKED', 'EXPLAINED', 'WRONG', 'Check', 'CheckInput', 'Play', 'Story', 'stays', 'tell_all',
 ]  # fmt: skip
 
 AS_ASKED, EXPLAINED, WRONG = 'as asked', 'explained', 'WRONG'
@@ -22,7 +22,7 @@ _ANSWER_S, _PLAN_S = 60.0, 3.0
 
 
 @dataclass
-class Scene:
+class CheckInput:
     """The input of a check: the robot, and its true pose before the command."""
 
     told: ToldRobot
@@ -46,7 +46,7 @@ class Scene:
         return way * complex(math.cos(self.before.yaw_rad), -math.sin(self.before.yaw_rad))
 
 
-Check = Callable[[Scene], bool]
+Check = Callable[[CheckInput], bool]
 Play = Callable[[ToldRobot], None]
 
 
@@ -116,7 +116,7 @@ def tell_all(told: ToldRobot, stories: Sequence[Story], capsys: Any) -> list[str
 def _tell(told: ToldRobot, story: Story) -> str:
     """Run a story, and return its result."""
     told.forget()
-    scene = Scene(told, told.robot.pose)
+    scene = CheckInput(told, told.robot.pose)
     try:
         if story.wav:
             told.speak(story.wav)

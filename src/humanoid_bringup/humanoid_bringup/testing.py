@@ -15,8 +15,8 @@ from humanoid_common.testing.ros import RosSandbox
 from humanoid_common.testing.waiting import WaitedInVainError
 from humanoid_interfaces.srv import MakePlan
 from humanoid_perception.places import load_places, places_path
-from humanoid_simulation.testing.entities import Entities
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import Bool, String
 from voice_control.audio import chunks, RATE_HZ, read_wav
@@ -62,7 +62,7 @@ class ToldRobot:
             _PIECE_S, self._play, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
         self._player.cancel()
-        self.robot, self.entities = SimulatedRobot(ros), Entities(ros)
+        self.robot, self.entities = RobotClient(ros), EntityClient(ros)
         path = places_path('apartment')
         assert path is not None
         self.places = load_places(path)

@@ -10,9 +10,9 @@ from pathlib import Path
 from humanoid_bringup.stories import (
     AS_ASKED,
     Check,
+    CheckInput,
     EXPLAINED,
     Play,
-    Scene,
     stays,
     Story,
     tell_all,
@@ -39,7 +39,7 @@ def is_held(told: ToldRobot, name: str) -> bool:
     return z > 0.6 and abs(complex(x, y) - told.robot.pose.position_m) < 0.8
 
 
-def is_upright_on(scene: Scene, name: str, surface: str) -> bool:
+def is_upright_on(scene: CheckInput, name: str, surface: str) -> bool:
     """Whether a thing truly stands on a surface, upright."""
     x, y, z = scene.told.entities.position_m(name)
     bottom_m = z - 0.5 * THINGS[name].box_m[2]
@@ -70,7 +70,7 @@ def tidied(surface: str, moved: Sequence[str], left: str) -> Check:
 def lies_in(name: str, container: str) -> Check:
     """Check that a thing truly has fallen into a container."""
 
-    def check(scene: Scene) -> bool:
+    def check(scene: CheckInput) -> bool:
         x, y, z = scene.told.entities.position_m(name)
         places = scene.told.places.surfaces
         rim = next(each for each in places if each.name == container)

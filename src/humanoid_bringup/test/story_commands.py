@@ -11,9 +11,9 @@ import re
 from humanoid_bringup.stories import (
     AS_ASKED,
     Check,
+    CheckInput,
     EXPLAINED,
     Play,
-    Scene,
     stays,
     Story,
     tell_all,
@@ -33,20 +33,20 @@ LEAST = 17
 pytestmark = pytest.mark.timeout(3600)
 
 
-def tells(scene: Scene, at_least: int, surface: str) -> bool:
+def tells(scene: CheckInput, at_least: int, surface: str) -> bool:
     """Whether what was said names so many things that stand there, and nothing else."""
     named = {name for name in THINGS if re.search(rf'\b{name}\b', scene.said)}
     there = {name for name, thing in THINGS.items() if surface_of(scene, thing) == surface}
     return len(named) >= at_least and named <= there
 
 
-def surface_of(scene: Scene, thing: Thing) -> str:
+def surface_of(scene: CheckInput, thing: Thing) -> str:
     """Return the name of what a thing stands on."""
     x, y, z = thing.position_m
     return scene.told.places.surface_at(x, y, z - 0.5 * thing.box_m[2])
 
 
-def looks_at(scene: Scene, name: str) -> bool:
+def looks_at(scene: CheckInput, name: str) -> bool:
     """Whether the head is truly turned towards a thing."""
     pose, joints = scene.told.robot.pose, scene.told.robot.topics.positions_rad
     x, y, _ = THINGS[name].position_m

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 from ament_index_python.packages import get_package_share_directory
 from humanoid_control.joint_controller import JointControllerParameters
-from humanoid_control.sine_motion import Swing
+from humanoid_control.sine_motion import Sinusoid
 import pytest
 import xacro
 
@@ -22,7 +22,7 @@ def _robot() -> ElementTree.Element:
 
 
 @pytest.mark.parametrize('swing', JointControllerParameters().motion.swings)
-def test_default_motion_within_the_limits(robot: ElementTree.Element, swing: Swing) -> None:
+def test_default_motion_within_the_limits(robot: ElementTree.Element, swing: Sinusoid) -> None:
     """Every joint that is moved exists, and reaches and follows its amplitude."""
     limit = robot.find(f"joint[@name='{swing.joint}']/limit")
     assert limit is not None

@@ -13,7 +13,7 @@ from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.processes import is_alive, RunningProgram
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_common.testing.waiting import wait_until
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 import pytest
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
@@ -42,7 +42,7 @@ def processes(bringup: RunningProgram) -> dict[str, int]:
 
 def test_it_stands_on_without_the_others(ros: RosSandbox, bringup: RunningProgram) -> None:
     """Neither what shows the robot nor what moves its arms keeps it on its feet."""
-    robot = SimulatedRobot(ros)
+    robot = RobotClient(ros)
     robot.wait(1.0)
     for name in ('rviz2', 'robot_state_publisher', 'joint_controller'):
         pid = processes(bringup)[name]
@@ -54,7 +54,7 @@ def test_it_stands_on_without_the_others(ros: RosSandbox, bringup: RunningProgra
 
 def test_without_the_simulator_all_ends(ros: RosSandbox, bringup: RunningProgram) -> None:
     """The launch says what is gone, and ends what is left."""
-    SimulatedRobot(ros)
+    RobotClient(ros)
     started = processes(bringup)
     os.kill(started['simulator'], signal.SIGKILL)
     report = bringup.wait_for_exit(PATIENCE_S)

@@ -17,7 +17,7 @@ from humanoid_interfaces.action import ScanRoom
 from humanoid_interfaces.msg import RememberedObject
 from humanoid_interfaces.srv import FindObjects
 from humanoid_simulation.scene import load_scene
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 import pytest
 from rclpy.action import ActionClient
 from simulation_interfaces.srv import GetEntityState, SetEntityState
@@ -32,7 +32,7 @@ class SeeingRobot:
 
     def __init__(self, ros: RosSandbox) -> None:
         self._ros = ros
-        self._robot = SimulatedRobot(ros)
+        self._robot = RobotClient(ros)
         self._node = ros.observer()
         self._robot.wait(1.0)
         self._turn_round()

@@ -11,14 +11,14 @@ from rclpy.action.client import ClientGoalHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.task import Future
 
-__all__ = ['GoalResult', 'cancel_goal']
+__all__ = ['ResultRequest', 'cancel_goal']
 
 _PERIOD_S = 5.0
 
 
-class GoalResult:
+class ResultRequest:
     """
-    Result of an accepted goal, which is requested again from time to time.
+    Request for the result of an accepted goal, which is repeated from time to time.
 
     A client was seen to wait for minutes after its goal had succeeded, for an unknown reason.
     Another request costs little, and the first response counts.

@@ -10,7 +10,7 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
-from humanoid_common.client_goals import cancel_goal, GoalResult
+from humanoid_common.client_goals import cancel_goal, ResultRequest
 from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
 from humanoid_common.single_goal import GoalAborted
 from rclpy.action import ActionClient
@@ -89,7 +89,7 @@ class JointMover:
         )
         self._sent: Any = None
         self._handle: Any = None
-        self._end: GoalResult | None = None
+        self._end: ResultRequest | None = None
 
     @property
     def is_ready(self) -> bool:
@@ -131,7 +131,7 @@ class JointMover:
             if sent is self._sent:
                 self._handle = handle
                 if handle.accepted:
-                    self._end = GoalResult(handle)
+                    self._end = ResultRequest(handle)
             else:
                 cancel_goal(sent)
 

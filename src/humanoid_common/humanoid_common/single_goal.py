@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import traceback
 from typing import Any
 
-from humanoid_common.client_goals import cancel_goal, GoalResult
+from humanoid_common.client_goals import cancel_goal, ResultRequest
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.clock import Clock, ClockType
@@ -170,7 +170,7 @@ class RunningGoal:
             handle = sent.result()
             if not handle.accepted:
                 raise GoalAborted(code, f"'{action}' rejected a goal: its log says why.")
-            end = GoalResult(handle)
+            end = ResultRequest(handle)
             while not end.done():
                 await self.tick()
                 check()

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_common.client_goals import GoalResult
+from humanoid_common.client_goals import ResultRequest
 import pytest
 from rclpy.task import Future
 
@@ -25,7 +25,7 @@ class Handle:
 def test_any_answer_will_do(answered: int) -> None:
     """Also one to an earlier request, and the first one is not asked for twice at once."""
     handle, clock_s = Handle(), [0.0]
-    end = GoalResult(handle, lambda: clock_s[0])
+    end = ResultRequest(handle, lambda: clock_s[0])
     for clock_s[0] in (0.1, 4.9, 5.1, 5.2, 10.0, 10.3):
         assert not end.done()
     assert len(handle.answers) == 3

@@ -15,7 +15,7 @@ from humanoid_common.periodic import PeriodicTimer
 from humanoid_common.qos import COMMAND
 from humanoid_common.running import run_node
 from humanoid_control.emergency_stop import StopListener
-from humanoid_control.sine_motion import JointCommand, Motion, motion_of, StoppableMotion
+from humanoid_control.sine_motion import JointCommand, motion_of, SineMotion, StoppableMotion
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
@@ -63,7 +63,7 @@ class JointControllerParameters:
             self._check_length(name, len(getattr(self, name)))
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> SineMotion:
         """Return the motion that the parameters describe."""
         return motion_of(self.joints, self.amplitudes_rad, self.frequencies_rad_s, self.phases_rad)
 

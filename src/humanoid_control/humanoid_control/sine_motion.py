@@ -12,7 +12,7 @@ RESUME_S = 2.0
 
 
 @dataclass(frozen=True)
-class Swing:
+class Sinusoid:
     """
     Sinusoidal motion of one joint: amplitude times the sine of a growing angle.
 
@@ -50,7 +50,7 @@ class Swing:
         """
         return self.amplitude_rad * self.frequency_rad_s * math.cos(self._angle_rad(now_s))
 
-    def followed_by(self, successor: Swing, now_s: float) -> Swing:
+    def followed_by(self, successor: Sinusoid, now_s: float) -> Sinusoid:
         """
         Switch to another swing with a continuous angle.
 
@@ -65,7 +65,7 @@ class Swing:
 
         Returns
         -------
-        Swing
+        Sinusoid
             The successor, started at the angle that this swing has reached.
 
         """
@@ -78,10 +78,10 @@ class Swing:
 
 
 @dataclass(frozen=True)
-class Motion:
+class SineMotion:
     """The sinusoidal motion of several joints."""
 
-    swings: tuple[Swing, ...]
+    swings: tuple[Sinusoid, ...]
 
     @property
     def joints(self) -> list[str]:
@@ -112,9 +112,9 @@ class Motion:
         """
         return [swing.velocity_rad_s(now_s) for swing in self.swings]
 
-    def followed_by(self, successor: Motion, now_s: float) -> Motion:
+    def followed_by(self, successor: SineMotion, now_s: float) -> SineMotion:
         """
-        Switch to another motion; see `Swing.followed_by` for joints that are in both.
+        Switch to another motion; see `Sinusoid.followed_by` for joints that are in both.
 
         Parameters
         ----------
@@ -125,12 +125,12 @@ class Motion:
 
         Returns
         -------
-        Motion
+        SineMotion
             The motion from then on, of the joints of the successor.
 
         """
         before = {swing.joint: swing for swing in self.swings}
-        return Motion(
+        return SineMotion(
             tuple(
                 before[swing.joint].followed_by(swing, now_s) if swing.joint in before else swing
                 for swing in successor.swings
@@ -143,7 +143,7 @@ def motion_of(
     amplitudes_rad: Sequence[float],
     frequencies_rad_s: Sequence[float],
     phases_rad: Sequence[float],
-) -> Motion:
+) -> SineMotion:
     """
     Build a motion from lists with one element per joint.
 
@@ -159,9 +159,9 @@ def motion_of(
         Phases at time zero.
 
     """
-    return Motion(
+    return SineMotion(
         tuple(
-            Swing(*columns)
+            Sinusoid(*columns)
             for columns in zip(joints, amplitudes_rad, frequencies_rad_s, phases_rad)
         )
     )
@@ -180,7 +180,7 @@ class JointCommand:
         return replace(self, velocities_rad_s=[0.0] * len(self.joints))
 
 
-def command_of(motion: Motion, now_s: float) -> JointCommand:
+def command_of(motion: SineMotion, now_s: float) -> JointCommand:
     """
     Sample the positions and velocities of a motion at a time.
 
@@ -209,7 +209,7 @@ class StoppableMotion:
 
     """
 
-    def __init__(self, motion: Motion) -> None:
+    def __init__(self, motion: SineMotion) -> None:
         self._motion = motion
         self._behind_s = 0.0
         self._last: JointCommand | None = None
@@ -241,14 +241,14 @@ class StoppableMotion:
             self._last = self._blended(command_of(self._motion, now_s - self._behind_s), now_s)
         return self._last
 
-    def change(self, motion: Motion, now_s: float) -> None:
+    def change(self, motion: SineMotion, now_s: float) -> None:
         """
         Switch to another motion; joints that are held stay where they are.
 
         Parameters
         ----------
         motion
-            The motion to switch to, as in `Motion.followed_by`.
+            The motion to switch to, as in `SineMotion.followed_by`.
         now_s
             Time of the clock that the motion follows.
 

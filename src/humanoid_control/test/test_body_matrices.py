@@ -8,9 +8,9 @@ from typing import Any
 
 from humanoid_control.dynamics import BodyModel
 from humanoid_control.dynamics.body_matrices import axial, BodyMatrices, ForwardKinematics
-from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_description.kinematics import poses
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_rpy
 import numpy as np
 import pytest
 

@@ -7,8 +7,8 @@ import math
 from typing import Any
 
 from humanoid_control.dynamics import BodyModel, BodyState
-from humanoid_control.dynamics.rotations import exp, from_rpy
 from humanoid_description.robot import Body, Joint, Link, Robot
+from humanoid_description.rotations import exp, from_rpy
 import numpy as np
 import pytest
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from humanoid_control.dynamics import BodyModel
-from humanoid_control.dynamics.rotations import from_quaternion
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_quaternion
 import mujoco
 import numpy as np
 import pytest

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.dynamics import Frame, Twist
-from humanoid_control.dynamics.rotations import exp, from_rpy, log
+from humanoid_description.rotations import exp, from_rpy, log
 import numpy as np
 import pytest
 

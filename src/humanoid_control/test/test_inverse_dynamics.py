@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_control.dynamics import BodyState
-from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.foothold_adaptation import footing_below
 from humanoid_control.walking.footing import Footing, Loads, loads_for
 from humanoid_control.walking.inverse_dynamics import ground_efforts, GroundReaction, hip_efforts
@@ -19,6 +18,7 @@ from humanoid_control.walking.support_polygon import FootShape, SupportPolygon
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_rpy
 import numpy as np
 import pytest
 

@@ -15,9 +15,9 @@ from humanoid_control.dynamics import (
     LegGeometry,
     Twist,
 )
-from humanoid_control.dynamics.rotations import exp, from_rpy
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import exp, from_rpy
 import numpy as np
 import pytest
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 
-from humanoid_control.walking.obstacle_guard import Contact, LegInAir, ObstacleGuard
+from humanoid_control.walking.obstacle_guard import ExternalForces, LegInAir, ObstacleGuard
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT
@@ -39,12 +39,14 @@ class Walk:
     ) -> VelocityCommand:
         """Let a force act for some time; return the velocity that is allowed then."""
         for _ in range(round(time_s / TICK_S)):
-            self.meet(Contact(force_n), wanted, error_m)
+            self.meet(ExternalForces(force_n), wanted, error_m)
             moved_m = TICK_S * self.guard.allowed(wanted, self.body.yaw_rad).linear_m_s
             self.body = self.body.moved(moved_m)
         return self.guard.allowed(wanted, self.body.yaw_rad)
 
-    def meet(self, contact: Contact, wanted: VelocityCommand = AHEAD, error_m: Point = 0j) -> bool:
+    def meet(
+        self, contact: ExternalForces, wanted: VelocityCommand = AHEAD, error_m: Point = 0j
+    ) -> bool:
         """Feel something at a tick; return whether it is taken for something new in the way."""
         allowed, stands = self.guard.allowed(wanted, self.body.yaw_rad), (self.body, self.body)
         going = allowed if allowed.linear_m_s else wanted
@@ -113,9 +115,9 @@ def test_who_lets_go_may_try_again() -> None:
     assert walk.feel(0j, 0.1) == AHEAD
 
 
-def leg(push_nm: Point, side: int = LEFT) -> Contact:
+def leg(push_nm: Point, side: int = LEFT) -> ExternalForces:
     """Return what is felt with a leg in the air whose foot is a little ahead."""
-    return Contact(leg=LegInAir(side, push_nm, 1.1 + 2.1j))
+    return ExternalForces(leg=LegInAir(side, push_nm, 1.1 + 2.1j))
 
 
 def test_a_leg_that_is_stopped_is_enough() -> None:
@@ -151,9 +153,12 @@ def test_a_leg_is_stopped_once() -> None:
 def test_an_arm_feels_a_thing_in_the_way() -> None:
     """One that is pushed back is enough; one that is pushed forward or hardly is not."""
     arm_nm = 1.1 * P.obstacles.arm_touch_nm
-    for contact in (Contact(arms_nm=(0j, arm_nm + 0j)), Contact(arms_nm=(-0.5 * arm_nm + 0j,))):
+    for contact in (
+        ExternalForces(arms_nm=(0j, arm_nm + 0j)),
+        ExternalForces(arms_nm=(-0.5 * arm_nm + 0j,)),
+    ):
         assert not Walk().meet(contact)
-    walk, touch = Walk(), Contact(arms_nm=(0j, -arm_nm + 0j))
+    walk, touch = Walk(), ExternalForces(arms_nm=(0j, -arm_nm + 0j))
     assert walk.meet(touch, AHEAD, LEANING)
     assert not walk.meet(touch, AHEAD, LEANING), 'it is known'
     assert not Walk().meet(touch, STANDING)

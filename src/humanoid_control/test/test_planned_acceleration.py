@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from humanoid_control.dynamics import BodyModel, BodyState
-from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planned_acceleration import (
     leg_maps,
@@ -16,6 +15,7 @@ from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_rpy
 import numpy as np
 import pytest
 

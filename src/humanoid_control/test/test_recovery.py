@@ -6,16 +6,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from humanoid_control.backends import Observation
-from humanoid_control.dynamics.rotations import from_rpy, quaternion_of
 from humanoid_control.walking import VelocityCommand, Walker, WalkParameters
-from humanoid_control.walking.recovery import FallDetector, Rising, Stance
+from humanoid_control.walking.recovery import FallDetector, Rising, StandingState
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_rpy, quaternion_of
 import numpy as np
 import pytest
 
 WEIGHT_N = 42.8 * 9.81
-UPRIGHT = Stance(0.0, 0.0, 0.7, 1.0)
+UPRIGHT = StandingState(0.0, 0.0, 0.7, 1.0)
 DETECTOR = FallDetector(WalkParameters(), 0.7)
 
 
@@ -50,7 +50,7 @@ def seen(walker: Walker, time_s: float, pitch_rad: float = 0.0, load: float = 1.
         (replace(UPRIGHT, height_m=0.3), True),
     ],
 )
-def test_falls_are_told_from_what_the_walk_survives(stance: Stance, falls: bool) -> None:
+def test_falls_are_told_from_what_the_walk_survives(stance: StandingState, falls: bool) -> None:
     """Leaning far or fast, or being low, is a fall; righting itself is none."""
     assert DETECTOR.is_falling(stance) is falls
 
@@ -61,7 +61,7 @@ def test_stance_is_measured(walker: Walker, pitch_rad: float, rate_rad_s: float)
     observation = replace(
         seen(walker, 0.0, pitch_rad), angular_velocity_rad_s=np.array([0.0, rate_rad_s, 3.0])
     )
-    stance = Stance.of(walker.robot, walker._estimator.read(observation))
+    stance = StandingState.of(walker.robot, walker._estimator.read(observation))
     assert stance.tilt_rad == pytest.approx(abs(pitch_rad))
     assert stance.tilting_rad_s == pytest.approx(-rate_rad_s if pitch_rad < 0 else rate_rad_s)
     assert stance.height_m == pytest.approx(walker.home.base_height_m, abs=0.1)

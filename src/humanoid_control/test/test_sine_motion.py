@@ -12,13 +12,13 @@ from humanoid_control.sine_motion import (
     JointCommand,
     motion_of,
     RESUME_S,
+    Sinusoid,
     StoppableMotion,
-    Swing,
 )
 import pytest
 
 TIMES_S = [0.0, 0.1, 1.0, 2.5, 100.0]
-SWING = Swing('elbow', 0.8, 1.5, 0.3)
+SWING = Sinusoid('elbow', 0.8, 1.5, 0.3)
 MOTION = motion_of(['a', 'b'], [0.5, 0.8], [1.0, 1.5], [0.0, 1.0])
 STEP_S = 0.02
 
@@ -42,7 +42,7 @@ def test_velocity_is_the_derivative(now_s: float) -> None:
 def test_frequency_changes_without_a_jump() -> None:
     """With a new frequency, a joint goes on from where it is, but faster."""
     now_s = 12.3
-    faster = SWING.followed_by(Swing('elbow', 0.8, 3.0, 0.3), now_s)
+    faster = SWING.followed_by(Sinusoid('elbow', 0.8, 3.0, 0.3), now_s)
     assert faster.position_rad(now_s) == pytest.approx(SWING.position_rad(now_s))
     assert faster.velocity_rad_s(now_s) == pytest.approx(2 * SWING.velocity_rad_s(now_s))
 
@@ -50,7 +50,7 @@ def test_frequency_changes_without_a_jump() -> None:
 def test_phase_changes_by_the_difference() -> None:
     """A new phase turns the joint on by the difference."""
     now_s = 12.3
-    shifted = SWING.followed_by(Swing('elbow', 0.8, 1.5, 0.3 + math.pi), now_s)
+    shifted = SWING.followed_by(Sinusoid('elbow', 0.8, 1.5, 0.3 + math.pi), now_s)
     assert shifted.position_rad(now_s) == pytest.approx(-SWING.position_rad(now_s))
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import Point
@@ -15,6 +14,7 @@ from humanoid_control.walking.touch import TouchObserver
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_rpy
 import numpy as np
 import pytest
 

@@ -7,7 +7,6 @@ from humanoid_control.dynamics import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.dynamics.leg_ik import leg_posture
-from humanoid_control.dynamics.rotations import about_z, from_rpy
 from humanoid_control.walking.foothold_adaptation import footing_below, soles_below
 from humanoid_control.walking.footing import Foothold, Footing
 from humanoid_control.walking.parameters import WalkParameters
@@ -28,6 +27,7 @@ from humanoid_control.walking.whole_body import (
 )
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import about_z, from_rpy
 import numpy as np
 import pytest
 

@@ -42,7 +42,8 @@ def pose_along(joints: list[Joint], positions: Mapping[str, Array | float]) -> A
         The chain, from the base on.
     positions
         Joint positions by name, in rad or m, one or an array. Joints without one are at zero;
-        those that mimic another follow that one's position.
+        those that mimic another follow that one's position, which may mimic a third one if it is
+        in the chain.
 
     Returns
     -------
@@ -50,11 +51,18 @@ def pose_along(joints: list[Joint], positions: Mapping[str, Array | float]) -> A
         The pose (4, 4) of the last link in the base; (..., 4, 4) for arrays of positions.
 
     """
+    return _pose_along(joints, positions, {joint.name: joint for joint in joints})
+
+
+def _pose_along(
+    joints: list[Joint], positions: Mapping[str, Array | float], leaders: Mapping[str, Joint]
+) -> Array:
+    """Compute the forward kinematics of a chain whose joints mimic some of the leaders."""
     pose: Array = np.eye(4)
     for joint in joints:
         pose = pose @ joint.pose
         if joint.is_driven:
-            pose = pose @ joint_motion(joint, _position(joint, positions))
+            pose = pose @ joint_motion(joint, _position(joint, positions, leaders))
     return pose
 
 
@@ -67,7 +75,7 @@ def poses(robot: Robot, positions: Mapping[str, Array | float] = AT_ZERO) -> dic
     robot
         A model whose links and joints make a tree.
     positions
-        Joint positions by name, as for `pose_along`.
+        Joint positions by name, as for `pose_along`; any joint of the model may be mimicked.
 
     Returns
     -------
@@ -75,7 +83,10 @@ def poses(robot: Robot, positions: Mapping[str, Array | float] = AT_ZERO) -> dic
         The pose (4, 4) of each link in the root by its name; (..., 4, 4) for arrays of positions.
 
     """
-    return {link.name: pose_along(chain(robot, link.name), positions) for link in robot.links}
+    return {
+        link.name: _pose_along(chain(robot, link.name), positions, robot.joint)
+        for link in robot.links
+    }
 
 
 def joint_motion(joint: Joint, position: Array | float) -> Array:
@@ -105,12 +116,20 @@ def joint_motion(joint: Joint, position: Array | float) -> Array:
     return motion
 
 
-def _position(joint: Joint, positions: Mapping[str, Array | float]) -> Array | float:
+def _position(
+    joint: Joint, positions: Mapping[str, Array | float], leaders: Mapping[str, Joint]
+) -> Array | float:
     """Return the position of a joint; that of a mimic joint follows from the other joint."""
-    mimics = joint.mimics
-    if mimics is None or joint.name in positions:
-        return positions.get(joint.name, 0.0)
-    return mimics.multiplier * positions.get(mimics.joint, 0.0) + mimics.offset
+    name, mimics = joint.name, joint.mimics
+    multiplier, offset = 1.0, 0.0
+    for _ in range(len(leaders)):  # not for ever if they mimic each other in a circle
+        if mimics is None or name in positions:
+            break
+        offset += multiplier * mimics.offset
+        multiplier *= mimics.multiplier
+        name = mimics.joint
+        mimics = leaders[name].mimics if name in leaders else None
+    return multiplier * positions.get(name, 0.0) + offset
 
 
 def _turn_less_identity(axis: Array, angle: Array) -> Array:

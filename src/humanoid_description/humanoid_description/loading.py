@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from humanoid_description.robot import Array, Body, Joint, Limits, Link, Mimic, Robot, Shape
+from humanoid_description.rotations import from_rpy
 from humanoid_description.urdf_text import readable
 import numpy as np
 
@@ -123,21 +124,9 @@ def _pose(element: Any) -> Array:
     pose: Array = np.eye(4)
     origin = element.find('origin')
     if origin is not None:
-        pose[:3, :3] = _turned(*_numbers(origin.get('rpy'), (0.0, 0.0, 0.0)))
+        pose[:3, :3] = from_rpy(*_numbers(origin.get('rpy'), (0.0, 0.0, 0.0)))
         pose[:3, 3] = _numbers(origin.get('xyz'), (0.0, 0.0, 0.0))
     return pose
-
-
-def _turned(roll: float, pitch: float, yaw: float) -> Array:
-    """Compute the rotation matrix of roll, pitch and yaw about the fixed axes x, y and z."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos((roll, pitch, yaw)), np.sin((roll, pitch, yaw))
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
 
 
 def _numbers(text: str | None, default: Sequence[float] = ()) -> Sequence[float]:

@@ -395,6 +395,16 @@ def test_broken_model(name: str, urdf: str) -> None:
     assert any(sentence in defect for defect in defects), defects
 
 
+def test_visuals_that_are_all_meshes(urdf: str) -> None:
+    """The height is that of the collision shapes."""
+    robot = ElementTree.fromstring(urdf)
+    for geometry in robot.iterfind('link/visual/geometry'):
+        geometry[:] = [Element('mesh', filename='https://example.org/a.stl')]
+    text = ElementTree.tostring(robot, encoding='unicode')
+    found = {each.title: each.found for each in check_robot(load_robot(text, 'meshes.urdf'))}
+    assert float(found['height'].split()[0]) == pytest.approx(1.35, abs=0.2)
+
+
 def test_broken_model_with_prefix() -> None:
     """The sides are compared also when all names begin with something else."""
     robot = ElementTree.fromstring(humanoid_urdf(prefix='r1_'))

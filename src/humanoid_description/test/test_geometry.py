@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from humanoid_description.geometry import convex_hull, margin_inside, outline
-from humanoid_description.kinematics import joint_motion
+from humanoid_description.kinematics import joint_motion, pose_along, poses
+from humanoid_description.loading import load_robot
 from humanoid_description.robot import Joint, Shape
 import numpy as np
 import pytest
@@ -57,3 +58,25 @@ def test_motion() -> None:
     """A revolute joint turns right-handed, a prismatic one shifts; the axis' length is nothing."""
     assert moved('revolute', np.pi / 2) == pytest.approx([0, 1, 0])
     assert moved('prismatic', 0.5) == pytest.approx([1, 0, 0.5])
+
+
+SLIDES = """<robot name="r"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
+<joint name="first" type="prismatic"><parent link="base"/><child link="a"/>
+<axis xyz="1 0 0"/><limit lower="0" upper="9" velocity="1" effort="1"/></joint>
+<joint name="second" type="prismatic"><parent link="{second}"/><child link="b"/>
+<axis xyz="0 1 0"/><limit lower="0" upper="9" velocity="1" effort="1"/>
+<mimic joint="first" multiplier="2" offset="0.5"/></joint>
+<joint name="third" type="prismatic"><parent link="{third}"/><child link="c"/>
+<axis xyz="0 0 1"/><limit lower="0" upper="9" velocity="1" effort="1"/>
+<mimic joint="second" multiplier="3" offset="1"/></joint></robot>"""
+
+
+def test_joint_that_mimics_a_joint_that_mimics_another() -> None:
+    """It follows both, in the same chain or beside it; a position that is given counts first."""
+    row = load_robot(SLIDES.format(second='a', third='b'), 'row.urdf')
+    assert poses(row, {'first': 1.0})['c'][:3, 3] == pytest.approx([1.0, 2.5, 8.5])
+    assert pose_along(list(row.joints), {'first': 1.0})[:3, 3] == pytest.approx([1.0, 2.5, 8.5])
+    fan = load_robot(SLIDES.format(second='base', third='base'), 'fan.urdf')
+    assert poses(fan, {'first': 1.0})['c'][:3, 3] == pytest.approx([0.0, 0.0, 8.5])
+    assert poses(fan)['c'][:3, 3] == pytest.approx([0.0, 0.0, 2.5])
+    assert poses(fan, {'first': 1.0, 'second': 2.0})['c'][2, 3] == pytest.approx(7.0)

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_x, about_y, about_z
 from humanoid_description.drives import SIDES
 from humanoid_description.kinematics import chain, poses
 from humanoid_description.robot import Array, Joint, named, Robot
+from humanoid_description.rotations import about_x, about_y, about_z
 from humanoid_manipulation.errors import ManipulationError
 import numpy as np
 

@@ -14,15 +14,15 @@ import math
 from typing import Any
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import quaternion_of
 from humanoid_description.drives import SIDES
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import quaternion_of
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import mujoco
 import numpy as np
 
-__all__ = ['ArmWorld', 'Contact', 'Obstacle']
+__all__ = ['ArmWorld', 'CollisionPair', 'Obstacle']
 
 _ARM_LINKS = ('upper_arm', 'forearm', 'palm', 'finger', 'thumb')
 _NEVER = (('finger', 'thumb'), ('forearm', 'palm'))
@@ -58,7 +58,7 @@ class Obstacle:
 
 
 @dataclass(frozen=True)
-class Contact:
+class CollisionPair:
     """A pair of shapes nearer to each other than allowed; a negative distance is penetration."""
 
     one: str
@@ -147,7 +147,7 @@ class ArmWorld:
                     mimics.multiplier * positions[mimics.joint] + mimics.offset
                 )
 
-    def contacts(self, side: str, reach: Reach) -> list[Contact]:
+    def contacts(self, side: str, reach: Reach) -> list[CollisionPair]:
         """
         Find the contacts of the arms in a posture of one of them.
 
@@ -163,7 +163,7 @@ class ArmWorld:
 
         Returns
         -------
-        list of Contact
+        list of CollisionPair
             Pairs that involve an arm and are nearer to each other than `clearance_m`.
 
         """
@@ -173,7 +173,7 @@ class ArmWorld:
         mujoco.mj_collision(self._model, data)
         found = zip(data.contact.geom.tolist(), data.contact.dist.tolist())
         return [
-            Contact(self._names[one], self._names[other], distance_m)
+            CollisionPair(self._names[one], self._names[other], distance_m)
             for (one, other), distance_m in found
             if distance_m < self.clearance_m
         ]

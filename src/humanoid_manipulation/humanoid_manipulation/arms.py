@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Client of the controllers of the arms, the waist and the grippers."""
+"""Client of the controllers of the arms and the waist."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
 
-from action_msgs.msg import GoalStatus
-from control_msgs.action import GripperCommand
 from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.joint_mover import JointMover, trajectory_point
 from humanoid_common.qos import LATCHED, SENSOR
@@ -19,10 +16,9 @@ from humanoid_description.loading import load_robot
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import ArmWorld, Obstacle
 from humanoid_manipulation.errors import ManipulationError
-from humanoid_manipulation.motion_planning import Motion
+from humanoid_manipulation.motion_planning import ArmTrajectory
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import numpy as np
-from rclpy.action import ActionClient
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -49,8 +45,7 @@ class Arms:
     node
         The node that owns the subscriptions and the action clients.
     guard
-        Cancels joint motions when this process ends. Gripper goals go on: a hand may hold
-        something.
+        Cancels joint motions when this process ends.
 
     """
 
@@ -63,7 +58,6 @@ class Arms:
         self._waist: JointMover | None = None
         self._positions: dict[str, float] = {}
         self._efforts: dict[str, float] = {}
-        self._grippers: dict[str, ActionClient] = {}
         node.create_subscription(String, 'robot_description', self._read, LATCHED)
 
     @property
@@ -187,7 +181,7 @@ class Arms:
         self,
         goal: RunningGoal,
         side: str,
-        motion: Motion,
+        motion: ArmTrajectory,
         tell: Callable[[], None] = lambda: None,
     ) -> None:
         """
@@ -240,35 +234,6 @@ class Arms:
             for mover in movers:
                 mover.stop()
             raise
-
-    async def grip(self, goal: RunningGoal, side: str, gap_m: float, most_n: float = 0.0) -> Any:
-        """
-        Open or close a gripper, and return the result of its action.
-
-        Parameters
-        ----------
-        goal
-            The goal.
-        side, gap_m, most_n
-            The side of the hand, the gap between its fingers, and the force limit; 0 is the full
-            force.
-
-        Raises
-        ------
-        GoalAborted
-            Its controller is not available, or does not succeed.
-
-        """
-        name = f'{side}_gripper_controller/gripper_cmd'
-        if side not in self._grippers:
-            self._grippers[side] = ActionClient(self._node, GripperCommand, name)
-        client = self._grippers[side]
-        command = GripperCommand.Goal()
-        command.command.position, command.command.max_effort = gap_m, most_n
-        answer = await goal.delegate(client, command, name, _CODE)
-        if answer.status != GoalStatus.STATUS_SUCCEEDED:
-            raise GoalAborted(_CODE, f"'{name}' did not do what it was told.")
-        return answer.result
 
     def _now_s(self) -> float:
         return float(self._node.get_clock().now().nanoseconds) * 1e-9

@@ -10,8 +10,8 @@ from geometry_msgs.msg import Pose, Twist
 from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
 from humanoid_common.qos import COMMAND
 from humanoid_common.single_goal import GoalAborted, RunningGoal
-from humanoid_control.dynamics.rotations import yaw_of
 from humanoid_description.robot import Array
+from humanoid_description.rotations import yaw_of
 from humanoid_manipulation.stances import Bend
 from humanoid_perception.transforms import Transforms
 from nav2_msgs.action import NavigateToPose

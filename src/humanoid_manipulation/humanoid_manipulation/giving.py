@@ -8,7 +8,9 @@ from typing import Any, TYPE_CHECKING
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import HandOver
-from humanoid_manipulation.handling import Handling, LEAST_SHARE, unsound_side
+from humanoid_manipulation.arm_motions import abort_on_planning_error
+from humanoid_manipulation.handling import ManipulationAction, unsound_side
+from humanoid_manipulation.hands import LEAST_SHARE
 from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.motion_planning import plan
 from humanoid_manipulation.upper_body import Reach
@@ -31,7 +33,7 @@ _PULL_NM = 1.6
 """Change of a joint's effort that counts as a pull."""
 
 
-class Giving(Handling):
+class Giving(ManipulationAction):
     """
     Implementation of the actions `hand_over` and `drop`.
 
@@ -81,7 +83,7 @@ class Giving(Handling):
         """
         with self.node.transforms.listening(), self.node.arms.listening():
             await self.begin(goal)
-            side, held = self.holding(goal.request.side)
+            side, held = self.hands.holding(goal.request.side)
             goal.result.object = held.object_id
             try:
                 await self._hold_out(goal, side, held)
@@ -97,8 +99,8 @@ class Giving(Handling):
         self.tell(goal, 'reaching')
         # The receiver stands there: only self-collisions are avoided.
         world = arms.world([], {side: held.box}, 0.0)
-        with self.failing():
-            await self.move(goal, side, plan(world, side, arms.reach_of(side), _OUT[side]))
+        with abort_on_planning_error():
+            await self.motions.move(goal, side, plan(world, side, arms.reach_of(side), _OUT[side]))
         self.tell(goal, 'waiting')
         if not await self._is_taken(goal, side, held):
             await self._draw_back(goal)
@@ -107,18 +109,18 @@ class Giving(Handling):
     async def _give(self, goal: RunningGoal, side: str) -> None:
         """Release the object, and retract the arms."""
         self.tell(goal, 'opening')
-        await self.let_go(goal, side)
+        await self.hands.let_go(goal, side)
         await self._wait(goal, 1.0)
         await self._draw_back(goal)
 
     async def _draw_back(self, goal: RunningGoal) -> None:
         """Retract the arms, avoiding only self-collisions: the receiver may stand there."""
         arms = self.node.arms
-        for side, end in self.at_ease().items():
+        for side, end in self.motions.at_ease().items():
             world = arms.world([], self.node.held.boxes, 0.0)
-            with self.failing():
+            with abort_on_planning_error():
                 way = plan(world, side, arms.reach_of(side), end)
-                await self.move(goal, side, way)
+                await self.motions.move(goal, side, way)
 
     async def drop(self, goal: RunningGoal) -> None:
         """
@@ -139,9 +141,9 @@ class Giving(Handling):
         """
         with self.node.arms.listening():
             await self.begin(goal)
-            side, held = self.holding(goal.request.side)
+            side, held = self.hands.holding(goal.request.side)
             goal.result.object = held.object_id
-            await self.let_go(goal, side, wide=True)
+            await self.hands.let_go(goal, side, wide=True)
 
     async def _is_taken(self, goal: RunningGoal, side: str, held: Held) -> bool:
         """Wait until someone pulls on the object or has taken it; False after the patience."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.robot import Array
+from humanoid_description.rotations import about_z
 import numpy as np
 
 __all__ = ['Grasp', 'Graspable', 'Hand', 'grasps_of']

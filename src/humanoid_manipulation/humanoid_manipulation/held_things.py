@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z, quaternion_of
 from humanoid_description.robot import Array
+from humanoid_description.rotations import about_z, quaternion_of
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import numpy as np

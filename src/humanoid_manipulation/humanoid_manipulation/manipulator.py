@@ -17,8 +17,8 @@ from humanoid_common.qos import LATCHED
 from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import from_quaternion, quaternion_of
 from humanoid_description.drives import SIDES
+from humanoid_description.rotations import from_quaternion, quaternion_of
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction
 from humanoid_manipulation.arms import Arms
@@ -26,6 +26,7 @@ from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.giving import Giving
 from humanoid_manipulation.handling import unsound_side
+from humanoid_manipulation.hands import Hands
 from humanoid_manipulation.held_things import held_objects, HeldThings
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
 from humanoid_manipulation.picking import Picking
@@ -85,6 +86,7 @@ class Manipulator(Node):
         self.feet = Feet(self, self.transforms, told.base_frame, self._guard)
         self._held = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
         self.held = HeldThings(self._tell_held)
+        self.hands = Hands(self, self.arms, self.held)
         picking, placing, giving = Picking(self), Placing(self), Giving(self)
         self.goals.offer(ReachAction, 'reach', self._reach, _unsound)
         self.goals.offer(Pick, 'pick', picking.work, picking.unsound)

@@ -14,7 +14,7 @@ from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
 import numpy as np
 
-__all__ = ['BlockedError', 'Motion', 'approach', 'plan', 'timed']
+__all__ = ['ArmTrajectory', 'BlockedError', 'approach', 'plan', 'timed']
 
 _STEP_RAD = 0.0125
 """Distance between the postures that are checked along a path: 8 mm at the fingers."""
@@ -38,7 +38,7 @@ class BlockedError(ManipulationError):
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class ArmTrajectory:
     """
     A trajectory of the waist and the six joints of an arm.
 
@@ -170,7 +170,7 @@ def approach(
     return way
 
 
-def timed(way: list[Reach], velocity_rad_s: float) -> Motion:
+def timed(way: list[Reach], velocity_rad_s: float) -> ArmTrajectory:
     """
     Time-parameterise a path with a velocity limit, and smooth its ends and corners.
 
@@ -204,7 +204,7 @@ def timed(way: list[Reach], velocity_rad_s: float) -> Motion:
     velocities = np.gradient(positions, _PERIOD_S, axis=0) if len(positions) > 1 else positions * 0
     velocities[0] = velocities[-1] = 0.0
     times_s = np.arange(len(positions), dtype=np.float64) * _PERIOD_S
-    return Motion(times_s, positions, velocities)
+    return ArmTrajectory(times_s, positions, velocities)
 
 
 class _Search:

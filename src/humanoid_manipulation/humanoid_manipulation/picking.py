@@ -10,11 +10,11 @@ from typing import Any, TYPE_CHECKING
 from control_msgs.action import PointHead
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
+from humanoid_description.rotations import about_z
 from humanoid_interfaces.action import Pick
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp, grasps_of
-from humanoid_manipulation.handling import Handling, unsound_side
+from humanoid_manipulation.handling import ManipulationAction, unsound_side
 from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.stances import LIFT_M, Stance, stances_for
 from humanoid_manipulation.surroundings import Remembered
@@ -32,7 +32,7 @@ _LOOKS = 5
 """Number of detections that suffice to correct its position."""
 
 
-class Picking(Handling):
+class Picking(ManipulationAction):
     """
     Implementation of the action `pick`.
 
@@ -88,7 +88,7 @@ class Picking(Handling):
         with node.transforms.listening(), node.arms.listening():
             await self.begin(goal)
             self._thing(goal.request.object)  # an unknown object fails before waiting for the feet
-            place = await self.place_of_feet(goal)
+            place = await self.positioning.place_of_feet(goal)
             thing = self._thing(goal.request.object, place[:2])
             goal.result.object = thing.object_id
             sides = self._free_sides(goal.request.side)
@@ -97,7 +97,7 @@ class Picking(Handling):
                 await self._take(goal, thing.object_id, stance.side)
                 goal.result.side = stance.side
 
-            await self.from_one_of(goal, self._stances(thing, sides, place[:2]), take)
+            await self.positioning.from_one_of(goal, self._stances(thing, sides, place[:2]), take)
 
     def _thing(self, asked: str, near_m: tuple[float, float] = (0.0, 0.0)) -> Remembered:
         """Find the nearest remembered object that matches an id or a class."""
@@ -188,25 +188,27 @@ class Picking(Handling):
         self, goal: RunningGoal, object_id: str, side: str, tried: list[Grasp]
     ) -> None:
         """Bend, look, reach, close the hand, lift and carry."""
-        node, arms = self.node, self.node.arms
+        node = self.node
         thing = self._thing(object_id)
-        feet = await self.place_of_feet(goal)
+        feet = await self.positioning.place_of_feet(goal)
         name = thing.name
-        _, bend = await self.choose(goal, _untried(thing, tried), side, feet, name, name)
+        _, bend = await self.reaching.choose(goal, _untried(thing, tried), side, feet, name, name)
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
         thing = await self._look_at(goal, thing)
-        grasp, _ = await self.choose(goal, _untried(thing, tried), side, feet, name, name, (bend,))
+        grasp, _ = await self.reaching.choose(
+            goal, _untried(thing, tried), side, feet, name, name, (bend,)
+        )
         tried.append(grasp)
         self.tell(goal, 'reaching')
-        await arms.grip(goal, side, grasp.gap_m)
-        await self.go_before(goal, side, grasp, thing.object_id)
-        await self.go_to(goal, side, grasp, name)
+        await self.hands.grip(goal, side, grasp.gap_m)
+        await self.reaching.go_before(goal, side, grasp, thing.object_id)
+        await self.reaching.go_to(goal, side, grasp, name)
         self.tell(goal, 'closing')
-        gap_m = await self.check_held(goal, side, grasp.width_m)
+        gap_m = await self.hands.check_held(goal, side, grasp.width_m)
         if gap_m < 0.0:
-            await arms.grip(goal, side, grasp.gap_m)
-            await self.shift(goal, side, grasp.approach_m)
+            await self.hands.grip(goal, side, grasp.gap_m)
+            await self.reaching.shift(goal, side, grasp.approach_m)
             raise GoalAborted('SLIPPED', f'{thing.object_id} is not between my fingers.')
         held = node.held[side] = held_by(thing, grasp, gap_m)
         await self._carry(goal, side, held, thing.name)
@@ -214,15 +216,15 @@ class Picking(Handling):
     async def _carry(self, goal: RunningGoal, side: str, held: Held, name: str) -> None:
         """Lift the held object, straighten up, and hold the object in front of the body."""
         self.tell(goal, 'lifting')
-        await self.shift(goal, side, LIFT_M, waist=True)
+        await self.reaching.shift(goal, side, LIFT_M, waist=True)
         await self._still_held(goal, side, held)
         self.tell(goal, 'carrying')
-        await self.withdraw(goal, (name,))
+        await self.positioning.withdraw(goal, (name,))
         await self._still_held(goal, side, held)
 
     async def _still_held(self, goal: RunningGoal, side: str, held: Held) -> None:
         """Abort the goal if the object has slipped out of the hand."""
-        if await self.check_held(goal, side, held.width_m) < 0.0:
+        if await self.hands.check_held(goal, side, held.width_m) < 0.0:
             del self.node.held[side]
             raise GoalAborted('SLIPPED', f'{held.object_id} has slipped out of my hand.')
 

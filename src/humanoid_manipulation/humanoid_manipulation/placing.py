@@ -10,11 +10,11 @@ from typing import Any, TYPE_CHECKING
 from humanoid_common.naming import did_you_mean
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.robot import Array
+from humanoid_description.rotations import about_z
 from humanoid_interfaces.action import Place
 from humanoid_manipulation.grasps import Grasp
-from humanoid_manipulation.handling import Handling, unsound_side
+from humanoid_manipulation.handling import ManipulationAction, unsound_side
 from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.stances import Stance, stances_for
 from humanoid_perception.places import Surface
@@ -37,7 +37,7 @@ _ABOVE_M, _LOWERS_M = 0.005, 0.08
 there."""
 
 
-class Placing(Handling):
+class Placing(ManipulationAction):
     """
     Implementation of the action `place`.
 
@@ -89,9 +89,9 @@ class Placing(Handling):
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await self.begin(goal)
-            side, held = self.holding(goal.request.side)
+            side, held = self.hands.holding(goal.request.side)
             goal.result.object = held.object_id
-            place = await self.place_of_feet(goal)
+            place = await self.positioning.place_of_feet(goal)
             surface = self._surface(goal.request.place, place[:2])
             goal.result.place = surface.name
             spots = self._spots(surface, held, place[:2])
@@ -102,7 +102,7 @@ class Placing(Handling):
                 await self._put(goal, side, held, surface, spots)
 
             stances = self._stances(surface, spots, side, held, place[:2])
-            await self.from_one_of(goal, stances, put)
+            await self.positioning.from_one_of(goal, stances, put)
 
     def _surface(self, asked: str, near_m: tuple[float, float]) -> Surface:
         """Find the surface with a name, or the nearest one if the name is empty."""
@@ -176,27 +176,29 @@ class Placing(Handling):
     ) -> None:
         """Bend, reach, lower, open the hand, and withdraw."""
         node = self.node
-        feet = await self.place_of_feet(goal)
+        feet = await self.positioning.place_of_feet(goal)
         near = sorted(spots, key=lambda spot: math.dist(spot, feet[:2]))[:_SPOTS]
         grasps = [each for spot in near for each in _ways_down(held, _let_go(surface, spot))]
-        grasp, bend = await self.choose(goal, grasps, side, feet, _words(surface), held.box.name)
+        grasp, bend = await self.reaching.choose(
+            goal, grasps, side, feet, _words(surface), held.box.name
+        )
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
         self.tell(goal, 'reaching')
-        await self.go_before(goal, side, grasp, surface.name)
-        if await self.check_held(goal, side, held.width_m) < 0.0:
+        await self.reaching.go_before(goal, side, grasp, surface.name)
+        if await self.hands.check_held(goal, side, held.width_m) < 0.0:
             del node.held[side]
             raise GoalAborted('SLIPPED', f'{held.object_id} has slipped out of my hand.')
         self.tell(goal, 'lowering')
-        await self.go_to(goal, side, grasp, held.box.name)
+        await self.reaching.go_to(goal, side, grasp, held.box.name)
         self.tell(goal, 'opening')
-        await self.let_go(goal, side, wide=surface.is_container)
+        await self.hands.let_go(goal, side, wide=surface.is_container)
         at = grasp.gripper.position_m + grasp.gripper.rotation @ held.box.middle.position_m
         position = goal.result.position
         position.x, position.y, position.z = float(at[0]), float(at[1]), surface.height_m
         away = grasp.gripper.rotation[:, 2] * 0.10
-        await self.shift(goal, side, away)
-        await self.withdraw(goal, (held.box.name,))
+        await self.reaching.shift(goal, side, away)
+        await self.positioning.withdraw(goal, (held.box.name,))
 
 
 def _let_go(surface: Surface, spot: tuple[float, float]) -> Array:

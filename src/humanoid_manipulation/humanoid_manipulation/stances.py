@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_y, about_z
 from humanoid_description.drives import SIDES
 from humanoid_description.robot import Array
+from humanoid_description.rotations import about_y, about_z
 from humanoid_manipulation.free_floor import FreeFloor, NAVIGABLE_M
 from humanoid_manipulation.grasps import Grasp
 from humanoid_manipulation.upper_body import Reach, UpperBody

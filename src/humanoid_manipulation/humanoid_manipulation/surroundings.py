@@ -12,8 +12,8 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.qos import LATCHED, STATE
 from humanoid_common.single_goal import RunningGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z, from_quaternion, yaw_of
 from humanoid_description.robot import Array
+from humanoid_description.rotations import about_z, from_quaternion, yaw_of
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.free_floor import FreeFloor
 from humanoid_manipulation.grasps import Graspable

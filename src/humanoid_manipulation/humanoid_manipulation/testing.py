@@ -17,8 +17,8 @@ from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_manipulation.manipulator import Manipulator
-from humanoid_simulation.testing.entities import Entities
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from humanoid_simulation.testing.simulators import simulation
 from sensor_msgs.msg import JointState
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
@@ -77,13 +77,13 @@ class TableWorld:
     """
 
     def __init__(self, ros: RosSandbox, program: RunningProgram) -> None:
-        self.ros, self.robot, self.program = ros, SimulatedRobot(ros), program
+        self.ros, self.robot, self.program = ros, RobotClient(ros), program
         self._joints: dict[str, float] = {}
         self._velocities: dict[str, float] = {}
         self._node = node = ros.observer()
         node.create_subscription(JointState, 'joint_states', self._take, SENSOR)
         self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
-        self.entities = Entities(ros)
+        self.entities = EntityClient(ros)
         self._callers = {name: ActionCaller(ros, kind, name) for name, kind in _KINDS.items()}
 
     @property

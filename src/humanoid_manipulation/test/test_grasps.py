@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import about_z
 from humanoid_manipulation.grasps import Grasp, Graspable, grasps_of, Hand
 from humanoid_manipulation.placing import free_spots
 from humanoid_manipulation.stances import base_of, Bend, BENDS, grasp_reaches, stances_for

@@ -6,9 +6,9 @@ from __future__ import annotations
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import from_rpy
 from humanoid_manipulation.arm_world import ArmWorld, Obstacle
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed

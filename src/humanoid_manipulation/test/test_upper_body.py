@@ -6,11 +6,11 @@ from __future__ import annotations
 import math
 
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import from_rpy, log
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.kinematics import chain, pose_along
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import from_rpy, log
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
 import numpy as np

@@ -13,7 +13,7 @@ from humanoid_common.qos import COMMAND, SENSOR, STATE
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_interfaces.msg import Contacts
 from humanoid_navigation.arrival import Arrival, initial_pose, is_zero, stamped
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from nav2_msgs.action import NavigateToPose
 import numpy as np
 import numpy.typing as npt
@@ -42,7 +42,7 @@ class NavigatingRobot:
 
     def __init__(self, ros: RosSandbox) -> None:
         self._ros = ros
-        self.robot = SimulatedRobot(ros)
+        self.robot = RobotClient(ros)
         self._node = ros.start(lambda **options: Node('traveller', **options))
         self._client = ActionClient(self._node, NavigateToPose, 'navigate_to_pose')
         self._initial_pose = self._node.create_publisher(

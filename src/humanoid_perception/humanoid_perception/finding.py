@@ -11,7 +11,7 @@ from humanoid_perception.detection import COLOURS
 from humanoid_perception.places import Places
 from humanoid_perception.remembered import greatest_sigma_m, RememberedThing
 
-__all__ = ['Question', 'QuestionError', 'find', 'place_of']
+__all__ = ['ObjectQuery', 'QuestionError', 'find', 'place_of']
 
 
 class QuestionError(Exception):
@@ -19,7 +19,7 @@ class QuestionError(Exception):
 
 
 @dataclass(frozen=True)
-class Question:
+class ObjectQuery:
     """A query for objects; empty fields match all objects."""
 
     class_id: str = ''
@@ -52,7 +52,7 @@ def place_of(thing: RememberedThing, places: Places) -> tuple[str, str]:
 
 
 def find(
-    question: Question,
+    question: ObjectQuery,
     things: Sequence[RememberedThing],
     places: Places,
     classes: Iterable[str] = (),
@@ -90,7 +90,7 @@ def find(
     return sorted(found, key=lambda thing: -thing.last_seen_s)
 
 
-def _fits(question: Question, thing: RememberedThing, places: Places) -> bool:
+def _fits(question: ObjectQuery, thing: RememberedThing, places: Places) -> bool:
     pairs = (
         (question.class_id, (thing.class_id,)),
         (question.colour, (thing.colour,)),

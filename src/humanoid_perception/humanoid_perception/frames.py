@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import math
 import struct
 
-__all__ = ['Frame', 'FramePairs', 'stamp_in']
+__all__ = ['FramePairs', 'RgbdFrame', 'stamp_in']
 
 _KEPT = 4
 _BACK_S = 0.5
@@ -21,7 +21,7 @@ _DEPTH_GONE_S = 1.0
 
 
 @dataclass(frozen=True)
-class Frame:
+class RgbdFrame:
     """An image to process and its depth, as serialized messages."""
 
     stamp_s: float
@@ -115,7 +115,7 @@ class FramePairs:
         """
         return now_s - self._depth_received_s < _DEPTH_GONE_S
 
-    def take(self, now_s: float) -> Frame | None:
+    def take(self, now_s: float) -> RgbdFrame | None:
         """
         Remove and return the newest image that has its depth, or has waited for it long enough.
 
@@ -126,7 +126,7 @@ class FramePairs:
 
         Returns
         -------
-        Frame
+        RgbdFrame
             The image, with its depth if that was received; None if no image is due yet.
 
         """
@@ -144,11 +144,11 @@ class FramePairs:
             return None
         return best.data
 
-    def _taken(self, color: _Waiting, depth: bytes | None) -> Frame:
+    def _taken(self, color: _Waiting, depth: bytes | None) -> RgbdFrame:
         self._taken_s = color.stamp_s
         later = [each for each in self._colors if self._is_due(each.stamp_s)]
         self._colors = deque(later, maxlen=_KEPT)
-        return Frame(color.stamp_s, color.data, depth)
+        return RgbdFrame(color.stamp_s, color.data, depth)
 
     def _is_due(self, stamp_s: float) -> bool:
         """Whether an image is at least one period after the one that was taken last."""

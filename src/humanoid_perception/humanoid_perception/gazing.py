@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import math
 from xml.etree import ElementTree
 
+from humanoid_description.rotations import about_axis, from_rpy
 import numpy as np
 import numpy.typing as npt
 
@@ -131,7 +132,7 @@ class HeadChain:
         pose = np.eye(4)
         for joint, angle in zip(self.joints, angles_rad, strict=True):
             turn = np.eye(4)
-            turn[:3, :3] = _rotation(joint.axis, float(angle))
+            turn[:3, :3] = about_axis(joint.axis, float(angle))
             pose = pose @ joint.origin @ turn
         return pose
 
@@ -305,8 +306,7 @@ def _joint(element: ElementTree.Element) -> HeadJoint:
         if at is not None:
             origin[:3, 3] = _three(at.get('xyz', '0 0 0'))
             roll, pitch, yaw = _three(at.get('rpy', '0 0 0'))
-            x, y, z = np.eye(3)
-            origin[:3, :3] = _rotation(z, yaw) @ _rotation(y, pitch) @ _rotation(x, roll)
+            origin[:3, :3] = from_rpy(roll, pitch, yaw)
         about = element.find('axis')
         axis = _three(about.get('xyz', '1 0 0') if about is not None else '1 0 0')
         numbers = [float(limit.get(each, '0')) for each in ('lower', 'upper', 'velocity')]
@@ -325,11 +325,3 @@ def _three(text: str) -> Array:
     if values.shape != (3,):
         raise ValueError(f"'{text}' are not three numbers")
     return values
-
-
-def _rotation(axis: Array, angle_rad: float) -> Array:
-    """Compute the rotation matrix (3, 3) about a unit vector (Rodrigues)."""
-    x, y, z = axis
-    c, s = math.cos(angle_rad), math.sin(angle_rad)
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + s * cross + (1.0 - c) * (cross @ cross))

@@ -22,7 +22,7 @@ __all__ = [
     'UPRIGHT',
     'CameraInfoError',
     'PinholeCamera',
-    'Surface',
+    'VisibleSurface',
     'camera_of',
     'lift',
     'surface_of',
@@ -115,7 +115,7 @@ def camera_of(
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class VisibleSurface:
     """The visible surface of an object."""
 
     points_m: Array
@@ -124,7 +124,7 @@ class Surface:
     """The pixels of the image that show it, (height, width)."""
 
 
-def surface_of(box_px: Box, depth_m: Depth, camera: PinholeCamera) -> Surface | None:
+def surface_of(box_px: Box, depth_m: Depth, camera: PinholeCamera) -> VisibleSurface | None:
     """
     Segment the surface of an object in a box from the background and the foreground.
 
@@ -152,12 +152,12 @@ def surface_of(box_px: Box, depth_m: Depth, camera: PinholeCamera) -> Surface | 
         return None
     mask = np.zeros(depth_m.shape, dtype=np.bool_)
     mask[rows, columns] = inside
-    return Surface(_points(part, inside, rows.start, columns.start, camera), mask)
+    return VisibleSurface(_points(part, inside, rows.start, columns.start, camera), mask)
 
 
 def lift(
     class_id: str,
-    surface: Surface,
+    surface: VisibleSurface,
     camera: PinholeCamera,
     rotation: Array = UPRIGHT,
     translation_m: Array | None = None,

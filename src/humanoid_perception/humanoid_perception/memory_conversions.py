@@ -9,6 +9,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseWithCovariance
+from humanoid_description.rotations import from_quaternion, yaw_of
 from humanoid_interfaces.msg import RememberedObject
 from humanoid_perception.detection import COLOURS, CUT
 from humanoid_perception.finding import place_of
@@ -46,15 +47,7 @@ def pose_of(transform: Any) -> tuple[Array, Array]:
 
     """
     q, t = transform.rotation, transform.translation
-    norm = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2) or 1.0
-    x, y, z, w = q.x / norm, q.y / norm, q.z / norm, q.w / norm
-    rotation = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    rotation = from_quaternion((q.w, q.x, q.y, q.z))
     return np.array([t.x, t.y, t.z]), rotation
 
 
@@ -69,7 +62,7 @@ def planar_of(transform: Any) -> Pose2:
 
     """
     position, rotation = pose_of(transform)
-    return float(position[0]), float(position[1]), math.atan2(rotation[1, 0], rotation[0, 0])
+    return float(position[0]), float(position[1]), yaw_of(rotation)
 
 
 def time_of(time_s: float) -> Time:
@@ -117,7 +110,7 @@ def sighting_of(detection: Detection3D, position: Array, rotation: Array) -> Sig
         min(best.score, 1.0),
         position + rotation @ at,
         np.array([size.x, size.y, size.z]),
-        math.remainder(yaw + math.atan2(rotation[1, 0], rotation[0, 0]), math.tau),
+        math.remainder(yaw + yaw_of(rotation), math.tau),
         colour,
         detection.id == CUT,
     )

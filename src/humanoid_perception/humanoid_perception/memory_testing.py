@@ -30,7 +30,7 @@ class Box:
 
 
 @dataclass
-class World:
+class BoxWorld:
     """A set of boxes, and the simulated measurements of a camera."""
 
     boxes: list[Box]

@@ -25,16 +25,16 @@ from humanoid_perception.detection_conversions import (
     detections_3d,
     header_of,
 )
-from humanoid_perception.frames import Frame, FramePairs, stamp_in
+from humanoid_perception.frames import FramePairs, RgbdFrame, stamp_in
 from humanoid_perception.images import color_of, depth_of, ImageError
 from humanoid_perception.lifting import (
     camera_of,
     CameraInfoError,
     lift,
     PinholeCamera,
-    Surface,
     surface_of,
     UPRIGHT,
+    VisibleSurface,
 )
 from humanoid_perception.markers import markers_of
 from humanoid_perception.memory_conversions import pose_of
@@ -165,7 +165,7 @@ class _Seen:
     received_s: float
     header: Header
     camera: PinholeCamera
-    found: list[tuple[Detection, Surface]]
+    found: list[tuple[Detection, VisibleSurface]]
 
 
 class ObjectDetector(Node):
@@ -308,7 +308,7 @@ class ObjectDetector(Node):
                 "'camera/image_raw' to its topic."
             )
 
-    def _detect(self, frame: Frame) -> None:
+    def _detect(self, frame: RgbdFrame) -> None:
         """Detect the objects in an image, and publish them."""
         image = deserialize_message(frame.color, Image)
         try:
@@ -332,7 +332,9 @@ class ObjectDetector(Node):
             placed = [(each, surface) for each, surface in zip(found, surfaces) if surface]
             self._seen.append(_Seen(time.monotonic(), image.header, camera, placed))
 
-    def _depth_of(self, frame: Frame, color: Color) -> tuple[Depth | None, PinholeCamera | None]:
+    def _depth_of(
+        self, frame: RgbdFrame, color: Color
+    ) -> tuple[Depth | None, PinholeCamera | None]:
         """Return the depth and the camera of an image, if both are available and valid."""
         if frame.depth is None:
             self._say_flat()
@@ -411,7 +413,7 @@ class ObjectDetector(Node):
             self.get_logger().warning(text)
 
 
-def _coloured(detection: Detection, color: Color, surface: Surface | None) -> Detection:
+def _coloured(detection: Detection, color: Color, surface: VisibleSurface | None) -> Detection:
     """Add the name of its colour to a detection."""
     if detection.colour:
         return detection

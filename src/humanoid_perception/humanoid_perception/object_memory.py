@@ -17,7 +17,7 @@ from humanoid_common.parameters import parameter
 from humanoid_common.qos import LATCHED, SENSOR, STATE
 from humanoid_common.running import run_node
 from humanoid_interfaces.srv import FindObjects
-from humanoid_perception.finding import find, Question, QuestionError
+from humanoid_perception.finding import find, ObjectQuery, QuestionError
 from humanoid_perception.images import depth_of, ImageError
 from humanoid_perception.markers import markers_of
 from humanoid_perception.memory import MemorySettings, ObjectMemory
@@ -323,7 +323,7 @@ class ObjectMemoryNode(Node):
         return header
 
     def _find(self, request: Any, response: Any) -> Any:
-        question = Question(request.class_id, request.colour, request.place, request.id)
+        question = ObjectQuery(request.class_id, request.colour, request.place, request.id)
         response.header = self._header()
         classes = self._parameters.current.classes
         try:

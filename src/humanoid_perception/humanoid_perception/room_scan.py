@@ -11,6 +11,7 @@ from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Twist
 from humanoid_common.qos import STATE
 from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_description.rotations import yaw_of
 from humanoid_interfaces.action import ScanRoom
 from humanoid_interfaces.srv import FindObjects
 from humanoid_perception.frames import stamp_in
@@ -205,7 +206,7 @@ class RoomScan:
     def _heading(self) -> float:
         told = self._gaze.parameters.current
         pose = self._gaze.head.pose(told.odom_frame, self._gaze.head.chain.base_frame)
-        return math.atan2(pose[1, 0], pose[0, 0])
+        return yaw_of(pose)
 
     async def _ids_since(self, begin_s: float) -> list[str]:
         """Query the ids of the objects seen since a time; empty without an object memory."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import enum
-import math
 
+from humanoid_description.rotations import about_z
 import numpy as np
 import numpy.typing as npt
 
@@ -132,12 +132,7 @@ def corners_of(position_m: Array, size_m: Array, yaw_rad: float) -> Array:
 
     """
     signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-    return np.asarray(position_m + (0.5 * signs * size_m) @ _turn(yaw_rad).T)
-
-
-def _turn(yaw_rad: float) -> Array:
-    c, s = math.cos(yaw_rad), math.sin(yaw_rad)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(position_m + (0.5 * signs * size_m) @ about_z(yaw_rad).T)
 
 
 def evidence_at(
@@ -201,7 +196,7 @@ def _measured(
     rays, depths = _rays(view, columns, rows)
     is_measured = np.isfinite(depths) & (depths > 0.0)
     points = (view.position_m + rays * np.where(is_measured, depths, 0.0)[:, None]) - position_m
-    inside = points @ _turn(yaw_rad)
+    inside = points @ about_z(yaw_rad)
     half = 0.5 * size_m
     grown = half + _MARGIN_M + sigma_m
     above = inside[:, 2] > half[2] * (2.0 * _FOOT - 1.0)

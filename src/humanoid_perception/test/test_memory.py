@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 
 from humanoid_perception.memory import MemorySettings, ObjectMemory, shift_between
-from humanoid_perception.memory_testing import around, Box, TABLE, WALL, World
+from humanoid_perception.memory_testing import around, Box, BoxWorld, TABLE, WALL
 from humanoid_perception.remembered import RememberedThing, Sighting
 import numpy as np
 import pytest
@@ -20,7 +20,9 @@ def mug(x: float = 0.0, y: float = 0.0, colour: str = 'red') -> Box:
     return Box('mug', (x, y, 0.75), colour=colour)
 
 
-def watch(memory: ObjectMemory, world: World, looks: int, radius: float = 1.3, **options) -> None:
+def watch(
+    memory: ObjectMemory, world: BoxWorld, looks: int, radius: float = 1.3, **options
+) -> None:
     """Look at the table from several sides."""
     for number in range(looks):
         view = world.view(around(MIDDLE, radius, 0.02 * number), MIDDLE)
@@ -29,7 +31,7 @@ def watch(memory: ObjectMemory, world: World, looks: int, radius: float = 1.3, *
 
 def test_a_thing_is_believed_after_several_sightings() -> None:
     """Not before, so that one false detection is no thing."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 2)
     assert memory.things == []
     watch(memory, world, 1)
@@ -41,7 +43,7 @@ def test_a_thing_is_believed_after_several_sightings() -> None:
 
 def test_scattered_false_detections_are_no_things() -> None:
     """Each is somewhere else."""
-    memory, world = ObjectMemory(), World([TABLE, WALL])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL])
     random = np.random.default_rng(3)
     for number in range(100):
         view = world.view(around(MIDDLE, 1.3, 0.01 * number), MIDDLE)
@@ -56,7 +58,7 @@ def test_a_weak_detection_needs_more_sightings_than_a_strong_one() -> None:
     """Scores count."""
     counts = []
     for score in (0.9, 0.45):
-        memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+        memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
         count = 0
         while not memory.things:
             watch(memory, world, 1, score=score)
@@ -84,7 +86,7 @@ def test_a_first_look_counts_once() -> None:
 @pytest.mark.parametrize('seed', SEEDS)
 def test_positions_come_closer_with_every_look(seed: int) -> None:
     """A far look says little, a near one much; the truth is within the stated uncertainty."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()], np.random.default_rng(seed))
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()], np.random.default_rng(seed))
     watch(memory, world, 10, radius=2.6)
     (thing,) = memory.things
     far_sigma = thing.sigma_m
@@ -99,7 +101,7 @@ def test_positions_come_closer_with_every_look(seed: int) -> None:
 
 def test_looks_do_not_make_the_place_in_the_map_surer_than_that_of_the_robot() -> None:
     """Every look has the error of the robot's own pose; heights do not."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 60, radius=1.0)
     (thing,) = memory.things
     sigmas_m = np.sqrt(np.diag(thing.map_covariance_m2))
@@ -126,7 +128,7 @@ def test_a_crowded_table_is_remembered_as_it_is(seed: int) -> None:
         if random.random() < 0.6
     ]
     memory = ObjectMemory()
-    world = World([TABLE, WALL, *boxes], random)
+    world = BoxWorld([TABLE, WALL, *boxes], random)
     for number in range(40):
         view = world.view(around(MIDDLE, 2.4 - 0.04 * number, 0.05 * number, 1.5), MIDDLE)
         memory.look(view, world.sightings(view, chance=0.8))
@@ -141,7 +143,7 @@ def test_a_crowded_table_is_remembered_as_it_is(seed: int) -> None:
 
 def test_things_out_of_view_are_kept() -> None:
     """For as long as one likes to look elsewhere."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 10)
     for _ in range(300):
         view = world.view((1.3, 0.0, 1.2), (3.0, 0.0, 1.0))
@@ -151,7 +153,7 @@ def test_things_out_of_view_are_kept() -> None:
 
 def test_hidden_things_are_kept() -> None:
     """What stands before them hides them."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 10)
     world.boxes.append(Box('screen', (0.7, 0.0, 1.0), (0.02, 1.6, 1.2), '', False))
     for _ in range(100):
@@ -163,7 +165,7 @@ def test_hidden_things_are_kept() -> None:
 @pytest.mark.parametrize('with_depth', [True, False])
 def test_a_thing_that_is_gone_is_forgotten(with_depth: bool) -> None:
     """After several looks, not after one; sooner where the depth shows that nothing is there."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 20)
     world.boxes.remove(world.boxes[-1])
     looks = 0
@@ -176,7 +178,7 @@ def test_a_thing_that_is_gone_is_forgotten(with_depth: bool) -> None:
 
 def test_a_thing_that_the_detector_overlooks_stays_for_long() -> None:
     """The depth shows that something is where it was."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 20)
     watch(memory, world, 50, chance=0.0)
     assert [thing.object_id for thing in memory.things] == ['red_mug_1']
@@ -184,7 +186,7 @@ def test_a_thing_that_the_detector_overlooks_stays_for_long() -> None:
 
 def test_a_turning_camera_forgets_nothing() -> None:
     """Its pictures are blurred, and its pose is late."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 20)
     world.boxes.pop()
     for _ in range(50):
@@ -196,7 +198,7 @@ def test_a_turning_camera_forgets_nothing() -> None:
 @pytest.mark.parametrize('distance', [0.25, 0.5])
 def test_a_thing_that_was_carried_elsewhere_keeps_its_id(distance: float) -> None:
     """There is one such mug, before and after."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 20)
     world.boxes[-1] = mug(0.0, distance)
     watch(memory, world, 25)
@@ -207,7 +209,7 @@ def test_a_thing_that_was_carried_elsewhere_keeps_its_id(distance: float) -> Non
 
 def test_a_thing_that_is_pushed_is_followed() -> None:
     """Slowly, over the table."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 10)
     for number in range(60):
         world.boxes[-1] = mug(0.0, 0.008 * number)
@@ -220,7 +222,10 @@ def test_a_thing_that_is_pushed_is_followed() -> None:
 
 def test_a_second_one_of_a_kind_gets_the_next_number() -> None:
     """Ids are stable, and never given twice."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug(), mug(0.0, 0.3), mug(0.0, -0.3, '')])
+    memory, world = (
+        ObjectMemory(),
+        BoxWorld([TABLE, WALL, mug(), mug(0.0, 0.3), mug(0.0, -0.3, '')]),
+    )
     watch(memory, world, 10)
     ids = sorted(thing.object_id for thing in memory.things)
     assert ids == ['mug_1', 'red_mug_1', 'red_mug_2']
@@ -228,7 +233,7 @@ def test_a_second_one_of_a_kind_gets_the_next_number() -> None:
 
 def test_two_names_for_one_thing_make_one_thing() -> None:
     """A detector that says ball and orange at once; the surer name wins."""
-    memory, world = ObjectMemory(), World([TABLE, WALL])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL])
     size = np.full(3, 0.07)
     world.boxes.append(Box('orange', MIDDLE, (0.07, 0.07, 0.07), 'orange'))
     for _ in range(15):
@@ -244,7 +249,7 @@ def test_two_names_for_one_thing_make_one_thing() -> None:
 
 def test_the_class_is_that_of_most_looks() -> None:
     """What was wrong at first comes right."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, Box('can', MIDDLE)])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, Box('can', MIDDLE)])
     watch(memory, world, 4)
     world.boxes[-1] = mug()
     watch(memory, world, 30)
@@ -255,7 +260,7 @@ def test_the_class_is_that_of_most_looks() -> None:
 
 def test_what_the_border_cuts_does_not_move_the_thing() -> None:
     """It is seen, but neither its position nor its size is."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 10)
     (thing,) = memory.things
     before, size, count = thing.position_m.copy(), thing.size_m.copy(), thing.sightings
@@ -271,7 +276,7 @@ def test_what_the_border_cuts_does_not_move_the_thing() -> None:
 
 def test_what_is_only_ever_seen_cut_is_no_thing() -> None:
     """Nobody knows where it is."""
-    memory, world = ObjectMemory(), World([TABLE, WALL])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL])
     for _ in range(20):
         view = world.view((1.3, 0.0, 1.2), MIDDLE)
         memory.look(view, [Sighting('mug', 0.9, np.array(MIDDLE), np.full(3, 0.1), is_cut=True)])
@@ -292,7 +297,7 @@ def test_what_is_only_ever_seen_cut_is_no_thing() -> None:
 )
 def test_unsound_detections_are_left_out(bad: Sighting) -> None:
     """They spoil nothing."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     for _ in range(10):
         view = world.view((1.3, 0.0, 1.2), MIDDLE)
         memory.look(view, [bad, *world.sightings(view)])
@@ -302,7 +307,7 @@ def test_unsound_detections_are_left_out(bad: Sighting) -> None:
 
 def test_sizes_are_those_of_near_looks() -> None:
     """Far away, boxes are too large."""
-    memory, world = ObjectMemory(), World([TABLE, WALL])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL])
     for radius, size in ((2.8, 0.2), (0.9, 0.1)):
         for _ in range(10):
             view = world.view(around(MIDDLE, radius, 0.0), MIDDLE)
@@ -314,7 +319,7 @@ def test_sizes_are_those_of_near_looks() -> None:
 
 def test_a_corrected_position_of_the_robot_moves_what_was_seen_by_the_wrong_one() -> None:
     """It turns with the map's view of the odometry; what was seen by another one stays."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     for _ in range(5):
         view = world.view((1.3, 0.0, 1.2), MIDDLE)
         memory.look(view, world.sightings(view))
@@ -339,7 +344,7 @@ def test_a_corrected_position_of_the_robot_moves_what_was_seen_by_the_wrong_one(
 
 def test_small_corrections_move_nothing() -> None:
     """Drift is corrected bit by bit; what was seen stays where it was."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     for number in range(40):
         view = world.view((1.3, 0.0, 1.2), MIDDLE)
         memory.look(view, world.sightings(view), (0.01 * number, 0.0, 0.0))
@@ -364,7 +369,7 @@ def test_a_shift_takes_one_pose_to_the_other(seed: int) -> None:
 def test_memory_is_bounded() -> None:
     """However many things are detected."""
     memory = ObjectMemory(MemorySettings(max_things=50))
-    world = World([])
+    world = BoxWorld([])
     random = np.random.default_rng(5)
     for _ in range(60):
         view = world.view((0.0, 0.0, 1.2), (1.0, 0.0, 1.0), turn_rad_s=1.0)
@@ -375,7 +380,7 @@ def test_memory_is_bounded() -> None:
 
 def test_clearing_begins_anew() -> None:
     """Numbers of ids too."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 5)
     memory.clear()
     assert memory.things == []
@@ -386,7 +391,7 @@ def test_clearing_begins_anew() -> None:
 
 def test_everything_can_be_expressed_in_another_frame() -> None:
     """As when a map appears."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug(0.3, 0.0)])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug(0.3, 0.0)])
     watch(memory, world, 10)
     memory.move_all((1.0, 2.0, math.pi / 2))
     (thing,) = memory.things
@@ -396,12 +401,12 @@ def test_everything_can_be_expressed_in_another_frame() -> None:
 
 def test_what_a_hand_holds_goes_along_with_it() -> None:
     """Without being seen, without a double, and it stays where the hand lets it go."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 10)
     there = np.array([0.3, -0.2, 0.75])
     for share in np.linspace(0.0, 1.0, 20):
         at = (1.0 - share) * np.array(MIDDLE) + share * there
-        world = World([TABLE, WALL, mug(*at[:2])], time_s=world.time_s)
+        world = BoxWorld([TABLE, WALL, mug(*at[:2])], time_s=world.time_s)
         view = world.view(around(MIDDLE, 1.3, 0.0), MIDDLE)
         seen = world.sightings(view) if share < 0.5 else []
         memory.look(view, seen, held_m={'red_mug_1': at})
@@ -416,7 +421,7 @@ def test_what_a_hand_holds_goes_along_with_it() -> None:
 
 def test_what_nobody_knows_in_a_hand_is_no_thing() -> None:
     """Such as what a hand took that was started anew."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     for number in range(10):
         view = world.view(around(MIDDLE, 1.3, 0.02 * number), MIDDLE)
         memory.look(view, world.sightings(view), held_m={'something': np.array(MIDDLE)})
@@ -425,7 +430,7 @@ def test_what_nobody_knows_in_a_hand_is_no_thing() -> None:
 
 def test_own_hands_are_no_things() -> None:
     """What is detected there is left out, and what was there before stays."""
-    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
     watch(memory, world, 10)
     for number in range(100):
         view = world.view(around(MIDDLE, 1.3, 0.002 * number), MIDDLE)

@@ -9,9 +9,9 @@ from enum import IntEnum
 import re
 
 from humanoid_control.backends import Array
-from humanoid_simulation.backend.mujoco_backend import MujocoBackend
+from humanoid_simulation.backend.mujoco_world import MujocoWorld
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.rotations import rotated
+from humanoid_simulation.quaternions import rotated
 import numpy as np
 
 PERSON = 'person'
@@ -103,7 +103,7 @@ class EntityCatalogue:
 
     """
 
-    def __init__(self, backend: MujocoBackend) -> None:
+    def __init__(self, backend: MujocoWorld) -> None:
         self._backend = backend
         self._changed: dict[str, Description] = {}
 

@@ -8,8 +8,8 @@ import re
 from typing import Any
 
 from geometry_msgs.msg import Vector3
-from humanoid_control.dynamics.rotations import from_quaternion, to_rpy
 from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector
+from humanoid_description.rotations import from_quaternion, quaternion_from_rpy, to_rpy
 from humanoid_simulation.backend.mujoco_backend import MujocoBackend
 from humanoid_simulation.backend.state import check_bounds, EntityState
 from humanoid_simulation.entity_catalogue import (
@@ -20,15 +20,15 @@ from humanoid_simulation.entity_catalogue import (
     Tags,
 )
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.rotations import from_rpy, product, rotated
+from humanoid_simulation.quaternions import product, rotated
 from humanoid_simulation.scene.resources import spawnables, thing_from
 from humanoid_simulation.scene.scene import FLOOR, Scene, WORLD
 from humanoid_simulation.service_messages import (
     answering,
     entity_state,
-    Refusal,
     refusing,
     refusing_resource,
+    RequestError,
     vector,
 )
 from humanoid_simulation.simulated_world import SimulatedWorld
@@ -147,14 +147,14 @@ class EntityServices:
             words = f'where one reaches {surface}' if surface else 'where one can stand'
             pose = NamedPose(name=place.name, description=words, tags=tags)
             pose.pose.position.x, pose.pose.position.y = place.x_m, place.y_m
-            fill_quaternion(pose.pose.orientation, from_rpy(0.0, 0.0, place.yaw_rad))
+            fill_quaternion(pose.pose.orientation, quaternion_from_rpy(0.0, 0.0, place.yaw_rad))
             response.poses.append(pose)
 
     def _tell_place_bounds(self, request: GetNamedPoseBounds.Request, _: Any) -> None:
         """Reject the request: a place is a pose to stand in, without bounds."""
         with refusing(Result.RESULT_NOT_FOUND):
             self._backend.scene.place(request.name)
-        raise Refusal(
+        raise RequestError(
             Result.RESULT_FEATURE_UNSUPPORTED,
             'Places have no bounds here: they are poses to stand in. The room that a thing takes '
             'is told by get_entity_bounds.',
@@ -183,7 +183,7 @@ class EntityServices:
         """Spawn an object."""
         name = self._new_name(request)
         if not _NAMESPACE.fullmatch(request.entity_namespace):
-            raise Refusal(
+            raise RequestError(
                 SpawnEntity.Response.NAMESPACE_INVALID,
                 f"'{request.entity_namespace}' is no namespace. Things have no topics: leave it "
                 'empty.',
@@ -216,7 +216,7 @@ class EntityServices:
         self._catalogue.forget([entity])
 
     def _entity(self, name: str) -> str:
-        """Resolve the name of an entity, or raise Refusal."""
+        """Resolve the name of an entity, or raise RequestError."""
         with refusing(Result.RESULT_NOT_FOUND):
             return self._backend.entity(name)
 
@@ -248,19 +248,19 @@ class EntityServices:
         )
 
     def _new_name(self, request: SpawnEntity.Request) -> str:
-        """Determine the name of a new entity, or raise Refusal."""
+        """Determine the name of a new entity, or raise RequestError."""
         name, taken = request.name, {*self._backend.entities, FLOOR, WORLD}
         if not name and request.allow_renaming:
             words = re.findall(r'\w+', request.entity_resource.uri.rpartition('/')[2])
             name = '_'.join(words) or 'thing'
         if not _NAME.fullmatch(name):
-            raise Refusal(
+            raise RequestError(
                 SpawnEntity.Response.NAME_INVALID,
                 f"An entity cannot be called '{name}'. Give a name of letters, digits and '_', or "
                 'allow_renaming.',
             )
         if name in taken and not request.allow_renaming:
-            raise Refusal(
+            raise RequestError(
                 SpawnEntity.Response.NAME_NOT_UNIQUE,
                 f"There is a '{name}' already. Give another name, or allow_renaming.",
             )
@@ -305,7 +305,7 @@ def _region(bounds: Bounds) -> Region | None:
     if bounds.type == Bounds.TYPE_SPHERE and len(points) == 2 and points[1][0] >= 0.0:
         return Region(points[0], points[0], float(points[1][0]))
     if bounds.type == Bounds.TYPE_CONVEX_HULL:
-        raise Refusal(
+        raise RequestError(
             Result.RESULT_FEATURE_UNSUPPORTED,
             'Entities cannot be searched for in a convex hull here. Give a box or a sphere.',
         )

@@ -19,7 +19,7 @@ Do = Callable[[Any, Any], None]
 """Fills the response to a request, or raises SimulationError."""
 
 
-class Refusal(SimulationError):
+class RequestError(SimulationError):
     """
     A rejected request, with a result code for programs.
 
@@ -40,7 +40,7 @@ class Refusal(SimulationError):
 @contextmanager
 def refusing(number: int) -> Iterator[None]:
     """
-    Turn a SimulationError of a `with` block into a Refusal with a result code.
+    Turn a SimulationError of a `with` block into a RequestError with a result code.
 
     Parameters
     ----------
@@ -49,20 +49,20 @@ def refusing(number: int) -> Iterator[None]:
 
     Raises
     ------
-    Refusal
+    RequestError
         The block raised SimulationError; the message is the same.
 
     """
     try:
         yield
     except SimulationError as error:
-        raise Refusal(number, str(error)) from error
+        raise RequestError(number, str(error)) from error
 
 
 @contextmanager
 def refusing_resource(response: Any) -> Iterator[None]:
     """
-    Turn a ResourceError of a `with` block into a Refusal with its result code.
+    Turn a ResourceError of a `with` block into a RequestError with its result code.
 
     Parameters
     ----------
@@ -71,14 +71,14 @@ def refusing_resource(response: Any) -> Iterator[None]:
 
     Raises
     ------
-    Refusal
+    RequestError
         The block raised ResourceError; the message is the same.
 
     """
     try:
         yield
     except ResourceError as error:
-        raise Refusal(getattr(response, error.problem), str(error)) from error
+        raise RequestError(getattr(response, error.problem), str(error)) from error
 
 
 def answering(do: Do) -> Callable[[Any, Any], Any]:
@@ -124,7 +124,7 @@ def failure(error: SimulationError) -> Result:
     Parameters
     ----------
     error
-        The error; the code is that of a Refusal, else `RESULT_OPERATION_FAILED`.
+        The error; the code is that of a RequestError, else `RESULT_OPERATION_FAILED`.
 
     """
     number = getattr(error, 'result', Result.RESULT_OPERATION_FAILED)

@@ -13,8 +13,8 @@ from humanoid_interfaces.srv import ApplyWrench
 from humanoid_simulation.errors import ResourceError, SimulationError
 from humanoid_simulation.scene.resources import (
     installed_worlds,
+    LoadableWorld,
     THING_FORMATS,
-    World,
     world_at,
     world_of,
     worlds_in,
@@ -23,8 +23,8 @@ from humanoid_simulation.service_messages import (
     answering,
     answering_later,
     failure,
-    Refusal,
     refusing_resource,
+    RequestError,
     vector,
 )
 from humanoid_simulation.simulated_world import SimulatedWorld, State
@@ -154,12 +154,12 @@ class SimulationServices:
         """Play, pause, stop or quit the simulation."""
         wanted, world = request.state.state, self._world
         if wanted == world.state and not world.is_stepping:
-            raise Refusal(
+            raise RequestError(
                 SetSimulationState.Response.ALREADY_IN_TARGET_STATE,
                 f'The simulation is {world.state.name.lower()} already.',
             )
         if wanted == SimulationState.STATE_PLAYING and world.has_failed:
-            raise Refusal(
+            raise RequestError(
                 SetSimulationState.Response.STATE_TRANSITION_ERROR,
                 'The physics has failed; reset the simulation first.',
             )
@@ -170,7 +170,7 @@ class SimulationServices:
         elif wanted == SimulationState.STATE_QUITTING:
             self._quit()
         else:
-            raise Refusal(
+            raise RequestError(
                 SetSimulationState.Response.INCORRECT_TRANSITION,
                 f'The state {wanted} cannot be set. Give {State.STOPPED:d} (stopped), '
                 f'{State.PLAYING:d} (playing), {State.PAUSED:d} (paused) or '
@@ -190,7 +190,7 @@ class SimulationServices:
             ResetSimulation.Request.SCOPE_STATE | ResetSimulation.Request.SCOPE_SPAWNED
         )
         if scope != ResetSimulation.Request.SCOPE_ALL and scope != parts:
-            raise Refusal(
+            raise RequestError(
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 'Time cannot be reset: it would jump back for all nodes that use it. Give scope '
                 f'{ResetSimulation.Request.SCOPE_STATE} (state), '
@@ -234,9 +234,9 @@ class SimulationServices:
         return result
 
     def _periods(self, steps: int) -> int:
-        """Convert physics steps to control periods, or raise Refusal."""
+        """Convert physics steps to control periods, or raise RequestError."""
         if self._world.state == State.PLAYING:
-            raise Refusal(
+            raise RequestError(
                 Result.RESULT_INCORRECT_STATE,
                 'The simulation runs. Pause it before you step it.',
             )
@@ -273,7 +273,7 @@ class SimulationServices:
 
     def _unload(self, _: Any, __: Any) -> None:
         """Reject the request: robots need a floor."""
-        raise Refusal(
+        raise RequestError(
             Result.RESULT_FEATURE_UNSUPPORTED,
             "There is always a world here, for robots need a floor. Load the world 'flat'.",
         )
@@ -308,7 +308,7 @@ def _tell_features(
     return response
 
 
-def _world_message(world: World) -> WorldResource:
+def _world_message(world: LoadableWorld) -> WorldResource:
     """Build the message that describes a world."""
     return WorldResource(
         name=world.name,

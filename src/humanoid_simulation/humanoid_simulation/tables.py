@@ -16,7 +16,7 @@ T = TypeVar('T')
 
 
 @dataclass(frozen=True)
-class Place:
+class SourceLocation:
     """A location in a file; line 0 is unknown."""
 
     file: str
@@ -24,7 +24,7 @@ class Place:
     key: str = ''
     """The path of the key, such as `things[0].size`; empty is the whole file."""
 
-    def of(self, key: str, line: int) -> Place:
+    def of(self, key: str, line: int) -> SourceLocation:
         """
         Locate a value within this table.
 
@@ -36,9 +36,11 @@ class Place:
             Its line, from 1 on; 0 if unknown, which gives the line of the table.
 
         """
-        return Place(self.file, line or self.line, f'{self.key}.{key}' if self.key else key)
+        return SourceLocation(
+            self.file, line or self.line, f'{self.key}.{key}' if self.key else key
+        )
 
-    def item(self, number: int, line: int) -> Place:
+    def item(self, number: int, line: int) -> SourceLocation:
         """
         Locate an item of this list.
 
@@ -50,7 +52,7 @@ class Place:
             Its line, from 1 on; 0 if unknown, which gives the line of the list.
 
         """
-        return Place(self.file, line or self.line, f'{self.key}[{number}]')
+        return SourceLocation(self.file, line or self.line, f'{self.key}[{number}]')
 
     def error(self, sentence: str) -> TableError:
         """
@@ -93,7 +95,7 @@ class Table:
 
     """
 
-    def __init__(self, values: Any, place: Place) -> None:
+    def __init__(self, values: Any, place: SourceLocation) -> None:
         if not isinstance(values, Mapping):
             what = place.key or 'the file'
             raise place.error(f'{what} must be a table of names and values, but is {values!r}.')
@@ -344,7 +346,7 @@ class Table:
             line = getattr(value, 'line', 0)
             yield Table(value, self.at(name).item(number, line))
 
-    def at(self, name: str) -> Place:
+    def at(self, name: str) -> SourceLocation:
         """
         Locate a value of this table in its file.
 
@@ -447,7 +449,7 @@ def table_of(text: str, source: str) -> Table:
         content = read_lines(text)
     except (yaml.YAMLError, RecursionError) as error:
         raise TableError(f'{source} is no YAML file: {error}') from error
-    return Table(content, Place(source, 1))
+    return Table(content, SourceLocation(source, 1))
 
 
 def _is_number(value: Any) -> bool:

@@ -10,8 +10,8 @@ import time
 from humanoid_common.parameters import build
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.dynamics import BodyModel
-from humanoid_control.dynamics.rotations import from_quaternion
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import from_quaternion
 from humanoid_simulation.backend import MujocoBackend
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.model import humanoid, Placement

@@ -16,12 +16,12 @@ from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.camera import CameraView, Renderer
 from humanoid_simulation.camera.methods import methods_of
 from humanoid_simulation.camera.render_process import RenderProcess
-from humanoid_simulation.camera.renderer import Patience, ProcessKeeper
+from humanoid_simulation.camera.renderer import ProcessKeeper, RenderTimeouts
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.testing.camera_studio import Studio, studio, world
 import pytest
 
-HURRY = Patience(draw_s=5.0, retry_s=0.0)
+HURRY = RenderTimeouts(draw_s=5.0, retry_s=0.0)
 DIES_ALONE = """
 import sys, time
 from humanoid_simulation.testing.camera_studio import studio
@@ -80,7 +80,7 @@ def test_driver_that_hangs_at_the_start(
 ) -> None:
     """A driver that does not come back is given up, and so are the cameras if it is the last."""
     without_opengl.write_text('import time\ntime.sleep(60.0)\n')
-    with studio(['egl'], patience=Patience(start_s=0.5)) as place:
+    with studio(['egl'], patience=RenderTimeouts(start_s=0.5)) as place:
         place.wait_until(lambda: 'The cameras are off' in caplog.text, 'the end')
         assert place.renderer.process_id is None and not place.renderer.can_draw
     assert 'EGL: it did not answer in time.' in caplog.text
@@ -191,7 +191,7 @@ def test_no_room_for_a_process(caplog: pytest.LogCaptureFixture) -> None:
         tried.append(method)
         raise OSError(errno.ENOMEM, os.strerror(errno.ENOMEM))
 
-    keeper = ProcessKeeper(refuse, ['egl', 'rays'], logging.getLogger('keeper'), Patience())
+    keeper = ProcessKeeper(refuse, ['egl', 'rays'], logging.getLogger('keeper'), RenderTimeouts())
     for _ in range(5):
         keeper.tend(0.0)
     assert tried == ['egl', 'rays'] and not keeper.can_draw

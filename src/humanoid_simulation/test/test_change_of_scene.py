@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from humanoid_description.rotations import quaternion_from_rpy
 from humanoid_simulation.backend import EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene import load_scene, Scene, Thing
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
@@ -17,7 +17,7 @@ BALL = Thing('ball', 'sphere', (0.1,), (2.0, 0.0, 0.1), mass_kg=2.0)
 WALL = Thing('wall', 'box', (0.1, 2.0, 1.0), (3.0, 0.0, 0.5))
 BOX = Thing('box', 'box', (0.2, 0.2, 0.2), (0.0, 2.0, 0.1), mass_kg=1.0)
 SCENE = Scene('test', things=(BALL, WALL))
-LEVEL = from_rpy(0.0, 0.0, 0.0)
+LEVEL = quaternion_from_rpy(0.0, 0.0, 0.0)
 
 
 @pytest.fixture(name='world')

@@ -7,9 +7,10 @@ from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_description.drives import load_drives
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import quaternion_from_rpy, quaternion_from_vector
 from humanoid_simulation.backend import EntityState
 from humanoid_simulation.backend.hoist import GRAVITY_M_S2, Hoist, HoistSettings
-from humanoid_simulation.rotations import from_rpy, from_vector, product
+from humanoid_simulation.quaternions import product
 import numpy as np
 import pytest
 
@@ -39,7 +40,7 @@ def lift(state: EntityState, floor_m: float) -> tuple[list[EntityState], float]:
         states.append(
             EntityState(
                 state.position_m + STEP_S * velocity,
-                product(from_vector(STEP_S * turning), state.orientation),
+                product(quaternion_from_vector(STEP_S * turning), state.orientation),
                 velocity,
                 turning,
             )
@@ -59,10 +60,11 @@ def lift(state: EntityState, floor_m: float) -> tuple[list[EntityState], float]:
 def test_it_puts_a_body_onto_its_feet(roll: float, pitch: float, yaw: float, faces: float) -> None:
     """Upright above where it lay, facing where it faced, gently, and then it lets go."""
     place = np.array([1.0, -2.0, 0.1])
-    states, most_n = lift(EntityState(place, from_rpy(roll, pitch, yaw)), STANDING_M)
+    states, most_n = lift(EntityState(place, quaternion_from_rpy(roll, pitch, yaw)), STANDING_M)
     end = states[-1]
     assert end.position_m == pytest.approx([1.0, -2.0, STANDING_M], abs=0.03)
-    assert abs(end.orientation @ from_rpy(0.0, 0.0, faces)) == pytest.approx(1.0, abs=1e-2)
+    upright = quaternion_from_rpy(0.0, 0.0, faces)
+    assert abs(end.orientation @ upright) == pytest.approx(1.0, abs=1e-2)
     assert np.abs(end.linear_velocity_m_s).max() < 0.02
     assert max(np.linalg.norm(state.linear_velocity_m_s) for state in states) < 0.8
     assert most_n < 2.0 * MASS_KG * GRAVITY_M_S2
@@ -71,7 +73,7 @@ def test_it_puts_a_body_onto_its_feet(roll: float, pitch: float, yaw: float, fac
 
 def test_it_gives_up_on_what_does_not_stand() -> None:
     """A body without feet is let down and let go."""
-    state = EntityState(np.array([0.0, 0.0, 0.1]), from_rpy(0.0, 1.5, 0.0))
+    state = EntityState(np.array([0.0, 0.0, 0.1]), quaternion_from_rpy(0.0, 1.5, 0.0))
     states, _ = lift(state, 0.0)
     assert len(states) * STEP_S < HoistSettings().give_up_s + HoistSettings().release_s + 0.1
     assert states[-1].position_m[2] < 0.2

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.dynamics.rotations import from_quaternion
+from humanoid_description.rotations import from_quaternion, quaternion_from_rpy
 from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.laser_scanner import LaserScanner, ScanNoise, ScanPattern
 from humanoid_simulation.model import Placement
-from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene import load_scene, Scene, Thing
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import mujoco
@@ -85,7 +84,7 @@ def test_a_scanner_that_leans() -> None:
     """A robot that leans forwards measures the floor ahead, and the wall behind it higher up."""
     backend = standing(0.0, 0.0, 0.0)
     state = EntityState(
-        np.array([0.0, 0.0, 1.0]), from_rpy(0.0, 0.5, 0.0), np.zeros(3), np.zeros(3)
+        np.array([0.0, 0.0, 1.0]), quaternion_from_rpy(0.0, 0.5, 0.0), np.zeros(3), np.zeros(3)
     )
     backend.set_entity_state('', state)
     scan = LaserScanner(backend.model, LINK).sweep(backend.data, 0)

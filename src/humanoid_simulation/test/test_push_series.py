@@ -6,10 +6,10 @@ from __future__ import annotations
 from humanoid_simulation.examples.push_series import (
     DIRECTIONS,
     NeverStoodError,
+    NextAction,
     Push,
     PushPlan,
     PushSeries,
-    Step,
 )
 import pytest
 
@@ -30,11 +30,11 @@ class FakeRobot:
         """Do what the series says until it is done."""
         for tick in range(1_000_000):
             step = series.update(tick * PERIOD_S, tick * PERIOD_S < self._falls_at_s)
-            if step is Step.DONE:
+            if step is NextAction.DONE:
                 return
-            if step is Step.PUSH:
+            if step is NextAction.PUSH:
                 self._take(series.push, tick * PERIOD_S)
-            if step is Step.RESET:
+            if step is NextAction.RESET:
                 self._falls_at_s = float('inf')
                 self.resets += 1
         raise AssertionError('the series does not end')
@@ -66,7 +66,7 @@ def test_a_robot_has_to_stand_before_it_is_pushed() -> None:
     series = PushSeries(PLAN)
     times_s = [tick * PERIOD_S for tick in range(300)]
     steps = {time_s: series.update(time_s, stands=time_s > 1.5) for time_s in times_s}
-    pushed_s = next(time_s for time_s, step in steps.items() if step is Step.PUSH)
+    pushed_s = next(time_s for time_s, step in steps.items() if step is NextAction.PUSH)
     assert pushed_s == pytest.approx(1.5 + PLAN.settle_s, abs=0.05)
 
 

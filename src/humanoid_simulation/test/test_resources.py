@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from humanoid_simulation.errors import ResourceError
@@ -52,6 +53,19 @@ def test_a_rigid_urdf_is_one_thing() -> None:
     assert [part.shape for part in solid] == ['box']
     assert [part.shape for part in seen] == ['box', 'sphere']
     assert seen[1].position_m == pytest.approx((0.0, 0.0, 0.15))
+
+
+def test_size_of_turned_parts() -> None:
+    """The box of an object reaches around its parts, however they are turned."""
+    urdf = """<robot name="x"><link name="base">
+    <visual><origin rpy="0 0 {yaw}"/><geometry><box size="1 1 0.1"/></geometry></visual>
+    <visual><origin rpy="0 {tilt} 0"/><geometry><cylinder radius="0.1" length="0.8"/></geometry>
+    </visual><visual><origin rpy="1 1 1"/><geometry><sphere radius="0.1"/></geometry></visual>
+    </link></robot>"""
+    upright = thing_from('', urdf.format(yaw=math.pi / 4, tilt=0), 'x')
+    assert upright.size_m == pytest.approx((math.sqrt(2.0), math.sqrt(2.0), 0.8))
+    lying = thing_from('', urdf.format(yaw=0, tilt=math.pi / 2), 'x')
+    assert lying.size_m == pytest.approx((1.0, 1.0, 0.2))
 
 
 def test_files_and_texts_give_the_same(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from humanoid_simulation.scene import load_scene, Thing
 from humanoid_simulation.scene.display import parts_below, triangles_in_world
 from humanoid_simulation.scene.meshes import PROFILES, stl_of, triangles_of
 from humanoid_simulation.scene.parts import Part
+from humanoid_simulation.scene.scene import COMPOSED
 from humanoid_simulation.simulator import Simulator
 from humanoid_simulation.topics.scene import layer_markers, layers_of, thing_markers
 import numpy as np
@@ -221,3 +222,16 @@ def test_what_is_cut_ends_at_the_height() -> None:
     assert wall.position_m[2] + part.position_m[2] + part.size_m[2] / 2 == pytest.approx(1.2)
     assert wall.position_m[2] + part.position_m[2] - part.size_m[2] / 2 == pytest.approx(1.0)
     assert parts_below(wall, 5.0)[0].size_m == wall.size_m
+
+
+def test_what_hangs_is_shown_if_all_of_it_is_below_the_cut() -> None:
+    """Its top counts, not its middle, even if a part is turned."""
+    picture = Thing('p', 'box', (0.05, 0.8, 0.6), (0.0, 0.0, 1.5), kind='picture')
+    assert parts_below(picture, 1.79) == ()
+    assert parts_below(picture, 1.81) == picture.parts
+    turned = Part('box', (0.05, 0.8, 0.6), orientation_rpy_rad=(math.pi / 2, 0.0, 0.0))
+    picture = Thing(
+        'p', COMPOSED, (0.05, 0.6, 0.8), (0.0, 0.0, 1.5), kind='picture', details=(turned,)
+    )
+    assert parts_below(picture, 1.89) == ()
+    assert parts_below(picture, 1.91) == (turned,)

@@ -6,10 +6,11 @@ from __future__ import annotations
 import math
 
 from humanoid_control.backends import Observation
+from humanoid_description.rotations import quaternion_from_rpy
 from humanoid_simulation.backend import BackendSettings, EntityState, SensorNoise
 from humanoid_simulation.backend.noise import channels_of, NoiseSource
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.rotations import from_rpy, rotated
+from humanoid_simulation.quaternions import rotated
 import numpy as np
 import pytest
 
@@ -127,7 +128,7 @@ def test_without_noise_all_is_exact(make_backend) -> None:
 def test_in_free_fall_nothing_is_felt(make_backend) -> None:
     """An accelerometer measures specific force, which is zero for what falls."""
     backend = make_backend()
-    aloft = EntityState(np.array([0.0, 0.0, 5.0]), from_rpy(0.3, 0.2, 0.1))
+    aloft = EntityState(np.array([0.0, 0.0, 5.0]), quaternion_from_rpy(0.3, 0.2, 0.1))
     backend.set_entity_state('robot', aloft)
     assert (backend.observe()[''].orientation == aloft.orientation).all()
     for _ in range(30):

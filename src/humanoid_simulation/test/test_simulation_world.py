@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
+from humanoid_description.rotations import quaternion_from_rpy
 from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.model import Physics, Placement
-from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene import Scene, Thing
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ import pytest
 BALL = Thing('ball', 'sphere', (0.1,), (2.0, 0.0, 0.1), mass_kg=2.0)
 WALL = Thing('wall', 'box', (0.1, 2.0, 1.0), (3.0, 0.0, 0.5))
 SCENE = Scene('test', things=(BALL, WALL))
-LEVEL = from_rpy(0.0, 0.0, 0.0)
+LEVEL = quaternion_from_rpy(0.0, 0.0, 0.0)
 
 
 @pytest.fixture
@@ -82,7 +82,7 @@ def test_an_entity_goes_where_it_is_put(world: MujocoBackend) -> None:
     """Position, orientation and velocities are those that were set, in the world."""
     wanted = EntityState(
         np.array([1.0, 2.0, 3.0]),
-        from_rpy(0.1, 0.2, 0.3),
+        quaternion_from_rpy(0.1, 0.2, 0.3),
         np.array([0.4, 0.5, 0.6]),
         np.array([0.7, 0.8, 0.9]),
     )

@@ -13,7 +13,7 @@ from control_msgs.msg import JointTolerance
 from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_control.trajectory_testing import trajectory_goal
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from humanoid_simulation.testing.simulators import simulation
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ class Arms:
 
     def __init__(self, ros: RosSandbox) -> None:
         """Find the robot and the actions."""
-        self.robot = SimulatedRobot(ros)
+        self.robot = RobotClient(ros)
         self.states: list[JointState] = []
         ros.observer().create_subscription(JointState, 'joint_states', self.states.append, 100)
         self.clients = {

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 
-from humanoid_simulation.testing.simulated_robot import FellError, SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import FellError, RobotClient
 from humanoid_simulation.testing.simulators import simulated_robot
 import pytest
 from std_msgs.msg import Bool
@@ -17,14 +17,14 @@ STANDS = 'stand'
 
 
 @pytest.fixture(scope='module')
-def simulation() -> Iterator[SimulatedRobot]:
+def simulation() -> Iterator[RobotClient]:
     """Run a simulator."""
     with simulated_robot() as robot:
         yield robot
 
 
 @pytest.fixture
-def robot(simulation: SimulatedRobot) -> Iterator[SimulatedRobot]:
+def robot(simulation: RobotClient) -> Iterator[RobotClient]:
     """Give a robot that stands where it began, and that nobody commands."""
     simulation.reset()
     simulation.topics.drive(None)
@@ -32,12 +32,12 @@ def robot(simulation: SimulatedRobot) -> Iterator[SimulatedRobot]:
     simulation.topics.joint_commands = {}
 
 
-def comes_to_rest(robot: SimulatedRobot) -> bool:
+def comes_to_rest(robot: RobotClient) -> bool:
     """Tell whether it stands within a few seconds."""
     return robot.wait_until(lambda: robot.topics.walking_state == STANDS, 10.0)
 
 
-def test_without_a_velocity_it_stops(robot: SimulatedRobot) -> None:
+def test_without_a_velocity_it_stops(robot: RobotClient) -> None:
     """Whoever drives and falls silent does not let it walk on."""
     robot.drive(0.25)
     robot.wait(3.0)
@@ -46,7 +46,7 @@ def test_without_a_velocity_it_stops(robot: SimulatedRobot) -> None:
     assert comes_to_rest(robot)
 
 
-def test_a_stop_ends_the_walk(robot: SimulatedRobot) -> None:
+def test_a_stop_ends_the_walk(robot: RobotClient) -> None:
     """The velocity goes on to come, but it stands until it is released."""
     robot.drive(0.25)
     robot.wait(3.0)
@@ -58,7 +58,7 @@ def test_a_stop_ends_the_walk(robot: SimulatedRobot) -> None:
     assert robot.wait_until(lambda: robot.topics.walking_state == 'walk', 10.0)
 
 
-def test_arms_move_while_it_walks(robot: SimulatedRobot) -> None:
+def test_arms_move_while_it_walks(robot: RobotClient) -> None:
     """The walk leaves them to it, and goes on."""
     begin = robot.pose
     robot.topics.joint_commands = {'left_elbow': -1.2, 'right_elbow': -0.9}
@@ -69,7 +69,7 @@ def test_arms_move_while_it_walks(robot: SimulatedRobot) -> None:
 
 
 @pytest.mark.parametrize('command', [{'left_knee': 1.5}, {'left_elbow': math.nan}, {'wing': 1.0}])
-def test_bad_joint_commands_harm_nothing(robot: SimulatedRobot, command: dict[str, float]) -> None:
+def test_bad_joint_commands_harm_nothing(robot: RobotClient, command: dict[str, float]) -> None:
     """Joints of the walk, numbers that are none, and joints that are none."""
     before = robot.topics.positions_rad
     robot.topics.joint_commands = command
@@ -79,7 +79,7 @@ def test_bad_joint_commands_harm_nothing(robot: SimulatedRobot, command: dict[st
     assert max(abs(after[name] - before[name]) for name in before) < 0.05
 
 
-def test_a_robot_that_fell_is_helped_up(robot: SimulatedRobot) -> None:
+def test_a_robot_that_fell_is_helped_up(robot: RobotClient) -> None:
     """It stands again, and walks."""
     with pytest.raises(FellError):
         robot.push('left', 60.0)

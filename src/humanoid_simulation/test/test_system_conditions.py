@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.walking import PlanarPose
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from humanoid_simulation.testing.simulators import simulated_robot, simulation
 import pytest
 
@@ -52,7 +52,7 @@ def test_the_same_seed_is_the_same_walk() -> None:
 def test_two_robots_walk_each_for_itself() -> None:
     """What one of them is told is nothing to the other."""
     with simulation(robots='[robot1, robot2]') as ros:
-        first, second = (SimulatedRobot(ros, name) for name in ('robot1', 'robot2'))
+        first, second = (RobotClient(ros, name) for name in ('robot1', 'robot2'))
         places = first.pose, second.pose
         first.drive()
         second.drive(0.25)

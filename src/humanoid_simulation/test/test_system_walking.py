@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 
-from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.planar import PlanarPose
+from humanoid_description.rotations import wrap_angle
 from humanoid_simulation.examples.push_series import DIRECTIONS
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 from humanoid_simulation.testing.simulators import simulated_robot
 import pytest
 
@@ -17,20 +17,20 @@ pytestmark = pytest.mark.timeout(600)
 
 
 @pytest.fixture(scope='module')
-def simulation() -> Iterator[SimulatedRobot]:
+def simulation() -> Iterator[RobotClient]:
     """Run a simulator."""
     with simulated_robot() as robot:
         yield robot
 
 
 @pytest.fixture
-def robot(simulation: SimulatedRobot) -> SimulatedRobot:
+def robot(simulation: RobotClient) -> RobotClient:
     """Give a robot that stands where it began."""
     simulation.reset()
     return simulation
 
 
-def test_it_stands_for_a_minute(robot: SimulatedRobot) -> None:
+def test_it_stands_for_a_minute(robot: RobotClient) -> None:
     """Nobody drives it, and it stays where it is."""
     begin = robot.pose
     robot.topics.drive(None)
@@ -39,7 +39,7 @@ def test_it_stands_for_a_minute(robot: SimulatedRobot) -> None:
     assert abs(wrap_angle(robot.pose.yaw_rad - begin.yaw_rad)) < 0.02
 
 
-def test_it_walks_straight(robot: SimulatedRobot) -> None:
+def test_it_walks_straight(robot: RobotClient) -> None:
     """Three metres at 0.25 m/s, on a line."""
     begin = robot.pose
     robot.drive(0.25)
@@ -47,7 +47,7 @@ def test_it_walks_straight(robot: SimulatedRobot) -> None:
     assert abs(begin.local(robot.pose.position_m).imag) < 0.15
 
 
-def test_it_turns_by_its_odometry(robot: SimulatedRobot) -> None:
+def test_it_turns_by_its_odometry(robot: RobotClient) -> None:
     """A quarter turn, to which it needs no ground truth."""
     begin, believed = robot.pose, robot.topics.odometry
 
@@ -64,7 +64,7 @@ def test_it_turns_by_its_odometry(robot: SimulatedRobot) -> None:
     assert wrap_angle(robot.pose.yaw_rad - begin.yaw_rad) == pytest.approx(math.pi / 2, abs=0.15)
 
 
-def test_it_stands_and_walks_where_it_was_put(robot: SimulatedRobot) -> None:
+def test_it_stands_and_walks_where_it_was_put(robot: RobotClient) -> None:
     """Turned round, too, while it walked; and it goes on from there."""
     robot.drive(0.25)
     robot.wait(1.5)
@@ -77,7 +77,7 @@ def test_it_stands_and_walks_where_it_was_put(robot: SimulatedRobot) -> None:
     assert robot.wait_until(lambda: begin.local(robot.pose.position_m).real > 0.5, 8.0)
 
 
-def test_it_steps_sideways(robot: SimulatedRobot) -> None:
+def test_it_steps_sideways(robot: RobotClient) -> None:
     """Half a metre to the left, without turning."""
     begin = robot.pose
     robot.drive(left=0.1)
@@ -88,7 +88,7 @@ def test_it_steps_sideways(robot: SimulatedRobot) -> None:
     assert abs(wrap_angle(robot.pose.yaw_rad - begin.yaw_rad)) < 0.1
 
 
-def test_it_stops_within_three_seconds(robot: SimulatedRobot) -> None:
+def test_it_stops_within_three_seconds(robot: RobotClient) -> None:
     """From walking to standing still."""
     robot.drive(0.25)
     robot.wait(4.0)
@@ -100,14 +100,14 @@ def test_it_stops_within_three_seconds(robot: SimulatedRobot) -> None:
 
 
 @pytest.mark.parametrize('direction', DIRECTIONS)
-def test_it_bears_a_push_standing(robot: SimulatedRobot, direction: str) -> None:
+def test_it_bears_a_push_standing(robot: RobotClient, direction: str) -> None:
     """15 N s at the base."""
     robot.push(direction, 15.0)
     robot.wait(4.0)
 
 
 @pytest.mark.parametrize('direction', DIRECTIONS)
-def test_it_bears_a_push_walking(robot: SimulatedRobot, direction: str) -> None:
+def test_it_bears_a_push_walking(robot: RobotClient, direction: str) -> None:
     """10 N s at the base, whatever foot it is on; then it goes on walking."""
     robot.drive(0.2)
     robot.wait(3.0)
@@ -118,7 +118,7 @@ def test_it_bears_a_push_walking(robot: SimulatedRobot, direction: str) -> None:
     assert begin.local(robot.pose.position_m).real > 0.2
 
 
-def test_a_reset_while_it_walks(robot: SimulatedRobot) -> None:
+def test_a_reset_while_it_walks(robot: RobotClient) -> None:
     """It is back at the start, stands, time has gone on, and it walks again."""
     robot.drive(0.25)
     robot.wait(3.1)
@@ -132,7 +132,7 @@ def test_a_reset_while_it_walks(robot: SimulatedRobot) -> None:
     assert abs(robot.pose.position_m) > 0.5
 
 
-def test_a_paused_robot_walks_only_by_steps(robot: SimulatedRobot) -> None:
+def test_a_paused_robot_walks_only_by_steps(robot: RobotClient) -> None:
     """Time passes as many steps as are asked for, and no more."""
     robot.pause()
     before_s = robot.topics.time_s

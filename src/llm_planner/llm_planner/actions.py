@@ -13,7 +13,7 @@ from llm_planner.looking import Looking
 from llm_planner.plan import Step, value_in_words
 from llm_planner.plan_tree import SkillError, SkillRun
 from llm_planner.recall import HEAD_M, Recall
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from llm_planner.skills import Skills
 from llm_planner.telling import Telling
 from llm_planner.tidying import Tidying
@@ -54,7 +54,7 @@ class Actions:
     )
     """The names of the implemented skills."""
 
-    def __init__(self, robot: Robot, watch: WorldWatch, skills: Skills) -> None:
+    def __init__(self, robot: RobotInterface, watch: WorldWatch, skills: Skills) -> None:
         self._robot, self._watch, self._skills = robot, watch, skills
         self._recall = Recall(watch)
         self._walking = Walking(robot, watch, self._recall)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from humanoid_interfaces.action import HandOver, Pick, Place
 from llm_planner.plan_tree import SkillRun
 from llm_planner.recall import Recall
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from llm_planner.world import ObjectDescription
 from llm_planner.world_watch import WorldWatch
 
@@ -24,7 +24,7 @@ class Handling:
 
     """
 
-    def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall) -> None:
+    def __init__(self, robot: RobotInterface, watch: WorldWatch, recall: Recall) -> None:
         self._robot, self._watch, self._recall = robot, watch, recall
 
     def pick(self, object: ObjectDescription) -> SkillRun:  # noqa: A002

@@ -11,7 +11,7 @@ from control_msgs.action import PointHead
 from humanoid_interfaces.action import ScanRoom
 from llm_planner.plan_tree import SkillError, SkillRun
 from llm_planner.recall import Recall
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from llm_planner.walking import Walking
 from llm_planner.wording import where_is
 from llm_planner.world import base_name, in_words, listed, ObjectDescription
@@ -37,7 +37,9 @@ class Looking:
 
     """
 
-    def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall, walking: Walking) -> None:
+    def __init__(
+        self, robot: RobotInterface, watch: WorldWatch, recall: Recall, walking: Walking
+    ) -> None:
         self._robot, self._watch = robot, watch
         self._recall, self._walking = recall, walking
         self._searched_s: dict[str, float] = {}

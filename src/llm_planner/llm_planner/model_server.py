@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 import json
+import re
 import time
 from typing import Any
 
@@ -26,6 +27,13 @@ _MOST_TOKENS = 800
 _NAMED = 8
 """How many models a message lists."""
 _CONNECT_S = 3.0
+_UNKNOWN_MODEL = re.compile(
+    r'model_not_found|invalid_model|(?:invalid|unknown|no such) model\b|not a valid model\b'
+    r'|\bmodel (?:\S+ )?(?:is |was |has been |does )?'
+    r'(?:not found|not exist|not available|unavailable|unknown|retired|deprecated)\b',
+    re.IGNORECASE,
+)
+"""How servers that answer an unknown model with status 400 word the error."""
 
 
 class ModelServer:
@@ -87,7 +95,7 @@ class ModelServer:
             if status == 400 and len(self._modes) > 1 and 'response_format' in text:
                 del self._modes[0]
                 continue
-            if status == 404 or (status == 400 and 'model' in text.lower()):
+            if status == 404 or (status == 400 and _UNKNOWN_MODEL.search(text)):
                 raise ModelError(self._unknown(model, deadline_s))
             self._check(status, text)
             return _content(text)

@@ -7,7 +7,7 @@ from typing import Any
 
 from llm_planner.plan_tree import SkillError
 from llm_planner.wording import capital
-from llm_planner.world import ObjectDescription, Thing
+from llm_planner.world import KnownObject, ObjectDescription
 from llm_planner.world_watch import WorldWatch
 
 __all__ = ['HEAD_M', 'Recall']
@@ -37,7 +37,7 @@ class Recall:
         self._found.clear()
         self._known.clear()
 
-    def take_found(self, described: ObjectDescription, thing: Thing) -> None:
+    def take_found(self, described: ObjectDescription, thing: KnownObject) -> None:
         """
         Bind a description to the object that was found for it, until the plan is over.
 
@@ -49,7 +49,7 @@ class Recall:
         """
         self._found[described] = thing.object_id
 
-    def remembered(self, described: ObjectDescription) -> Thing | None:
+    def remembered(self, described: ObjectDescription) -> KnownObject | None:
         """
         Find the remembered object that a description means.
 
@@ -60,7 +60,7 @@ class Recall:
 
         Returns
         -------
-        Thing or None
+        KnownObject or None
             None if no remembered object fits.
 
         """
@@ -73,7 +73,7 @@ class Recall:
             self._known.add(described)
         return found
 
-    def thing(self, described: ObjectDescription) -> Thing:
+    def thing(self, described: ObjectDescription) -> KnownObject:
         """
         Find the remembered object that a description means, or raise.
 

@@ -17,7 +17,7 @@ from llm_planner.plan import check, moves, Plan, PlanError, Step, words_for
 from llm_planner.skills import Skills
 from llm_planner.world import listed, ObjectDescription, World
 
-__all__ = ['MOST_REPLANS', 'Account', 'Failure', 'Recovery', 'Remedy', 'remedy_for']
+__all__ = ['MOST_REPLANS', 'Account', 'Failure', 'Remedy', 'ReplanningState', 'remedy_for']
 
 MOST_REPLANS = 2
 _CURABLE = ('FAILED', 'TIMEOUT')
@@ -125,7 +125,7 @@ def _with(step: Step, old: Any, new: Any) -> Step:
     return Step(step.skill, arguments)
 
 
-class Recovery:
+class ReplanningState:
     """
     Replanning state of a command: what was tried, and what else may be.
 

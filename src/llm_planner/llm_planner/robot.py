@@ -8,7 +8,7 @@ from itertools import count
 from typing import Any
 
 from action_msgs.msg import GoalStatus
-from humanoid_common.client_goals import cancel_goal, GoalResult
+from humanoid_common.client_goals import cancel_goal, ResultRequest
 from humanoid_common.qos import EVENT
 from llm_planner.plan_tree import SkillError, SkillRun
 from rclpy.action import ActionClient
@@ -18,7 +18,7 @@ from rclpy.task import Future
 from rclpy.time import Time
 from std_msgs.msg import String
 
-__all__ = ['Robot']
+__all__ = ['RobotInterface']
 
 _PATIENCE_S = 5.0
 """How long a server may take to appear, or to accept a goal; by a steady clock."""
@@ -30,7 +30,7 @@ _LOOK_TICKS = 20
 """Number of ticks between checks for another server of an action, and between retries."""
 
 
-class Robot:
+class RobotInterface:
     """
     The actions and topics of a robot, for skills.
 
@@ -112,7 +112,7 @@ class Robot:
         yield from self._patiently(client.server_is_ready, f"'{name}' is not running.")
         servers = self._servers(name)
         sent = yield from self._accepted(client, name, goal)
-        end = GoalResult(sent.result())
+        end = ResultRequest(sent.result())
         try:
             yield from self._ended(client, name, end, servers)
             answer = end.result()
@@ -144,7 +144,7 @@ class Robot:
                 yield
 
     def _ended(
-        self, client: ActionClient, name: str, end: GoalResult, servers: set[bytes]
+        self, client: ActionClient, name: str, end: ResultRequest, servers: set[bytes]
     ) -> SkillRun:
         """Wait for a result; raise SkillError if the server that accepted the goal is gone."""
         for tick in count():

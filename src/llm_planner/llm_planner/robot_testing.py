@@ -20,7 +20,7 @@ from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
-__all__ = ['MUGS', 'PLACES', 'Robot', 'detection']
+__all__ = ['MUGS', 'PLACES', 'RobotStub', 'detection']
 
 _SEEING_TICKS = 10
 PLACES = """
@@ -63,7 +63,7 @@ MUGS = [
 ]
 
 
-class Robot(Node):
+class RobotStub(Node):
     """
     Fake robot: navigation that does not move, scripted perception, and a record of messages.
 

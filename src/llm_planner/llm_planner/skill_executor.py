@@ -23,7 +23,7 @@ from llm_planner.plan import check, Plan, PlanError, UnavailableError, words_for
 from llm_planner.plan_messages import plan_of
 from llm_planner.plan_tree import make_tree, Progress, SkillError, StepNews
 from llm_planner.readiness import Readiness
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from py_trees.common import Status
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -54,7 +54,7 @@ class SkillExecutor(Node):
         super().__init__('skill_executor', **options)
         told = NodeParameters(self, KnowledgeParameters).current
         self._planner, self._watch = begin_watch(self, told)
-        self._robot = Robot(self)
+        self._robot = RobotInterface(self)
         self._actions = Actions(self._robot, self._watch, self._planner.skills)
         self._states = self.create_publisher(String, 'executor/state', LATCHED)
         self._command: Any = None

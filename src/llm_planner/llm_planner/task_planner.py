@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-import json
 import math
 import os
 import sys
@@ -13,15 +12,12 @@ import time
 import traceback
 from typing import Any
 
-from action_msgs.msg import GoalStatus
-from humanoid_common.client_goals import cancel_goal
 from humanoid_common.diagnostics import Diagnostics, PartStatus
 from humanoid_common.executing import create_async_service
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
-from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan as PlanMessage
 from humanoid_interfaces.srv import MakePlan
 from llm_planner.dialogue import (
@@ -32,16 +28,15 @@ from llm_planner.dialogue import (
     Refusal,
     with_answers,
 )
+from llm_planner.executor_client import ExecutorClient
 from llm_planner.grammar import tokenized
 from llm_planner.health import PlannerHealth
 from llm_planner.knowledge import begin_watch, KnowledgeParameters
 from llm_planner.model_planner import ModelError, ModelPlanner
 from llm_planner.plan import Plan
-from llm_planner.plan_messages import failure_of, plan_message
-from llm_planner.replanning import Account, Failure, Recovery, Remedy
+from llm_planner.plan_messages import plan_message
+from llm_planner.replanning import Account, Failure, Remedy, ReplanningState
 from llm_planner.world import World
-from rclpy.action import ActionClient
-from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
@@ -50,10 +45,6 @@ __all__ = ['PlannerParameters', 'TaskPlanner', 'main']
 
 _ANSWER_S = 60.0
 """How long an answer to a question is accepted."""
-_ACCEPT_S, _SENDINGS = 3.0, 3
-"""How long to wait for the response to a goal, and how often the goal is sent."""
-_LOOK_S = 1.0
-"""Period of the check whether the executor is still running."""
 
 
 @dataclass(frozen=True)
@@ -95,10 +86,6 @@ class PlannerParameters(KnowledgeParameters):
     )
 
 
-class _ExecutorLostError(Exception):
-    """The executor ended before its plan was completed."""
-
-
 class TaskPlanner(Node):
     """
     Node that turns commands into plans, and sends these to the action `execute_plan`.
@@ -128,26 +115,18 @@ class TaskPlanner(Node):
             server = ModelServer(told.base_url, told.model, key, told.output_mode)
             self._model = ModelPlanner(self._planner.skills, server.answer, told.timeout_s)
         self._dialogue = Dialogue()
-        self._sent: Any = None
-        self._unanswered: dict[Future[Any], int] = {}
-        """Futures of whether goals were answered, with the number of checks left to wait."""
-        self._ends: set[Future[Any]] = set()
-        self._run = ''
         self._newest = 0
         self._asked_s = -math.inf
         self._confirm = told.confirm
         self._health = PlannerHealth(told.backend, told.base_url if self._model else '')
-        self._client = ActionClient(self, ExecutePlan, 'execute_plan')
+        self._executor_client = ExecutorClient(self, self._say)
         self._plans = self.create_publisher(PlanMessage, 'plan', LATCHED)
         self._speech = self.create_publisher(String, 'speech/say', EVENT)
         self._grammar = self.create_publisher(String, 'speech/grammar', LATCHED)
         for topic in ('user_command', 'speech/transcript'):
             self.create_subscription(String, topic, self._take, EVENT)
-        self.create_subscription(String, 'executor/state', self._follow, LATCHED)
         create_async_service(self, MakePlan, '~/plan', self._answer)
         self._diagnostics = Diagnostics(self, self._status)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._lookout = self.create_timer(_LOOK_S, self._look_for_executor, clock=steady)
         # A recogniser takes seconds to load a grammar, so this one has the answers from the start.
         commands = self._planner.to_jsgf(self._watch.world())
         grammar = with_answers(commands, asks_to_confirm=told.confirm != 'never')
@@ -189,7 +168,7 @@ class TaskPlanner(Node):
     async def _have_done(self, plan: Plan, number: int) -> None:
         """Execute a plan, and replan after a failure if something else makes sense."""
         stamp = self.get_clock().now().to_msg()
-        recovery = Recovery(plan, self._planner.skills)
+        recovery = ReplanningState(plan, self._planner.skills)
         self._health.command = plan.command
         while (failure := await self._failure(plan, stamp)) is not None:
             if number != self._newest:
@@ -214,102 +193,14 @@ class TaskPlanner(Node):
         made.header.stamp = stamp
         steps = '; '.join(each.text for each in made.steps)
         self.get_logger().info(f'{plan.command!r}: {steps}')
-        if not self._client.server_is_ready():
+        if not self._executor_client.is_ready:
             self._say('I cannot do anything, as the skill executor is not running.')
             return None
         self._health.plans += 1
         self._plans.publish(made)
-        sent = await self._sent_goal(ExecutePlan.Goal(plan=made))
-        if sent is None:
-            return None
-        try:
-            answer = await self._end_of(sent)
-        except _ExecutorLostError as error:
-            self.get_logger().warning(f'{plan.command!r} is given up. {error}')
-            return None
-        if answer is None:
-            return None
-        return failure_of(answer.result) if answer.status == GoalStatus.STATUS_ABORTED else None
+        return await self._executor_client.execute(made)
 
-    async def _sent_goal(self, goal: ExecutePlan.Goal) -> Any:
-        """
-        Send a goal; return the completed future of its response, or None if it was given up.
-
-        A goal without a response is sent again: an executor that was discovered only just now may
-        not have discovered this node yet.
-        """
-        for _ in range(_SENDINGS):
-            sent = self._sent = self._client.send_goal_async(goal)
-            answered: Future[Any] = Future(executor=self.executor)
-            self._unanswered[answered] = round(_ACCEPT_S / _LOOK_S)
-            sent.add_done_callback(lambda _, told=answered: told.done() or told.set_result(True))
-            is_answered = await answered
-            self._unanswered.pop(answered, None)
-            if self._sent is not sent:  # stopped, or superseded by a newer command
-                return None
-            if is_answered:
-                return sent
-            cancel_goal(sent)
-        self._say('I cannot do anything, as the skill executor does not answer.')
-        return None
-
-    async def _end_of(self, sent: Any) -> Any:
-        """
-        Wait for the result of a goal that was sent; None if it was not accepted.
-
-        Raises
-        ------
-        _ExecutorLostError
-            The executor has ended, and can no longer respond.
-
-        """
-        end: Future[Any] = Future(executor=self.executor)
-
-        def give(answered: Any) -> None:
-            if not end.done():
-                end.set_result(answered.result())
-
-        def wait(accepted: Any) -> None:
-            handle = accepted.result()
-            if handle is not None and handle.accepted:
-                handle.get_result_async().add_done_callback(give)
-            elif not end.done():
-                end.set_result(None)
-
-        sent.add_done_callback(wait)
-        self._ends.add(end)
-        try:
-            return await end
-        finally:
-            self._ends.discard(end)
-
-    def _follow(self, message: String) -> None:
-        """Detect that another executor is running."""
-        try:
-            run = json.loads(message.data)['run']
-        except (ValueError, TypeError, KeyError):
-            return
-        before, self._run = self._run, run
-        if before and before != run:  # the new one announces the interruption
-            self._lose('The skill executor was started anew.')
-
-    def _look_for_executor(self) -> None:
-        """Detect that the executor has ended, or does not respond."""
-        for answered in list(self._unanswered):
-            self._unanswered[answered] -= 1
-            if self._unanswered[answered] < 0 and not answered.done():
-                answered.set_result(False)
-        if not self._client.server_is_ready() and self._lose('The skill executor has ended.'):
-            self._say('I cannot go on, as the skill executor has ended.')
-
-    def _lose(self, reason: str) -> bool:
-        """Fail all waits for an executor that has ended; return whether there were any."""
-        lost = [each for each in self._ends if not each.done()]
-        for end in lost:
-            end.set_exception(_ExecutorLostError(reason))
-        return bool(lost)
-
-    async def _remedy(self, command: str, recovery: Recovery) -> Remedy | None:
+    async def _remedy(self, command: str, recovery: ReplanningState) -> Remedy | None:
         """Find a remedy after a failure, with the model if there is one, or with the rules."""
         world = self._watch.world()
         if not recovery.may_go_on(world):
@@ -364,18 +255,15 @@ class TaskPlanner(Node):
             executor.create_task(told.set_result, outcome)
 
     def _stop(self) -> None:
-        """Cancel the current goal, even if it has only just been sent."""
+        """Cancel the plan that is being executed."""
         self._health.command = ''
-        sent, self._sent = self._sent, None
-        if sent is not None:
-            cancel_goal(sent)
+        self._executor_client.stop()
 
     def _status(self) -> list[PartStatus]:
         """Return the diagnostic status of the node."""
         question = self._dialogue.question
         self._health.question = question.text if question is not None else ''
-        has_executor = self._client.server_is_ready()
-        return [self._health.status(time.monotonic(), has_executor=has_executor)]
+        return [self._health.status(time.monotonic(), has_executor=self._executor_client.is_ready)]
 
     async def _answer(self, request: MakePlan.Request, response: MakePlan.Response) -> Any:
         """Plan a command without executing it, in a dialogue of its own."""

@@ -9,10 +9,10 @@ from typing import Any
 from llm_planner.looking import Looking
 from llm_planner.plan_tree import SkillRun
 from llm_planner.recall import Recall
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from llm_planner.walking import Walking
 from llm_planner.wording import capital, enumerated, NUMBERS, where_is, with_article
-from llm_planner.world import base_name, in_words, ObjectDescription, Thing
+from llm_planner.world import base_name, in_words, KnownObject, ObjectDescription
 from llm_planner.world_watch import WorldWatch
 
 __all__ = ['Telling']
@@ -38,7 +38,7 @@ class Telling:
 
     def __init__(
         self,
-        robot: Robot,
+        robot: RobotInterface,
         watch: WorldWatch,
         recall: Recall,
         walking: Walking,
@@ -151,7 +151,7 @@ class Telling:
         self._robot.say(f'{where} I see {enumerated(there) or "nothing that I know"}.')
 
 
-def _are_neighbours(one: Thing, other: Thing) -> bool:
+def _are_neighbours(one: KnownObject, other: KnownObject) -> bool:
     if one.object_id == other.object_id or base_name(one.place) != base_name(other.place):
         return False
     return math.dist(one.position_m, other.position_m) <= _NEAR_M

@@ -6,10 +6,10 @@ from __future__ import annotations
 from llm_planner.handling import Handling
 from llm_planner.looking import Looking
 from llm_planner.plan_tree import SkillError, SkillRun
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from llm_planner.walking import Walking
 from llm_planner.wording import capital
-from llm_planner.world import in_words, listed, ObjectDescription, Thing
+from llm_planner.world import in_words, KnownObject, listed, ObjectDescription
 from llm_planner.world_watch import WorldWatch
 
 __all__ = ['Tidying']
@@ -30,7 +30,7 @@ class Tidying:
 
     def __init__(
         self,
-        robot: Robot,
+        robot: RobotInterface,
         watch: WorldWatch,
         walking: Walking,
         looking: Looking,
@@ -85,7 +85,7 @@ class Tidying:
             raise SkillError(done + ' '.join(left), is_final=True)
         self._robot.say(done.strip())
 
-    def _next(self, place: str, tried: set[str]) -> Thing | None:
+    def _next(self, place: str, tried: set[str]) -> KnownObject | None:
         """Return an object at a place that was not tried yet; None if there is none."""
         everything = ObjectDescription(place=place)
         return next(

@@ -11,9 +11,9 @@ from humanoid_navigation.arrival import stamped
 from llm_planner.plan import value_in_words
 from llm_planner.plan_tree import SkillError, SkillRun
 from llm_planner.recall import Recall
-from llm_planner.robot import Robot
+from llm_planner.robot import RobotInterface
 from llm_planner.standing import Pose, stands_at_object, stands_at_surface, stands_in_room
-from llm_planner.world import in_words, listed, ObjectDescription, Thing
+from llm_planner.world import in_words, KnownObject, listed, ObjectDescription
 from llm_planner.world_watch import WorldWatch
 from nav2_msgs.action import (
     BackUp,
@@ -43,7 +43,7 @@ class Walking:
 
     """
 
-    def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall) -> None:
+    def __init__(self, robot: RobotInterface, watch: WorldWatch, recall: Recall) -> None:
         self._robot, self._watch, self._recall = robot, watch, recall
         self._home: Pose | None = None
         self._missed: list[Pose] = []
@@ -174,7 +174,7 @@ class Walking:
         assert surface is not None, 'The plan was checked.'
         return stands_at_surface(surface, places)
 
-    def _stands_at(self, thing: Thing) -> list[Pose]:
+    def _stands_at(self, thing: KnownObject) -> list[Pose]:
         """Compute the poses to reach an object: in front of its surface, or beside it."""
         places, at = self._watch.places, thing.position_m[:2]
         surface = next((each for each in places.surfaces if each.name == thing.place), None)

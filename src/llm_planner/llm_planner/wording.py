@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from llm_planner.world import ANYTHING, in_words, listed, ObjectDescription, Thing
+from llm_planner.world import ANYTHING, in_words, KnownObject, listed, ObjectDescription
 
 __all__ = ['NUMBERS', 'capital', 'enumerated', 'where_is', 'with_article']
 
 NUMBERS = ('no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten')
 
 
-def where_is(thing: Thing) -> str:
+def where_is(thing: KnownObject) -> str:
     """
     Describe where an object is, in words that follow its name.
 
@@ -58,7 +58,7 @@ def capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def enumerated(things: Sequence[Thing]) -> str:
+def enumerated(things: Sequence[KnownObject]) -> str:
     """
     List objects in words: a red mug and two books.
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import math
 
 __all__ = [
-    'ANYTHING', 'ObjectDescription', 'Thing', 'World', 'base_name', 'in_words', 'listed',
+    'ANYTHING', 'KnownObject', 'ObjectDescription', 'World', 'base_name', 'in_words', 'listed',
     'spoken_places',
 ]  # fmt: skip
 
@@ -18,7 +18,7 @@ _PLURALS = {'box': 'boxes', 'person': 'people'}
 
 
 @dataclass(frozen=True)
-class Thing:
+class KnownObject:
     """
     A remembered object.
 
@@ -104,7 +104,7 @@ class ObjectDescription:
             bool(words) and self.class_id in (ANYTHING, words[-1]) and self.colour in ('', *words)
         )
 
-    def fits(self, thing: Thing) -> bool:
+    def fits(self, thing: KnownObject) -> bool:
         """
         Check whether the description fits an object, regardless of `which`.
 
@@ -124,8 +124,8 @@ class ObjectDescription:
         )
 
     def among(
-        self, things: Iterable[Thing], robot: tuple[float, float, float] | None = None
-    ) -> list[Thing]:
+        self, things: Iterable[KnownObject], robot: tuple[float, float, float] | None = None
+    ) -> list[KnownObject]:
         """
         Return the objects that the description fits, best first.
 
@@ -173,7 +173,7 @@ class World:
 
     places: Mapping[str, str] = field(default_factory=dict)
     rooms: tuple[str, ...] = ()
-    things: tuple[Thing, ...] = ()
+    things: tuple[KnownObject, ...] = ()
     missing: Mapping[str, str] = field(default_factory=dict)
     inhibition: str = ''
     holding: str = ''
@@ -258,14 +258,14 @@ def spoken_places(world: World, more: Mapping[str, Iterable[str]]) -> dict[str, 
     return {text: tuple(names) for text, names in meant.items()}
 
 
-def _orders(robot: tuple[float, float, float]) -> Mapping[str, Callable[[Thing], float]]:
+def _orders(robot: tuple[float, float, float]) -> Mapping[str, Callable[[KnownObject], float]]:
     """Return the sort key of objects for each word that selects one of them."""
     x, y, yaw = robot
 
-    def distance(thing: Thing) -> float:
+    def distance(thing: KnownObject) -> float:
         return math.hypot(thing.position_m[0] - x, thing.position_m[1] - y)
 
-    def bearing(thing: Thing) -> float:
+    def bearing(thing: KnownObject) -> float:
         angle = math.atan2(thing.position_m[1] - y, thing.position_m[0] - x)
         return math.remainder(angle - yaw, math.tau)
 

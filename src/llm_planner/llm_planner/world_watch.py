@@ -11,7 +11,7 @@ from humanoid_perception.memory_conversions import planar_of, pose_of
 from humanoid_perception.places import Places, Room, Surface
 from humanoid_perception.remembered import greatest_sigma_m
 from llm_planner.skills import Skill, Skills
-from llm_planner.world import base_name, Thing, World
+from llm_planner.world import base_name, KnownObject, World
 import numpy as np
 from rclpy.node import Node
 from rclpy.time import Time
@@ -47,7 +47,7 @@ class WorldWatch:
     ) -> None:
         self._node, self._skills, self._implemented = node, skills, implemented
         self.places = places
-        self._things: tuple[Thing, ...] = ()
+        self._things: tuple[KnownObject, ...] = ()
         self._held: dict[str, str] = {}
         self._inhibition = Inhibition()
         self._buffer = Buffer()
@@ -70,7 +70,7 @@ class WorldWatch:
         self._rooms = tuple(sorted(rooms))
 
     @property
-    def things(self) -> tuple[Thing, ...]:
+    def things(self) -> tuple[KnownObject, ...]:
         """Return the remembered objects."""
         return self._things
 
@@ -249,7 +249,7 @@ class WorldWatch:
 
     def _take_held(self, message: Detection3DArray) -> None:
         self._held = {
-            _side_of(each.header.frame_id): Thing(each.id, *_class_and_colour(each)).name
+            _side_of(each.header.frame_id): KnownObject(each.id, *_class_and_colour(each)).name
             for each in message.detections
             if each.results
         }
@@ -265,13 +265,13 @@ def _side_of(gripper_frame: str) -> str:
     return 'left' if gripper_frame.rpartition('/')[2].startswith('l_') else 'right'
 
 
-def _thing(detection: Any, places: Places) -> Thing:
+def _thing(detection: Any, places: Places) -> KnownObject:
     """Convert a detection to a remembered object."""
     centre, size = detection.bbox.center.position, detection.bbox.size
     covariance_m2 = np.reshape(detection.results[0].pose.covariance, (6, 6))[:3, :3]
     sigma_m = greatest_sigma_m(covariance_m2)
     place = places.surface_at(centre.x, centre.y, centre.z - 0.5 * size.z, sigma_m)
-    return Thing(
+    return KnownObject(
         detection.id,
         *_class_and_colour(detection),
         place,

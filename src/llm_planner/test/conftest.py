@@ -10,7 +10,7 @@ from typing import Any
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.srv import MakePlan
-from llm_planner.robot_testing import PLACES, Robot
+from llm_planner.robot_testing import PLACES, RobotStub
 from llm_planner.skill_executor import SkillExecutor
 from llm_planner.task_planner import TaskPlanner
 import pytest
@@ -33,7 +33,7 @@ def begin(ros: RosSandbox, tmp_path: Path) -> Iterator[Callable[[Mapping[str, An
     def start(parameters: Mapping[str, Any]) -> Any:
         places = tmp_path / 'places.yaml'
         places.write_text(PLACES)
-        robot = ros.start(Robot)
+        robot = ros.start(RobotStub)
         executor = ros.start(SkillExecutor, {'places_file': str(places)})
         ros.start(TaskPlanner, {'places_file': str(places), **parameters})
 

@@ -16,11 +16,11 @@ from llm_planner.model_server import ModelServer
 from llm_planner.model_testing import Answer, GOOD, ModelStub, says, serving
 from llm_planner.plan import MOST_STEPS, Plan, words_for
 from llm_planner.skills_file import load_skills
-from llm_planner.world import Thing, World
+from llm_planner.world import KnownObject, World
 import pytest
 
 SKILLS = load_skills(Path(__file__).parents[1] / 'config' / 'skills.yaml')
-MUG = Thing('red_mug_1', 'mug', 'red', 'desk', 'study')
+MUG = KnownObject('red_mug_1', 'mug', 'red', 'desk', 'study')
 WORLD = World(
     {'desk': 'study'}, ('study', 'hall'), (MUG,), {'pick': 'Manipulation is not running.'}
 )
@@ -104,6 +104,11 @@ BAD: list[tuple[list[Any], str]] = [
     ([(401, {'error': f'bad key {KEY}'})], 'does not accept the key'),
     ([(404, {'error': 'no such model'})], "has no model 'small-model'. It has: small-model"),
     ([(400, {'error': 'The model gpt-4 is retired'})], 'It has: small-model'),
+    ([(400, {'error': {'message': 'Model Not Exist'}})], 'It has: small-model'),
+    ([(400, {'error': {'message': 'x/y is not a valid model ID'}})], 'It has: small-model'),
+    ([(400, {'error': {'code': 'model_not_found'}})], 'It has: small-model'),
+    ([(400, {'error': "This model's context length is 512 tokens"})], 'with the status 400'),
+    ([(400, {'error': 'The model does not support max_tokens'})], 'with the status 400'),
     ([(200, '<html>Sign in</html>')], 'no answer of a model'),
     ([(200, '')], 'no answer of a model'),
     ([(200, {'choices': []})], 'no answer of a model'),

@@ -15,12 +15,12 @@ from llm_planner.plan import check, Plan, PlanError, Step, UnavailableError
 from llm_planner.plan_messages import plan_message, plan_of
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills
-from llm_planner.world import ObjectDescription, Thing, World
+from llm_planner.world import KnownObject, ObjectDescription, World
 import pytest
 
 SKILLS = load_skills(Path(__file__).parents[1] / 'config' / 'skills.yaml')
 PLANNER = RulePlanner(SKILLS)
-MUG = Thing('red_mug_1', 'mug', 'red', 'desk', 'study')
+MUG = KnownObject('red_mug_1', 'mug', 'red', 'desk', 'study')
 WORLD = World({'desk': 'study'}, ('study', 'hall'), (MUG,))
 
 FORBIDDEN: list[tuple[str, dict[str, Any], str]] = [

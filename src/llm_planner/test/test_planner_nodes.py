@@ -13,7 +13,7 @@ from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan, PlanStep
 from humanoid_interfaces.srv import MakePlan
 from llm_planner.model_testing import ModelStub, says, serving
-from llm_planner.robot_testing import detection, MUGS, Robot
+from llm_planner.robot_testing import detection, MUGS, RobotStub
 from llm_planner.skill_executor import SkillExecutor
 from llm_planner.task_planner import TaskPlanner
 import pytest
@@ -219,7 +219,7 @@ class DeafExecutor(Node):
 @pytest.mark.parametrize(('deaf', 'goals'), [(1, 2), (9, 3)])
 def test_a_plan_that_is_not_answered_is_sent_again(ros: RosSandbox, deaf: int, goals: int) -> None:
     """And if that does not help either, it is said."""
-    robot, executor = ros.start(Robot), ros.start(DeafExecutor)
+    robot, executor = ros.start(RobotStub), ros.start(DeafExecutor)
     executor.deaf = deaf
     planner = ros.start(TaskPlanner)
     ros.wait_until(lambda: robot.commands.get_subscription_count() == 1, 30.0, 'a planner')

@@ -9,15 +9,15 @@ from typing import Any
 
 from llm_planner.dialogue import Dialogue
 from llm_planner.plan import Plan, Step, words_for
-from llm_planner.replanning import Failure, MOST_REPLANS, Recovery, remedy_for
+from llm_planner.replanning import Failure, MOST_REPLANS, remedy_for, ReplanningState
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills
-from llm_planner.world import ObjectDescription, Thing, World
+from llm_planner.world import KnownObject, ObjectDescription, World
 import pytest
 
 SKILLS = load_skills(Path(__file__).parents[1] / 'config' / 'skills.yaml')
 PLANNER = RulePlanner(SKILLS)
-MUG = Thing('red_mug_1', 'mug', 'red', 'desk', 'study', (3.0, 1.0, 0.75))
+MUG = KnownObject('red_mug_1', 'mug', 'red', 'desk', 'study', (3.0, 1.0, 0.75))
 EMPTY = World({'desk': 'study', 'table': 'hall'}, ('hall', 'study'))
 FULL = replace(EMPTY, things=(MUG,))
 
@@ -118,14 +118,14 @@ def test_others_of_its_kind_are_not_the_one_that_was_chosen() -> None:
 )
 def test_what_is_final(code: str, step: int, world: World) -> None:
     """Nobody plans anew after a refusal, a stop, a fall or a fault."""
-    recovery = Recovery(planned('go to the hall'), SKILLS)
+    recovery = ReplanningState(planned('go to the hall'), SKILLS)
     recovery.fail(Failure(code, step, 'No.'))
     assert not recovery.may_go_on(world)
 
 
 def test_what_took_too_long_is_not_begun_again_by_the_rules() -> None:
     """A model may know something else."""
-    recovery = Recovery(planned('go to the hall'), SKILLS)
+    recovery = ReplanningState(planned('go to the hall'), SKILLS)
     recovery.fail(Failure('TIMEOUT', 0, 'I have given up.'))
     assert recovery.may_go_on(EMPTY) and recovery.by_rules(EMPTY) is None
     assert recovery.by_model(Plan('', (Step('turn', {'direction': 'left'}),)), EMPTY) is not None
@@ -133,7 +133,7 @@ def test_what_took_too_long_is_not_begun_again_by_the_rules() -> None:
 
 def test_the_same_is_not_tried_twice() -> None:
     """A way that failed before and after a look around is given up."""
-    recovery = Recovery(planned('turn left and go to the hall'), SKILLS)
+    recovery = ReplanningState(planned('turn left and go to the hall'), SKILLS)
     recovery.fail(Failure('FAILED', 1, 'There is a wall.'))
     first = recovery.by_rules(EMPTY)
     assert first is not None
@@ -145,7 +145,7 @@ def test_the_same_is_not_tried_twice() -> None:
 
 def test_two_new_plans_are_the_most() -> None:
     """Whatever fails, and however it is made."""
-    recovery = Recovery(planned('go to the red mug'), SKILLS)
+    recovery = ReplanningState(planned('go to the red mug'), SKILLS)
     for number in range(MOST_REPLANS):
         recovery.fail(Failure('FAILED', 0, 'No.'))
         assert recovery.may_go_on(EMPTY)
@@ -159,7 +159,7 @@ def test_two_new_plans_are_the_most() -> None:
 
 def test_what_a_model_plans_anew_is_checked() -> None:
     """It repeats neither what was done nor what failed, and may not do more than others."""
-    recovery = Recovery(planned('turn left and go to the hall and wave'), SKILLS)
+    recovery = ReplanningState(planned('turn left and go to the hall and wave'), SKILLS)
     recovery.fail(Failure('FAILED', 1, 'There is a "wall".'))
     account = recovery.account()
     assert account.done == ('turn left',) and account.failed == 'go to the hall'
@@ -187,7 +187,7 @@ def test_what_a_model_plans_anew_is_checked() -> None:
 
 def test_a_model_does_not_move_the_robot_for_a_question() -> None:
     """Neither does it when the first plan has failed."""
-    recovery = Recovery(planned('where is the red mug'), SKILLS)
+    recovery = ReplanningState(planned('where is the red mug'), SKILLS)
     recovery.fail(Failure('FAILED', 0, 'I do not remember the red mug.'))
     steps = planned('find the red mug and tell me where it is').steps
     assert recovery.by_model(Plan('', steps), EMPTY) is None

@@ -10,7 +10,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from humanoid_common.testing.ros import RosSandbox
 from llm_planner.model_testing import ModelStub, says, serving
-from llm_planner.robot_testing import detection, MUGS, Robot
+from llm_planner.robot_testing import detection, MUGS, RobotStub
 import pytest
 from std_msgs.msg import String
 
@@ -25,7 +25,7 @@ READY = says({'steps': [
 """A plan that can be done as soon as all is known."""
 
 
-def steps_of(robot: Robot) -> list[list[str]]:
+def steps_of(robot: RobotStub) -> list[list[str]]:
     """Return the steps of each plan in words."""
     return [[each.text for each in plan.steps] for plan in robot.plans]
 

@@ -12,7 +12,7 @@ from llm_planner.dialogue import Dialogue, Question, Refusal
 from llm_planner.plan import MOST_STEPS, Plan, words_for
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills
-from llm_planner.world import in_words, ObjectDescription, Thing, World
+from llm_planner.world import in_words, KnownObject, ObjectDescription, World
 import pytest
 import yaml
 
@@ -26,9 +26,11 @@ PLACES = {
     'coffee_table': 'living_room', 'tv_cabinet': 'living_room', 'sideboard': 'living_room',
     'bed': 'bedroom', 'desk': 'bedroom', 'hall_shelf': 'hall',
 }  # fmt: skip
-RED_MUG = Thing('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85))
-BLUE_MUG = Thing('blue_mug_1', 'mug', 'blue', 'desk', 'bedroom', (3.2, 1.2, 0.77))
-APPLE = Thing('green_apple_1', 'apple', 'green', 'kitchen_table', 'kitchen', (0.0, 2.0, 0.74))
+RED_MUG = KnownObject('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85))
+BLUE_MUG = KnownObject('blue_mug_1', 'mug', 'blue', 'desk', 'bedroom', (3.2, 1.2, 0.77))
+APPLE = KnownObject(
+    'green_apple_1', 'apple', 'green', 'kitchen_table', 'kitchen', (0.0, 2.0, 0.74)
+)
 WORLD = World(
     PLACES, ('hall', 'kitchen', 'bedroom', 'living_room'), (RED_MUG, BLUE_MUG, APPLE),
 )  # fmt: skip

@@ -28,7 +28,7 @@ from llm_planner.world_watch import WorldWatch
 from robot_mcp.audit import AuditLog
 from robot_mcp.confirmations import Confirmations, request_of
 from robot_mcp.deadlines import in_time
-from robot_mcp.looking import Looking
+from robot_mcp.looking import ReadOnlyTools
 from robot_mcp.node_thread import RobotError
 from robot_mcp.robot_link import PlanEnd, PlanRun, RobotLink
 from robot_mcp.tools import CONFIRMATION, LOOKS, plan_of_call, STOP, TELL, Tool, tools_of
@@ -141,7 +141,7 @@ class Calls:
         self.asked = Confirmations()
         """Pending questions of clients to their users."""
         self._codes = Confirmations()
-        self._looking = Looking(link, planner.skills, watch, may_move=allow_motion)
+        self._looking = ReadOnlyTools(link, planner.skills, watch, may_move=allow_motion)
         self._busy = ''
         self._stops = 0
 

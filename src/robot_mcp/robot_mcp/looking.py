@@ -19,10 +19,10 @@ from robot_mcp.pictures import camera_png, map_png
 from robot_mcp.robot_link import RobotLink
 from sensor_msgs.msg import Image
 
-__all__ = ['Looking']
+__all__ = ['ReadOnlyTools']
 
 
-class Looking:
+class ReadOnlyTools:
     """
     Handler of the read-only tools, which never move the robot.
 

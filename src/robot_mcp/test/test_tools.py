@@ -8,12 +8,12 @@ from typing import Any
 import jsonschema
 from llm_planner.plan import check, PlanError
 from llm_planner.skills_file import load_skills, skills_path
-from llm_planner.world import ObjectDescription, Thing, World
+from llm_planner.world import KnownObject, ObjectDescription, World
 import pytest
 from robot_mcp.tools import CONFIRMATION, LOOKS, plan_of_call, Tool, tools_of
 
 SKILLS = load_skills(skills_path(''))
-WORLD = World({'desk': 'study'}, ('study', 'hall'), (Thing('red_mug_1', 'mug', 'red'),))
+WORLD = World({'desk': 'study'}, ('study', 'hall'), (KnownObject('red_mug_1', 'mug', 'red'),))
 TOOLS: dict[str, Tool] = {each.name: each for each in tools_of(SKILLS, WORLD)}
 
 

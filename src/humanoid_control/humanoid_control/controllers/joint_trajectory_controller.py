@@ -44,7 +44,7 @@ class GoalResult:
 
 
 @dataclass(frozen=True, eq=False)
-class Progress:
+class TrajectoryFeedback:
     """Desired and actual state of the m joints of a controller, each array (m,)."""
 
     time_s: float
@@ -72,7 +72,7 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
 
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
         super().__init__(name, joints, own)
-        self.progress: Progress | None = None
+        self.progress: TrajectoryFeedback | None = None
         """Progress of the running goal, if any."""
         self._spline: Spline | None = None
         self._start_s = 0.0
@@ -123,7 +123,7 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
             positions_rad, velocities_rad_s = self._spline.at(time_s)
             self._targets.positions_rad[self.indices] = positions_rad
             self._targets.velocities_rad_s[self.indices] = velocities_rad_s
-            self.progress = Progress(
+            self.progress = TrajectoryFeedback(
                 time_s,
                 positions_rad,
                 velocities_rad_s,
@@ -133,7 +133,7 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
             self._watch(self._goal, self.progress, self._spline.end_s)
         return self._targets
 
-    def _watch(self, goal: TrajectoryGoal, progress: Progress, end_s: float) -> None:
+    def _watch(self, goal: TrajectoryGoal, progress: TrajectoryFeedback, end_s: float) -> None:
         """End the goal once it is reached or a tolerance is violated."""
         errors = (
             progress.desired_rad - progress.actual_rad,

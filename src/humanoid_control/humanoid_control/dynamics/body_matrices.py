@@ -20,8 +20,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from humanoid_control.dynamics.rotations import skew
 from humanoid_control.dynamics.tree import Tree
+from humanoid_description.rotations import skew
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from humanoid_control.dynamics.rotations import skew
+from humanoid_description.rotations import skew
 import numpy as np
 from numpy.typing import NDArray
 

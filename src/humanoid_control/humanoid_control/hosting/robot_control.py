@@ -31,7 +31,7 @@ from humanoid_control.limits import JointLimits
 from humanoid_control.walking.body_pose import BodyPose
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
-Walk = Callable[[VelocityCommand], None]
+WalkAt = Callable[[VelocityCommand], None]
 HoldBody = Callable[[BodyPose | None], None]
 HELD = 'The robot must hold still; stop_state says why.'
 VELOCITY_TIMEOUT_S = 0.5
@@ -76,7 +76,7 @@ class RobotControl:
         joints: Sequence[str],
         limits: JointLimits,
         modes: Sequence[Mode],
-        walk: Walk | None = None,
+        walk: WalkAt | None = None,
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
         hold_body: HoldBody | None = None,

@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import replace
 import math
 
-from humanoid_control.dynamics.rotations import yaw_of
 from humanoid_control.walking.footing import Foothold, Footing, SoleReading
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
@@ -15,6 +14,7 @@ from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.terrain import GroundPlane, tilt_of
 from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_description.rotations import yaw_of
 import numpy as np
 from numpy.typing import NDArray
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from humanoid_control.walking.footing import Footing, SoleReading
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
 from humanoid_control.walking.obstacle_guard import (
-    Contact,
+    ExternalForces,
     LegInAir,
     NOTHING,
     ObstacleGuard,
@@ -103,7 +103,7 @@ class GaitContext:
         limits = self.parameters.velocity.limits
         wanted = limits.applied(now.velocity)
         going = self.velocity if self.velocity.linear_m_s else wanted
-        contact = Contact(now.force_n, now.touch.arms_nm, leg)
+        contact = ExternalForces(now.force_n, now.touch.arms_nm, leg)
         met = self.guard.update(contact, (left, right), wanted, going, now.error_m, now.passed_s)
         self.target = limits.applied(self.guard.allowed(wanted, left.halfway(right).yaw_rad))
         if met:

@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.body_pose import BodyPoseFollower
 from humanoid_control.walking.footing import Footing, Loads, loads_for
 from humanoid_control.walking.gait_context import GaitOutput
@@ -26,6 +25,7 @@ from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.state_estimator import Attitude, RobotState
 from humanoid_control.walking.support_polygon import SupportPolygon
 from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_description.rotations import wrap_angle
 import numpy as np
 from numpy.typing import NDArray
 

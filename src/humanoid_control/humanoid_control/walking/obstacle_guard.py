@@ -44,7 +44,7 @@ class LegInAir:
 
 
 @dataclass(frozen=True)
-class Contact:
+class ExternalForces:
     """External forces and moments on the robot, in the axes of the odom frame."""
 
     force_n: Point = 0j
@@ -134,7 +134,7 @@ class ObstacleGuard:
 
     def update(
         self,
-        contact: Contact,
+        contact: ExternalForces,
         stands: tuple[PlanarPose, PlanarPose],
         wanted: VelocityCommand,
         going: VelocityCommand,

@@ -12,7 +12,7 @@ from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.pendulum import BalanceReference, ZmpSegment
 from humanoid_control.walking.planar import PlanarPose, Point, Turning
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.step import Step
+from humanoid_control.walking.step import CurrentStep
 from humanoid_control.walking.swing_foot import Swing
 
 STAND = 'stand'
@@ -161,13 +161,14 @@ class Standing(_OnBothFeet):
         if not self._context.target.is_zero:
             shift_s = self._context.parameters.timing.first_shift_s
             return Stepping(
-                Step(self._context, self._first_support(), shift_s, now.zmp_m), self._context
+                CurrentStep(self._context, self._first_support(), shift_s, now.zmp_m),
+                self._context,
             )
         off = self._off_balance(now.dcm_m)
         if self._elapsed_s > _SETTLED_S and self._is_pushed(off):
             support = RIGHT if off.imag > 0.0 else LEFT
             shift_s = self._context.parameters.timing.reactive_shift_s
-            return Stepping(Step(self._context, support, shift_s, now.zmp_m), self._context)
+            return Stepping(CurrentStep(self._context, support, shift_s, now.zmp_m), self._context)
         return self
 
     def reference(self, now: GaitInput) -> BalanceReference:
@@ -214,7 +215,7 @@ class Stepping:
 
     name = 'walk'
 
-    def __init__(self, step: Step, context: GaitContext) -> None:
+    def __init__(self, step: CurrentStep, context: GaitContext) -> None:
         self._context = context
         self._step = step
 
@@ -283,7 +284,7 @@ class Stepping:
         if self._context.is_stopping and self._may_rest():
             return Stopping(self._context, step.side, now.zmp_m)
         shift_s = self._context.parameters.timing.shift_s
-        return Stepping(Step(self._context, step.side, shift_s, now.zmp_m), self._context)
+        return Stepping(CurrentStep(self._context, step.side, shift_s, now.zmp_m), self._context)
 
     def reference(self, now: GaitInput) -> BalanceReference:
         """
@@ -356,7 +357,7 @@ class Stopping(_OnBothFeet):
             self._context.approach_target(p.timing.step_s)
             zmp = self._plan.at(self._elapsed_s).zmp_m
             return Stepping(
-                Step(self._context, self._last_landed, p.timing.shift_s, zmp), self._context
+                CurrentStep(self._context, self._last_landed, p.timing.shift_s, zmp), self._context
             )
         return self
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import cmath
 from dataclasses import dataclass
 
-from humanoid_control.dynamics.rotations import wrap_angle
+from humanoid_description.rotations import wrap_angle
 
 Point = complex
 """x + iy; the unit is stated where it is used."""

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.rotations import skew
 from humanoid_control.walking.walking_robot import Leg
+from humanoid_description.rotations import skew
 import numpy as np
 from numpy.typing import NDArray
 

@@ -47,7 +47,9 @@ class Recovery:
         """Return 'fallen' or 'stand_up', or None as long as the robot stands by itself."""
         return self._action.name if self._action else None
 
-    def update(self, time_s: float, stance: Stance, positions_rad: Array) -> JointTargets | None:
+    def update(
+        self, time_s: float, stance: StandingState, positions_rad: Array
+    ) -> JointTargets | None:
         """
         Advance the recovery from a fall by one control period.
 
@@ -72,7 +74,7 @@ class Recovery:
         return self._action.targets(time_s) if self._action else None
 
     def _next(
-        self, time_s: float, stance: Stance, positions_rad: Array
+        self, time_s: float, stance: StandingState, positions_rad: Array
     ) -> Collapse | Rising | None:
         """Select the next action from the stance of the robot."""
         action = self._action
@@ -86,14 +88,14 @@ class Recovery:
             return None
         return action
 
-    def _carries_itself(self, time_s: float, rising: Rising, stance: Stance) -> bool:
+    def _carries_itself(self, time_s: float, rising: Rising, stance: StandingState) -> bool:
         """Check whether the robot is in the standing posture and its feet carry it."""
         return rising.is_done(time_s) and stance.load > self._parameters.fall.standing_load
 
 
 @dataclass(frozen=True)
-class Stance:
-    """Stance of the robot: tilt and height of the base, and the load on the soles."""
+class StandingState:
+    """How the robot stands: tilt and height of the base, and the load on the soles."""
 
     tilt_rad: float
     """Angle between the z axis of the base and the vertical."""
@@ -105,7 +107,7 @@ class Stance:
     """Normal force on the soles, as a fraction of the weight."""
 
     @classmethod
-    def of(cls, robot: WalkingRobot, sensed: RobotState) -> Stance:
+    def of(cls, robot: WalkingRobot, sensed: RobotState) -> StandingState:
         """
         Compute the stance from the estimated state of the robot.
 
@@ -138,7 +140,7 @@ class FallDetector:
     parameters: WalkParameters
     standing_height_m: float
 
-    def is_falling(self, stance: Stance) -> bool:
+    def is_falling(self, stance: StandingState) -> bool:
         """
         Check whether the robot is falling: it leans too far, soon will, or its base is too low.
 
@@ -157,7 +159,7 @@ class FallDetector:
             soon_rad > p.fall.tilt_rad or stance.height_m < p.fall.height * self.standing_height_m
         )
 
-    def can_stand(self, stance: Stance) -> bool:
+    def can_stand(self, stance: StandingState) -> bool:
         """
         Check whether the base is upright and high enough above the soles to stand up from there.
 

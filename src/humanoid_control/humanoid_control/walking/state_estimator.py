@@ -10,13 +10,13 @@ import math
 from humanoid_control.backends import Observation
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.rotations import about_z, from_quaternion, to_rpy, yaw_of
 from humanoid_control.errors import DynamicsError, WalkingError
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion
 from humanoid_control.walking.planar import limited, Point
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_description.rotations import about_z, from_quaternion, to_rpy, yaw_of
 import numpy as np
 from numpy.typing import NDArray
 

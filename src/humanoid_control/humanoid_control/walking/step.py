@@ -18,7 +18,7 @@ _INSTANT_S = 1e-4
 """Until the foot has landed, the plan is evaluated no later than this before the step ends."""
 
 
-class Step:
+class CurrentStep:
     """
     The step in progress, with a clock that may run faster to catch the robot.
 

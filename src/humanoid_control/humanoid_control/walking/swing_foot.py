@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.terrain import GroundPlane, LEVEL
+from humanoid_description.rotations import wrap_angle
 import numpy as np
 from numpy.typing import NDArray
 

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from humanoid_control.dynamics.rotations import about_z
 from humanoid_control.walking.planar import dot, limited, Point
 from humanoid_control.walking.sides import other
+from humanoid_description.rotations import about_z
 import numpy as np
 from numpy.typing import NDArray
 

@@ -7,13 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
-from humanoid_control.dynamics.rotations import quaternion_of
 from humanoid_control.walking.body_pose import BodyPose, UPRIGHT
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.recovery import Recovery, Stance
+from humanoid_control.walking.recovery import Recovery, StandingState
 from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.state_estimator import RobotState, StateEstimator
 from humanoid_control.walking.support_polygon import FootShape
@@ -22,6 +21,7 @@ from humanoid_control.walking.walk import Walk
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
+from humanoid_description.rotations import quaternion_of
 
 
 @dataclass(eq=False)
@@ -216,7 +216,7 @@ class Walker:
     ) -> JointTargets | None:
         """Advance the fall recovery; return its targets, or None if the robot walks (again)."""
         was_down = self.has_fallen
-        stance = Stance.of(self.robot, sensed)
+        stance = StandingState.of(self.robot, sensed)
         targets = self._recovery.update(sensed.time_s, stance, positions_rad)
         if targets is not None:
             walk.lie(sensed)

@@ -11,7 +11,6 @@ from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates
-from humanoid_control.dynamics.rotations import about_y, about_z, skew
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion
@@ -20,6 +19,7 @@ from humanoid_control.walking.sides import LEFT, NAMES, RIGHT, SIDES
 from humanoid_control.walking.state_estimator import BaseEstimate, BaseMotion
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_description.rotations import about_y, about_z, skew
 import numpy as np
 from numpy.typing import NDArray
 

@@ -115,12 +115,16 @@ def height_m(robot: Robot) -> float:
     """
     Compute the height in m from the ground to the crown, with all joints at zero.
 
+    Meshes do not count; if all visual shapes are meshes, the collision shapes count instead.
+
     Parameters
     ----------
     robot
-        A model with ground contact, whose visual shapes are not all meshes.
+        A model with ground contact.
 
     """
     at, ground = poses(robot), ground_contact(robot)
     corners = np.vstack([outline(link.visuals, at[link.name]) for link in robot.links])
+    if not len(corners):
+        corners = np.vstack([outline(link.collisions, at[link.name]) for link in robot.links])
     return float(corners[:, 2].max() - ground[:, 2].min())

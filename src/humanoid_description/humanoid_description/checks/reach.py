@@ -17,7 +17,7 @@ SAMPLES = 6000
 
 
 @dataclass(frozen=True)
-class Reach:
+class HandReach:
     """Reach of a hand: forward of the shoulder, and distance to the sagittal plane in front."""
 
     arm_m: float
@@ -47,7 +47,7 @@ def look_at_reach(robot: Robot) -> tuple[str, Iterable[str]]:
     return f'{found:.2f} m forward', defects
 
 
-def _too_short(side: str, reach: Reach) -> Iterator[str]:
+def _too_short(side: str, reach: HandReach) -> Iterator[str]:
     """Yield messages if the reach of a hand is too short."""
     if reach.forward_m < FORWARD * reach.arm_m:
         yield (
@@ -61,7 +61,7 @@ def _too_short(side: str, reach: Reach) -> Iterator[str]:
         )
 
 
-def _reach(robot: Robot, frame: str, sign: float) -> Reach:
+def _reach(robot: Robot, frame: str, sign: float) -> HandReach:
     """Compute the reach of the hand of a side; the sign is that of the side's y."""
     joints = chain(robot, robot.prefix + frame, robot.prefix + 'torso')
     shoulder, arm_m = joints[0].pose[:3, 3], _length(joints[1:])
@@ -69,7 +69,7 @@ def _reach(robot: Robot, frame: str, sign: float) -> Reach:
     forward = hands[:, 0] - shoulder[0]
     in_front = hands[forward > arm_m / 4]
     nearest = (sign * in_front[:, 1]).min() if len(in_front) else sign * shoulder[1]
-    return Reach(arm_m, float(forward.max()), float(nearest))
+    return HandReach(arm_m, float(forward.max()), float(nearest))
 
 
 def _length(joints: list[Joint]) -> float:

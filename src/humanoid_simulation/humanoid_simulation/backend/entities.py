@@ -11,7 +11,7 @@ from humanoid_control.backends import Array
 from humanoid_simulation.backend.state import check_bounds, EntityState, floating_body
 from humanoid_simulation.errors import named
 from humanoid_simulation.model.description import ALONE, FLOATING_BASE, in_world
-from humanoid_simulation.rotations import inverse, rotated
+from humanoid_simulation.quaternions import inverse, rotated
 from humanoid_simulation.scene.scene import Scene
 import mujoco
 import numpy as np

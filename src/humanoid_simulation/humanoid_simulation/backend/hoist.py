@@ -9,10 +9,10 @@ from enum import Enum
 from typing import Any
 
 from humanoid_control.backends import Array
-from humanoid_control.dynamics.rotations import about_z, from_quaternion, log
+from humanoid_description.rotations import about_z, from_quaternion, log
 from humanoid_simulation.backend.forces import Wrench, Wrenches
 from humanoid_simulation.backend.state import EntityState
-from humanoid_simulation.rotations import heading_rad
+from humanoid_simulation.quaternions import heading_rad
 import mujoco
 import numpy as np
 

@@ -9,7 +9,7 @@ import math
 
 from humanoid_control.backends import Array, ImuNoise
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.rotations import rotated
+from humanoid_simulation.quaternions import rotated
 import numpy as np
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_description.drives import PRISMATIC
+from humanoid_description.rotations import quaternion_from_rpy, quaternion_from_vector
 from humanoid_simulation.backend.layout import Layout, layout_of
 from humanoid_simulation.backend.noise import channels_of, NoiseSource
 from humanoid_simulation.backend.servos import check_targets, Servos
@@ -15,7 +16,7 @@ from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.collisions import COLLISION_GROUP
 from humanoid_simulation.keyframes import Keyframe
 from humanoid_simulation.model.description import Placement, RobotDescription
-from humanoid_simulation.rotations import from_rpy, from_vector, inverse, product, rotated
+from humanoid_simulation.quaternions import inverse, product, rotated
 import mujoco
 import numpy as np
 
@@ -226,7 +227,7 @@ class Sensors:
         if not self._noise.is_silent:
             errors, turn = self._noise.draw(orientation, time_s)
             values += errors
-            orientation = product(from_vector(turn), orientation)
+            orientation = product(quaternion_from_vector(turn), orientation)
         return self._observation(time_s, values, orientation)
 
     def _true_values(self) -> Array:
@@ -302,7 +303,7 @@ def pose(
     """
     data.qpos[layout.positions] = positions_rad
     data.qpos[layout.followers] = data.qpos[layout.followed]
-    data.qpos[layout.floating.orientation] = from_rpy(
+    data.qpos[layout.floating.orientation] = quaternion_from_rpy(
         keyframe.roll_rad, keyframe.pitch_rad, place.yaw_rad
     )
     data.qpos[layout.floating.position] = (place.x_m, place.y_m, 0.0)

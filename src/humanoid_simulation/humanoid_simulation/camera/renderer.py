@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import os
-from typing import Protocol
 
+from humanoid_control.hosting.reports import Log
 from humanoid_simulation.camera.images import Cloud, Color, Depth, PictureNoise
 from humanoid_simulation.camera.methods import give_up_sentence, Ladder, RAYS, success_sentence
 from humanoid_simulation.camera.pinhole import CameraView, check_views, Wanted
@@ -29,34 +29,8 @@ class Pictures:
     clouds: Sequence[Cloud]
 
 
-class Log(Protocol):
-    """A logger, such as that of a node."""
-
-    def info(self, message: str) -> object:
-        """
-        Log an informational message.
-
-        Parameters
-        ----------
-        message
-            One or more sentences.
-
-        """
-
-    def warning(self, message: str) -> object:
-        """
-        Log a warning.
-
-        Parameters
-        ----------
-        message
-            One or more sentences.
-
-        """
-
-
 @dataclass(frozen=True)
-class Patience:
+class RenderTimeouts:
     """Timeouts after which the process counts as hung, and the delay before a restart."""
 
     start_s: float = 60.0
@@ -99,7 +73,7 @@ class Renderer:
         views: Sequence[CameraView],
         methods: Sequence[str],
         log: Log,
-        patience: Patience = Patience(),
+        patience: RenderTimeouts = RenderTimeouts(),
         noise: PictureNoise = PictureNoise(),
     ) -> None:
         check_views(model, views)
@@ -219,7 +193,7 @@ class ProcessKeeper:
         start: Callable[[str], RenderProcess],
         methods: Sequence[str],
         log: Log,
-        patience: Patience,
+        patience: RenderTimeouts,
     ) -> None:
         self._start = start
         self._ladder = Ladder(methods)
@@ -274,7 +248,8 @@ class ProcessKeeper:
         wanted
             Which images, one element for each view.
         now_s
-            Time of the clock of `tend`, in s: the process counts as hung `Patience.draw_s` later.
+            Time of the clock of `tend`, in s: `RenderTimeouts.draw_s` later the process counts as
+            hung.
 
         """
         if self._process is not None:

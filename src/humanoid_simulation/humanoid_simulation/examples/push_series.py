@@ -30,7 +30,7 @@ class PushPlan:
     give_up_s: float = 20.0
 
 
-class Step(Enum):
+class NextAction(Enum):
     """The next action of the caller."""
 
     WAIT = 'wait'
@@ -71,7 +71,7 @@ class PushSeries:
         """Return the push that is due, or whose effect is being watched."""
         return Push(self._left[0], self._impulse_ns)
 
-    def update(self, time_s: float, stands: bool) -> Step:
+    def update(self, time_s: float, stands: bool) -> NextAction:
         """
         Decide the next step of the test.
 
@@ -84,7 +84,7 @@ class PushSeries:
 
         Returns
         -------
-        Step
+        NextAction
             What the caller has to do now: with `PUSH`, apply `push`.
 
         Raises
@@ -94,12 +94,12 @@ class PushSeries:
 
         """
         if not self._left:
-            return Step.DONE
+            return NextAction.DONE
         if self._waits_since_s is None:
             self._waits_since_s = time_s
         return (self._watch if self._is_pushed else self._settle)(time_s, stands)
 
-    def _settle(self, time_s: float, stands: bool) -> Step:
+    def _settle(self, time_s: float, stands: bool) -> NextAction:
         """Wait until the robot has stood for long enough."""
         assert self._waits_since_s is not None
         if not stands:
@@ -108,23 +108,23 @@ class PushSeries:
             self._stands_since_s = time_s
         elif time_s - self._stands_since_s >= self._plan.settle_s:
             self._is_pushed, self._waits_since_s = True, time_s
-            return Step.PUSH
+            return NextAction.PUSH
         if time_s - self._waits_since_s > self._plan.give_up_s:
             raise NeverStoodError(
                 f'The robot has not stood for {self._plan.settle_s:g} s within '
                 f'{self._plan.give_up_s:g} s, so it cannot be pushed. Reset the simulation and '
                 'see that its controller runs.'
             )
-        return Step.WAIT
+        return NextAction.WAIT
 
-    def _watch(self, time_s: float, stands: bool) -> Step:
+    def _watch(self, time_s: float, stands: bool) -> NextAction:
         """Wait until it is clear whether the robot withstood the push."""
         assert self._waits_since_s is not None
         if stands and time_s - self._waits_since_s < self._plan.watch_s:
-            return Step.WAIT
+            return NextAction.WAIT
         self._conclude(stands)
         self._is_pushed, self._waits_since_s, self._stands_since_s = False, None, None
-        return Step.RESET
+        return NextAction.RESET
 
     def _conclude(self, stood: bool) -> None:
         """Record the result, and proceed to a harder push or to the next direction."""

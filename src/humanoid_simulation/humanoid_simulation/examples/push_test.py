@@ -21,7 +21,12 @@ from humanoid_simulation.examples.conversions import (
 )
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
-from humanoid_simulation.examples.push_series import NeverStoodError, PushPlan, PushSeries, Step
+from humanoid_simulation.examples.push_series import (
+    NeverStoodError,
+    NextAction,
+    PushPlan,
+    PushSeries,
+)
 from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.client import Client
@@ -104,11 +109,11 @@ class PushTest(Node):
             step = self._series.update(seconds(message.header.stamp), stands)
         except NeverStoodError as error:
             raise ExampleError(str(error)) from error
-        if step is Step.PUSH:
+        if step is NextAction.PUSH:
             self._send_push(message)
-        elif step is Step.RESET:
+        elif step is NextAction.RESET:
             self._send(self._reset, ResetSimulation.Request())
-        elif step is Step.DONE:
+        elif step is NextAction.DONE:
             self._report()
 
     def _send_push(self, message: Odometry) -> None:

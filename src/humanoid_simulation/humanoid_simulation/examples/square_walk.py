@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.planar import limited, PlanarPose
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_description.rotations import wrap_angle
 
 REST_S = 3.0
 """Time for the robot to come to rest before the closing error is measured."""
@@ -26,7 +26,7 @@ class NotRoundError(Exception):
 
 
 @dataclass(frozen=True)
-class Progress:
+class WalkUpdate:
     """The velocity command, what to report, and whether the walk is done."""
 
     command: VelocityCommand
@@ -60,7 +60,7 @@ class SquareWalk:
 
     def update(
         self, time_s: float, odometry: PlanarPose, truth: PlanarPose, stands: bool
-    ) -> Progress:
+    ) -> WalkUpdate:
         """
         Compute the velocity command and the progress of the walk.
 
@@ -75,7 +75,7 @@ class SquareWalk:
 
         Returns
         -------
-        Progress
+        WalkUpdate
             The velocity command, and what to report.
 
         Raises
@@ -96,17 +96,17 @@ class SquareWalk:
         command, corner = self._drive.update(odometry)
         if self._drive.is_done:
             self._rests_since_s = time_s
-        return Progress(command, _arrival(corner) if corner else '')
+        return WalkUpdate(command, _arrival(corner) if corner else '')
 
-    def _rest(self, time_s: float, odometry: PlanarPose, truth: PlanarPose) -> Progress:
+    def _rest(self, time_s: float, odometry: PlanarPose, truth: PlanarPose) -> WalkUpdate:
         """Wait until the robot has come to rest, and report the closing errors."""
         assert self._rests_since_s is not None
         if time_s - self._rests_since_s < REST_S:
-            return Progress(STANDING)
+            return WalkUpdate(STANDING)
         by_odometry = _closing_error(self._odometry, odometry)
         by_truth = _closing_error(self._truth, truth)
         news = f'Round. Closing error: {by_truth} on ground truth, {by_odometry} by odometry'
-        return Progress(STANDING, news, is_done=True)
+        return WalkUpdate(STANDING, news, is_done=True)
 
 
 def _arrival(corner: Corner) -> str:

@@ -18,9 +18,9 @@ from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
 from humanoid_simulation.examples.square_walk import (
     NotRoundError,
-    Progress,
     SquarePlan,
     SquareWalk,
+    WalkUpdate,
 )
 from nav_msgs.msg import Odometry
 import rclpy
@@ -93,7 +93,7 @@ class WalkSquare(Node):
         self._publisher.publish(twist_message(progress.command))
         self._say(progress)
 
-    def _progress(self, message: Odometry, truth: Odometry) -> Progress:
+    def _progress(self, message: Odometry, truth: Odometry) -> WalkUpdate:
         """Update the walk, which starts with the first message."""
         where = seconds(message.header.stamp), planar_pose(message), planar_pose(truth)
         if self._walk is None:
@@ -102,7 +102,7 @@ class WalkSquare(Node):
         stands = self._fall_watch.stands(*height_and_tilt(truth))
         return self._walk.update(*where, stands)
 
-    def _say(self, progress: Progress) -> None:
+    def _say(self, progress: WalkUpdate) -> None:
         """Log the progress, and shut down when the walk is done."""
         if progress.news:
             self.get_logger().info(progress.news)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from humanoid_description.rotations import quaternion_from_rpy
 from humanoid_simulation.collisions import COLLISION_GROUP, MOST_ROBOTS, WORLD
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.model.description import (
@@ -17,7 +18,6 @@ from humanoid_simulation.model.description import (
     RobotDescription,
 )
 from humanoid_simulation.model.robot_spec import robot_spec
-from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene.appearance import add_lighting, EDGE_PX, picture_of
 from humanoid_simulation.scene.meshes import triangles_of
 from humanoid_simulation.scene.parts import Finish, MESH, Part, Vector
@@ -167,7 +167,7 @@ def _add_floor(world: Any, floor: Floor) -> None:
 def _add_thing(world: Any, thing: Thing) -> None:
     """Add the body of an object, with a free joint unless it is fixed."""
     body = world.worldbody.add_body(
-        name=thing.name, pos=thing.position_m, quat=from_rpy(*thing.orientation_rpy_rad)
+        name=thing.name, pos=thing.position_m, quat=quaternion_from_rpy(*thing.orientation_rpy_rad)
     )
     if not thing.is_fixed:
         body.add_freejoint(name=thing.name)
@@ -191,7 +191,7 @@ def _add_part(world: Any, body: Any, name: str, part: Part) -> Any:
         name=name,
         type=_GEOMS[part.shape],
         pos=part.position_m,
-        quat=from_rpy(*part.orientation_rpy_rad),
+        quat=quaternion_from_rpy(*part.orientation_rpy_rad),
         rgba=part.colour_rgba,
         contype=0,
         conaffinity=0,

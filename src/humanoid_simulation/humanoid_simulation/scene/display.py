@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import lru_cache
 import math
 
-from humanoid_control.dynamics.rotations import from_rpy
+from humanoid_description.rotations import from_rpy
 from humanoid_simulation.scene.furniture import HANGING
 from humanoid_simulation.scene.meshes import revolved, Triangles, triangles_of
 from humanoid_simulation.scene.parts import Part
@@ -26,7 +26,7 @@ def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
     Select the visible parts of an object for a view in which walls are cut at a height.
 
     Walls are cut. Ceilings, and objects that hang on walls or from ceilings, are left out if they
-    are above that height; all other objects are unchanged.
+    reach above that height; all other objects are unchanged.
 
     Parameters
     ----------
@@ -46,9 +46,14 @@ def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
         cut = (_cut(part, height_m - thing.position_m[2]) for part in shown)
         return tuple(part for part in cut if part is not None)
     if thing.kind in (CEILING, *HANGING):
-        top_m = thing.position_m[2] + max(part.position_m[2] for part in shown)
+        top_m = thing.position_m[2] + max(map(_top_m, shown))
         return shown if top_m <= height_m else ()
     return shown
+
+
+def _top_m(part: Part) -> float:
+    """Return the height of the highest point of a part, in the frame of its object."""
+    return float(part.position_m[2] + part.extent_m[2])
 
 
 def _cut(part: Part, height_m: float) -> Part | None:
@@ -57,7 +62,7 @@ def _cut(part: Part, height_m: float) -> Part | None:
     upright = 1 if math.isclose(part.orientation_rpy_rad[0], math.pi / 2.0) else 2
     size, (x_m, y_m, z_m) = list(part.size_m), part.position_m
     if part.shape != 'box':
-        return part if z_m <= height_m else None
+        return part if _top_m(part) <= height_m else None
     low_m = z_m - size[upright] / 2.0
     top_m = min(z_m + size[upright] / 2.0, height_m)
     if top_m - low_m < 1e-3:

@@ -11,7 +11,7 @@ from typing import Any
 
 from humanoid_common.naming import did_you_mean
 from humanoid_simulation.scene.furniture import furniture_of, KINDS, Piece, surfaces_of
-from humanoid_simulation.scene.objects import CLASSES, Graspable, thing_of
+from humanoid_simulation.scene.objects import CLASSES, ObjectInstance, thing_of
 from humanoid_simulation.scene.outlines import Outline, Point, turned
 from humanoid_simulation.scene.parts import COLOURS, Finish, PATTERNS, Vector
 from humanoid_simulation.scene.scene import Place, Room, room_at, Surface, Thing
@@ -153,7 +153,7 @@ def _object(table: Table, surfaces: Mapping[str, Surface]) -> Thing:
                 'the middle of the surface, x to its front, that is on it.'
             )
     bottom = (*at, height_m + _GAP_M)
-    graspable = Graspable(table.text('name'), kind, name, rgb, bottom, yaw_rad, size)
+    graspable = ObjectInstance(table.text('name'), kind, name, rgb, bottom, yaw_rad, size)
     return table.checked(lambda: thing_of(graspable))
 
 

@@ -38,7 +38,7 @@ class Class:
 
 
 @dataclass(frozen=True)
-class Graspable:
+class ObjectInstance:
     """An object of a class with its colour and pose: upright, with its bottom at a point."""
 
     name: str
@@ -50,7 +50,7 @@ class Graspable:
     size_m: Vector | None = None
 
 
-def thing_of(graspable: Graspable) -> Thing:
+def thing_of(graspable: ObjectInstance) -> Thing:
     """
     Build a graspable object; a size other than that of its class scales the mass by volume.
 

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 import math
 
-from humanoid_control.dynamics.rotations import from_rpy
+from humanoid_description.rotations import from_rpy
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.scene.meshes import triangles_of
 from humanoid_simulation.scene.outlines import Point

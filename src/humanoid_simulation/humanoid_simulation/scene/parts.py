@@ -6,7 +6,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from humanoid_description.robot import Array
+from humanoid_description.rotations import from_rpy
 from humanoid_simulation.errors import SimulationError
+import numpy as np
 
 Vector = tuple[float, ...]
 SIZES = {
@@ -114,6 +117,18 @@ class Part:
             radius, height = self.size_m
             return (2.0 * radius, 2.0 * radius, height)
         return self.size_m
+
+    @property
+    def extent_m(self) -> Array:
+        """Return how far it reaches from its centre (3,), in the axes of the object."""
+        turn = np.abs(from_rpy(*self.orientation_rpy_rad))
+        if self.shape == 'sphere':
+            return np.full(3, self.size_m[0])
+        if self.shape == 'cylinder':
+            radius, height = self.size_m
+            across = np.hypot(turn[:, 0], turn[:, 1])
+            return np.asarray(radius * across + height / 2.0 * turn[:, 2])
+        return np.asarray(turn @ self.box_m) / 2.0
 
 
 Parts = list[Part]

@@ -9,17 +9,17 @@ from pathlib import Path
 from typing import TypeVar
 from urllib.parse import unquote, urlsplit
 
-from humanoid_control.dynamics.rotations import to_rpy
 from humanoid_description.checks.structure import STRUCTURE
 from humanoid_description.errors import DescriptionError
 from humanoid_description.kinematics import poses
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Array, Shape
+from humanoid_description.rotations import to_rpy
 from humanoid_simulation.errors import ResourceError, SimulationError
 from humanoid_simulation.files import installed_scenes, SCENE_SUFFIXES
 from humanoid_simulation.scene.home_reading import colour_in
 from humanoid_simulation.scene.loading import load_scene, scene_of, thing_in
-from humanoid_simulation.scene.objects import CLASSES, Graspable, thing_of
+from humanoid_simulation.scene.objects import CLASSES, ObjectInstance, thing_of
 from humanoid_simulation.scene.parts import COLOURS, MESH, Part
 from humanoid_simulation.scene.scene import COMPOSED, Scene, Thing
 from humanoid_simulation.tables import load_table, Table, table_of
@@ -34,7 +34,7 @@ T = TypeVar('T')
 
 
 @dataclass(frozen=True)
-class World:
+class LoadableWorld:
     """A scene that can be loaded."""
 
     name: str
@@ -42,12 +42,12 @@ class World:
     description: str
 
 
-def installed_worlds() -> list[World]:
+def installed_worlds() -> list[LoadableWorld]:
     """Return the installed worlds."""
     return [_world(path, name) for name, path in installed_scenes().items()]
 
 
-def world_at(uri: str) -> World:
+def world_at(uri: str) -> LoadableWorld:
     """
     Describe a world that can be loaded, without loading it.
 
@@ -65,7 +65,7 @@ def world_at(uri: str) -> World:
     return _world(_scene_file(uri), uri)
 
 
-def worlds_in(source: str) -> list[World]:
+def worlds_in(source: str) -> list[LoadableWorld]:
     """
     List the worlds of a folder.
 
@@ -91,7 +91,7 @@ def worlds_in(source: str) -> list[World]:
     return [_world(path, str(path)) for path in paths]
 
 
-def world_of(uri: str, text: str) -> tuple[World, Scene]:
+def world_of(uri: str, text: str) -> tuple[LoadableWorld, Scene]:
     """
     Load a world.
 
@@ -109,7 +109,7 @@ def world_of(uri: str, text: str) -> tuple[World, Scene]:
 
     """
     if not uri:
-        return World('world', '', ''), _parsed(lambda: scene_of(_table(text), 'world'))
+        return LoadableWorld('world', '', ''), _parsed(lambda: scene_of(_table(text), 'world'))
     path = _scene_file(uri)
     scene = _parsed(lambda: load_scene(str(path)))
     return _world(path, uri), scene
@@ -164,7 +164,7 @@ def _known_things() -> str:
 def _of_class(name: str, kind: str, colour: str = '') -> Thing:
     """Build an object of a class."""
     colour = colour or CLASSES[kind].colour
-    graspable = Graspable(name, kind, colour, COLOURS[colour], (0.0, 0.0, 0.0))
+    graspable = ObjectInstance(name, kind, colour, COLOURS[colour], (0.0, 0.0, 0.0))
     return replace(thing_of(graspable), position_m=(0.0, 0.0, 0.0))
 
 
@@ -177,7 +177,7 @@ def _described(table: Table, name: str) -> Thing:
     default = CLASSES[kind].colour
     colour, rgb = colour_in(table, 'colour', COLOURS[default])
     size = table.vector('size', 3) if table.has('size') else None
-    graspable = Graspable(name, kind, colour, rgb, (0.0, 0.0, 0.0), size_m=size)
+    graspable = ObjectInstance(name, kind, colour, rgb, (0.0, 0.0, 0.0), size_m=size)
     return replace(table.checked(lambda: thing_of(graspable)), position_m=(0.0, 0.0, 0.0))
 
 
@@ -210,9 +210,8 @@ def _rigid(urdf: str, source: str, name: str) -> Thing:
             'RESOURCE_PARSE_ERROR', f'{source} describes nothing that has a shape.'
         )
     mass_kg = sum(link.body.mass_kg for link in robot.links if link.body is not None)
-    corners = np.array([[part.position_m[axis] for axis in range(3)] for part in parts])
-    halves = np.array([max(part.box_m) / 2.0 for part in parts])[:, None]
-    size_m = np.max(np.abs(corners) + halves, axis=0) * 2.0
+    reach_m = [np.abs(part.position_m) + part.extent_m for part in parts]
+    size_m = np.max(reach_m, axis=0) * 2.0
     return _parsed(
         lambda: Thing(
             name, COMPOSED, tuple(size_m.tolist()), mass_kg=mass_kg, details=tuple(parts)
@@ -246,7 +245,7 @@ def _scene_file(uri: str) -> Path:
     return installed.get(uri) or _file(uri, SCENE_SUFFIXES, f'a world: {", ".join(installed)}')
 
 
-def _world(path: Path, uri: str) -> World:
+def _world(path: Path, uri: str) -> LoadableWorld:
     """Describe the world of a scene file by the comment at its top."""
     words: list[str] = []
     try:
@@ -261,7 +260,7 @@ def _world(path: Path, uri: str) -> World:
         raise ResourceError(
             'NO_RESOURCE', f"'{path}' cannot be read: {reason}. Give a scene file."
         ) from error
-    return World(path.stem, uri, ' '.join(words))
+    return LoadableWorld(path.stem, uri, ' '.join(words))
 
 
 def _table(text: str) -> Table:

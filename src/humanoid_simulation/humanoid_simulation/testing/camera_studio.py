@@ -11,7 +11,7 @@ import time
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.camera import CameraView, Renderer, Wanted
 from humanoid_simulation.camera.images import PictureNoise
-from humanoid_simulation.camera.renderer import Patience, Pictures
+from humanoid_simulation.camera.renderer import Pictures, RenderTimeouts
 import mujoco
 
 # The camera is at (0, 0, 1) and looks along x, as the head of a robot does. The quaternions are
@@ -96,7 +96,7 @@ class Studio:
         self,
         views: Sequence[CameraView],
         methods: Sequence[str],
-        patience: Patience,
+        patience: RenderTimeouts,
         noise: PictureNoise,
     ) -> None:
         self.model, self.data = world()
@@ -175,7 +175,7 @@ class Studio:
 def studio(
     methods: Sequence[str],
     views: Sequence[CameraView] = (CameraView('eye', 160, 120),),
-    patience: Patience = Patience(retry_s=0.0),
+    patience: RenderTimeouts = RenderTimeouts(retry_s=0.0),
     noise: PictureNoise = PictureNoise(),
 ) -> Iterator[Studio]:
     """

@@ -13,7 +13,7 @@ from humanoid_simulation.examples.conversions import refusal
 from rclpy.duration import Duration
 from simulation_interfaces.srv import GetEntityState, SetEntityState
 
-__all__ = ['Entities']
+__all__ = ['EntityClient']
 
 _PATIENCE_S = 60.0
 _SERVICES = {
@@ -23,7 +23,7 @@ _SERVICES = {
 }
 
 
-class Entities:
+class EntityClient:
     """
     Client of the entity services of a simulator.
 

@@ -7,10 +7,10 @@ import cmath
 from collections.abc import Callable, Sequence
 import math
 
-from humanoid_control.dynamics.rotations import from_quaternion, yaw_of
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking import PlanarPose, VelocityCommand
 from humanoid_description.loading import load_robot
+from humanoid_description.rotations import from_quaternion, yaw_of
 from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
 from humanoid_simulation.model import humanoid

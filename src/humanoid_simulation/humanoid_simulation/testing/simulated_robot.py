@@ -30,7 +30,7 @@ class FellError(AssertionError):
     """The robot fell."""
 
 
-class SimulatedRobot:
+class RobotClient:
     """
     Client of a robot in a running simulator; the robot must stay on its feet throughout a test.
 

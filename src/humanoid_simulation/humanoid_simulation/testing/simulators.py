@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from humanoid_common.testing.processes import module_command, running_program
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulated_robot import RobotClient
 
 FASTER = {'real_time_factor': '4.0'}
 """Not as fast as possible: commands of a test must still arrive in time on a busy computer."""
@@ -39,7 +39,7 @@ def simulation(**parameters: str) -> Iterator[RosSandbox]:
 
 
 @contextmanager
-def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
+def simulated_robot(**parameters: str) -> Iterator[RobotClient]:
     """
     Run a simulator without cameras, and connect to its robot.
 
@@ -50,9 +50,9 @@ def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
 
     Yields
     ------
-    SimulatedRobot
+    RobotClient
         The robot; its time runs unless it was started paused.
 
     """
     with simulation(**parameters) as ros:
-        yield SimulatedRobot(ros, runs=parameters.get('start_paused') != 'true')
+        yield RobotClient(ros, runs=parameters.get('start_paused') != 'true')

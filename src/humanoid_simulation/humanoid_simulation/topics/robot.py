@@ -12,11 +12,12 @@ from humanoid_control.backends import Array, Observation
 from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector, topic
 from humanoid_control.hosting.topics.walk import ODOM
 from humanoid_control.walking.odometry import Odometry
+from humanoid_description.rotations import quaternion_from_rpy
 from humanoid_interfaces.msg import Contact as ContactMessage
 from humanoid_interfaces.msg import Contacts
 from humanoid_simulation.backend.forces import Contact
 from humanoid_simulation.backend.state import EntityState
-from humanoid_simulation.rotations import from_rpy, inverse, product, rotated
+from humanoid_simulation.quaternions import inverse, product, rotated
 from humanoid_simulation.scene.scene import WORLD
 from nav_msgs.msg import Odometry as OdometryMessage
 import numpy as np
@@ -212,7 +213,9 @@ class WorldFrame:
         ):
             self._at = x, y, z, yaw_rad
             fill_vector(self._transform.transform.translation, np.array([x, y, z]))
-            fill_quaternion(self._transform.transform.rotation, from_rpy(0.0, 0.0, yaw_rad))
+            fill_quaternion(
+                self._transform.transform.rotation, quaternion_from_rpy(0.0, 0.0, yaw_rad)
+            )
         fill_stamp(self._transform.header.stamp, time_s)
         self._publisher.publish(self._message)
 

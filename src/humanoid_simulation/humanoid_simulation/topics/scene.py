@@ -12,8 +12,9 @@ from geometry_msgs.msg import Point
 from humanoid_common.qos import LATCHED
 from humanoid_control.backends import Array
 from humanoid_control.hosting.topics.filling import fill_quaternion, fill_vector
-from humanoid_simulation.backend.mujoco_backend import MujocoBackend
-from humanoid_simulation.rotations import from_rpy, product, rotated
+from humanoid_description.rotations import quaternion_from_rpy
+from humanoid_simulation.backend.mujoco_world import MujocoWorld
+from humanoid_simulation.quaternions import product, rotated
 from humanoid_simulation.scene.display import parts_below, triangles_in_world
 from humanoid_simulation.scene.furniture import HANGING
 from humanoid_simulation.scene.meshes import Triangles
@@ -65,9 +66,7 @@ class SceneTopics:
 
     """
 
-    def __init__(
-        self, node: Node, backend: MujocoBackend, parameters: SimulatorParameters
-    ) -> None:
+    def __init__(self, node: Node, backend: MujocoWorld, parameters: SimulatorParameters) -> None:
         self._backend = backend
         self._walls_up_to_m = parameters.walls_shown_up_to_m
         self._scene = node.create_publisher(MarkerArray, 'ground_truth/scene', LATCHED)
@@ -131,7 +130,7 @@ class _Shown:
 class _MovingThings:
     """Publisher of the objects that can move, when they have moved."""
 
-    def __init__(self, node: Node, backend: MujocoBackend) -> None:
+    def __init__(self, node: Node, backend: MujocoWorld) -> None:
         self._backend = backend
         self._publisher = node.create_publisher(MarkerArray, 'ground_truth/things', LATCHED)
         self._subscribers = 0
@@ -211,7 +210,7 @@ def layer_markers(name: str, things: Iterable[Thing], walls_up_to_m: float) -> l
         for part in parts_below(thing, walls_up_to_m):
             if part.shape == MESH:
                 marker = _part_marker(name, len(markers), part)
-                turn = from_rpy(*thing.orientation_rpy_rad)
+                turn = quaternion_from_rpy(*thing.orientation_rpy_rad)
                 place(marker, part, np.array(thing.position_m), turn)
                 markers.append(marker)
             else:
@@ -259,7 +258,7 @@ def place(marker: Marker, part: Part, position_m: Array, orientation: Array) -> 
     """
     offset = rotated(np.array(part.position_m, dtype=np.float64), orientation)
     fill_vector(marker.pose.position, position_m + offset)
-    turn = product(orientation, from_rpy(*part.orientation_rpy_rad))
+    turn = product(orientation, quaternion_from_rpy(*part.orientation_rpy_rad))
     fill_quaternion(marker.pose.orientation, turn)
 
 

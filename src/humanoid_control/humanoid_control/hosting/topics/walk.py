@@ -8,13 +8,13 @@ import math
 from geometry_msgs.msg import PointStamped, TransformStamped
 from humanoid_common.qos import LATCHED, STATE
 from humanoid_control.backends import Array
-from humanoid_control.dynamics.rotations import about_z, from_quaternion, quaternion_of
 from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector, topic
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry as WalkOdometry
 from humanoid_control.walking.sides import LEFT, outwards, SIDES
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.walker import WalkStatus
+from humanoid_description.rotations import about_z, from_quaternion, quaternion_of
 from nav_msgs.msg import Odometry
 import numpy as np
 from rclpy.node import Node

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rotations as unit quaternions w, x, y, z."""
+"""Algebra of unit quaternions w, x, y, z, by the functions of MuJoCo."""
 
 from __future__ import annotations
 
@@ -10,34 +10,6 @@ import mujoco
 import numpy as np
 
 _UP: Array = np.array([0.0, 0.0, 1.0])
-
-
-def from_rpy(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Array:
-    """
-    Convert roll, pitch and yaw to a quaternion.
-
-    Parameters
-    ----------
-    roll_rad, pitch_rad, yaw_rad
-        Rotations about the fixed axes x, y and z, in this order, as in a URDF.
-
-    Returns
-    -------
-    Array
-        Unit quaternion (4,).
-
-    """
-    cr, sr = math.cos(roll_rad / 2), math.sin(roll_rad / 2)
-    cp, sp = math.cos(pitch_rad / 2), math.sin(pitch_rad / 2)
-    cy, sy = math.cos(yaw_rad / 2), math.sin(yaw_rad / 2)
-    return np.array(
-        [
-            cr * cp * cy + sr * sp * sy,
-            sr * cp * cy - cr * sp * sy,
-            cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy,
-        ]
-    )
 
 
 def product(first: Array, second: Array) -> Array:
@@ -120,25 +92,3 @@ def inverse(rotation: Array) -> Array:
 
     """
     return rotation * (1.0, -1.0, -1.0, -1.0)
-
-
-def from_vector(vector_rad: Array) -> Array:
-    """
-    Convert a rotation vector to a quaternion.
-
-    Parameters
-    ----------
-    vector_rad
-        Axis of the rotation (3,), whose length is the angle.
-
-    Returns
-    -------
-    Array
-        Unit quaternion (4,).
-
-    """
-    angle = math.sqrt(vector_rad @ vector_rad)
-    result = np.empty(4)
-    axis = vector_rad / angle if angle > 0.0 else np.array([1.0, 0.0, 0.0])
-    mujoco.mju_axisAngle2Quat(result, axis, angle)
-    return result

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.dynamics import rotations
+from humanoid_description import rotations
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 RANDOM = Rotation.random(50, random_state=np.random.default_rng(1))
+ANGLES = [(0.0, 0.0, 0.0), (0.3, -0.2, 0.9), (-2.0, 1.2, -3.0), (0.0, math.pi / 2, 0.4)]
 HALF_TURNS = Rotation.from_rotvec(np.pi * np.vstack([np.eye(3), [[0.6, 0.0, 0.8]]]))
 
 
@@ -65,6 +66,29 @@ def test_log_of_half_turns() -> None:
         vector = rotations.log(matrix)
         assert np.linalg.norm(vector) == pytest.approx(math.pi)
         assert rotations.exp(vector) == pytest.approx(matrix)
+
+
+@pytest.mark.parametrize('angle', [0.0, 0.7, -3.0])
+def test_about_axis(angle: float) -> None:
+    """The rotation is about the axis, by the right-hand rule."""
+    axis = np.array([0.6, 0.0, 0.8])
+    expected = Rotation.from_rotvec(angle * axis).as_matrix()
+    assert rotations.about_axis(axis, angle) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize('angles', ANGLES)
+def test_quaternion_from_rpy(angles: tuple[float, float, float]) -> None:
+    """The quaternion is the same rotation as the matrix."""
+    quaternion = rotations.quaternion_from_rpy(*angles)
+    assert rotations.from_quaternion(quaternion) == pytest.approx(rotations.from_rpy(*angles))
+
+
+def test_quaternion_from_vector() -> None:
+    """A vector turns about itself by its length, also when it is zero."""
+    turned = rotations.quaternion_from_vector(np.array([0.0, 0.0, 0.7]))
+    assert turned == pytest.approx(rotations.quaternion_from_rpy(0.0, 0.0, 0.7))
+    still = rotations.quaternion_from_vector(np.zeros(3))
+    assert still == pytest.approx([1.0, 0.0, 0.0, 0.0])
 
 
 def test_skew() -> None:

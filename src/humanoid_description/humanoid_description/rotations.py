@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Rotation matrices (3, 3) from a frame to its parent, and conversions from and to them.
+Rotation matrices (3, 3) and quaternions from a frame to its parent, and their conversions.
 
 Quaternions are w, x, y, z; roll, pitch and yaw are about the fixed x, y and z, in this order.
 """
@@ -10,10 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
+from humanoid_description.robot import Array
 import numpy as np
-from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
 
 
 def from_quaternion(quaternion: Sequence[float] | Array) -> Array:
@@ -110,6 +108,25 @@ def about_z(angle: float) -> Array:
     """
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def about_axis(axis: Array, angle: float) -> Array:
+    """
+    Compute the rotation matrix (3, 3) about any axis by Rodrigues' formula.
+
+    Parameters
+    ----------
+    axis
+        Unit vector (3,).
+    angle
+        In rad, by the right-hand rule.
+
+    """
+    cross = skew(axis)
+    rotation: Array = (
+        np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross)
+    )
+    return rotation
 
 
 def to_rpy(rotation: Array) -> tuple[float, float, float]:
@@ -213,6 +230,57 @@ def quaternion_of(rotation: Array) -> tuple[float, float, float, float]:
     half_rad = math.sqrt(turn @ turn) / 2.0
     x, y, z = (turn * (float(np.sinc(half_rad / math.pi)) / 2.0)).tolist()
     return math.cos(half_rad), x, y, z
+
+
+def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
+    """
+    Convert roll, pitch and yaw to a quaternion.
+
+    Parameters
+    ----------
+    roll, pitch, yaw
+        Angles in rad about the fixed x, y and z, in this order, as in a URDF.
+
+    Returns
+    -------
+    Array
+        Unit quaternion (4,): w, x, y, z.
+
+    """
+    cr, sr = math.cos(roll / 2), math.sin(roll / 2)
+    cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
+    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+    return np.array(
+        [
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        ]
+    )
+
+
+def quaternion_from_vector(rotation_vector: Array) -> Array:
+    """
+    Convert a rotation vector to a quaternion.
+
+    Parameters
+    ----------
+    rotation_vector
+        The axis (3,); its length is the angle in rad.
+
+    Returns
+    -------
+    Array
+        Unit quaternion (4,): w, x, y, z.
+
+    """
+    angle = math.sqrt(rotation_vector @ rotation_vector)
+    if angle == 0.0:
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    sine = math.sin(angle * 0.5)
+    x, y, z = (rotation_vector / angle).tolist()
+    return np.array([math.cos(angle * 0.5), x * sine, y * sine, z * sine])
 
 
 def skew(vector: Array) -> Array:
