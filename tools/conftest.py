@@ -49,6 +49,26 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
         def _split_scope(self, nodeid: str) -> str:
             return shared(nodeid)
 
+        def remove_node(self, node: Any) -> str | None:
+            """Return the test in which a process died, if any, which does not run again."""
+            work = self.assigned_work.pop(node)
+            left = [(unit, test) for unit in work.values() for test in unit if not unit[test]]
+            if not left:
+                return None
+            unit, died = left[0]
+            unit[died] = True
+            self.workqueue.update(
+                {at: unit for at, unit in work.items() if not all(unit.values())}
+            )
+            for other in self.nodes:
+                self._reschedule(other)
+            return str(died)
+
+        def _reschedule(self, node: Any) -> None:
+            """Give a process more to do, unless it replaces one that died and is not ready."""
+            if node in self.registered_collections:
+                super()._reschedule(node)
+
     return Shared(config, log)
 
 

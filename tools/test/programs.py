@@ -12,6 +12,8 @@ import time
 from typing import Any
 import uuid
 
+from leftovers import members
+
 MARK = 'STARTED_BY_TEST'
 
 
@@ -58,8 +60,7 @@ class Program:
 
     def members(self) -> list[int]:
         """Return it and its descendants, as far as they run."""
-        pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
-        return [pid for pid in pids if self._mark.encode() in _environment(pid) and runs(pid)]
+        return members(self._mark)
 
     def clean_up(self) -> None:
         """Kill whatever is left."""
@@ -78,20 +79,3 @@ def wait_until(done: Callable[[], Any], timeout_s: float, what: str | Callable[[
         text = what if isinstance(what, str) else what()
         assert time.monotonic() < end_s, f'waited {timeout_s} s in vain for {text}'
         time.sleep(0.02)
-
-
-def runs(pid: int) -> bool:
-    """Tell whether a process is there and is more than a zombie."""
-    try:
-        with open(f'/proc/{pid}/stat') as file:
-            return file.read().rpartition(')')[2].split()[0] != 'Z'
-    except (FileNotFoundError, ProcessLookupError):
-        return False
-
-
-def _environment(pid: int) -> bytes:
-    try:
-        with open(f'/proc/{pid}/environ', 'rb') as file:
-            return file.read()
-    except OSError:
-        return b''

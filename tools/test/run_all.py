@@ -5,7 +5,7 @@ First those of src/ with `colcon test`, some packages at a time; then those of t
 processes; then what builds src/.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
-than three of that kind are a failure. Everything together is given 45 minutes.
+than three of that kind are a failure. Everything together is given 70 minutes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from typing import IO
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-LIMIT_S = 45 * 60.0
+LIMIT_S = 70 * 60.0
 MOST_UNSTEADY = 3
 AT_ONCE = min(os.cpu_count() or 1, 10)
 """Packages whose tests run at the same time.
@@ -73,13 +73,11 @@ def run(rounds: Sequence[Sequence[Suite]], limit_s: float = LIMIT_S) -> int:
     first: dict[str, str] = {}
     last: dict[str, str] = {}
     try:
-        statuses = [status for each in rounds for status in _run(each, end_s)]
-        for suite, status in zip(suites, statuses, strict=True):
-            failed = _failed(suite, status)
+        found = [failed for each in rounds for failed in _run(each, end_s)]
+        for suite, failed in zip(suites, found, strict=True):
             first |= failed
             if failed:
-                again = replace(suite, command=suite.again)
-                last |= _failed(again, *_run([again], end_s))
+                last |= _run([replace(suite, command=suite.again)], end_s)[0]
     except TimeIsUpError as error:
         print(error, file=sys.stderr)
         return 1
@@ -94,9 +92,7 @@ def run(rounds: Sequence[Sequence[Suite]], limit_s: float = LIMIT_S) -> int:
 
 
 def _list(title: str, tests: dict[str, str]) -> None:
-    """List tests, at the end without the reasons, which may be long."""
-    for test, reason in tests.items():
-        print(f'-- {test}', reason, sep='\n')
+    """List tests without the reasons, which may be long and stand where their suite ended."""
     if tests:
         print(f'== {title}: {len(tests)}', *sorted(tests), sep='\n  ')
 
@@ -124,14 +120,14 @@ def _read(report: Path) -> Iterator[tuple[str, str]]:
             yield name, what.text or what.get('message') or ''
 
 
-def _run(suites: Sequence[Suite], end_s: float) -> list[int]:
-    """Run commands, `AT_ONCE` at the same time, each to its end; return their statuses.
+def _run(suites: Sequence[Suite], end_s: float) -> list[dict[str, str]]:
+    """Run commands, `AT_ONCE` at the same time, each to its end; return what failed, and why.
 
     The output of one that is alone is seen while it runs, that of several when each has ended.
     """
     waiting = list(enumerate(suites))[::-1]
     running: dict[int, tuple[subprocess.Popen[bytes], IO[bytes] | None]] = {}
-    statuses = [0] * len(suites)
+    failed: list[dict[str, str]] = [{} for _ in suites]
     with ExitStack() as stack:
         try:
             while waiting or running:
@@ -142,8 +138,12 @@ def _run(suites: Sequence[Suite], end_s: float) -> list[int]:
                     running[index] = _start(suite, output), output
                 for index in _wait_for_one(running, end_s):
                     process, output = running.pop(index)
-                    statuses[index] = process.returncode
                     _show(suites[index], output)
+                    failed[index] = _failed(suites[index], process.returncode)
+                    for test, reason in failed[index].items():
+                        print(f'-- failed: {test}', reason, sep='\n', flush=True)
+                    if failed[index]:
+                        _show_machine()
         except BaseException as error:
             stopped = isinstance(error, KeyboardInterrupt)
             for index, (process, output) in running.items():
@@ -151,7 +151,7 @@ def _run(suites: Sequence[Suite], end_s: float) -> list[int]:
                 _end(process, signal.SIGINT if stopped else signal.SIGABRT)
                 _show(suites[index], output)
             raise
-    return statuses
+    return failed
 
 
 def _wait_for_one(
@@ -173,6 +173,17 @@ def _show(suite: Suite, output: IO[bytes] | None) -> None:
         output.seek(0)
         text = output.read().decode(errors='replace')
         print(f'== {suite.name} has ended', text, sep='\n', flush=True)
+
+
+def _show_machine() -> None:
+    """Print what else the machine is doing: what has failed may have come too late."""
+    print('Load of the last 1, 5 and 15 minutes:', *map('{:.1f}'.format, os.getloadavg()))
+    with suppress(OSError):  # where there is no ps
+        columns = 'pid,ppid,etimes,times,rss,args'
+        busy = subprocess.run(
+            ['ps', '-ww', '-eo', columns, '--sort=-times'], capture_output=True, text=True
+        ).stdout
+        print(*(line[:160] for line in busy.splitlines()[:16]), sep='\n', flush=True)
 
 
 def _start(suite: Suite, output: IO[bytes] | None) -> subprocess.Popen[bytes]:

@@ -19,7 +19,8 @@ from urllib.parse import urlsplit
 
 from browser import browser_started
 from browser_world import memory_mb, pid_of, url_of, World, world
-from programs import Program, runs, wait_until
+from leftovers import runs
+from programs import Program, wait_until
 import pytest
 from random_messages import page_messages, ros_message, viser_messages
 from ros_side import LATCHED

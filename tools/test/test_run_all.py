@@ -8,7 +8,10 @@ import re
 import shutil
 import sys
 import time
+from xml.etree import ElementTree
 
+from leftovers import runs
+from programs import wait_until
 import pytest
 import run_all
 from run_all import MOST_UNSTEADY, run, Suite
@@ -35,6 +38,27 @@ def test_hanging():
     mutex = ctypes.create_string_buffer(64)
     for _ in range(2):
         ctypes.PyDLL(None).pthread_mutex_lock(mutex)
+"""
+ORPHAN = """
+import os
+import subprocess
+
+def test_it():
+    sleeping = subprocess.Popen(['sleep', '300'], start_new_session=True)
+    with open('orphan', 'w') as file:
+        file.write(str(sleeping.pid))
+    {end}
+"""
+DYING = """
+import os
+import time
+
+def {dies}():
+    time.sleep(0.1)
+    os.abort()
+
+def {lives}():
+    time.sleep(0.1)
 """
 
 
@@ -84,10 +108,44 @@ def test_what_fails_is_said_at_once(
 ) -> None:
     """Even if the time is up before the end."""
     (tmp_path / 'test_it.py').write_text(BROKEN + HANGING)
-    shutil.copy(Path(__file__).parent / 'watchdog.py', tmp_path)
+    _copy('watchdog.py', 'leftovers.py', to=tmp_path)
     command = [*suite.command, '-p', 'watchdog']
     assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=10.0) == 1
     assert 'FAILED test_it.py::test_broken (call)' in capfd.readouterr().err
+
+
+def _copy(*names: str, to: Path) -> None:
+    for name in names:
+        shutil.copy(Path(__file__).parent / name, to)
+
+
+@pytest.mark.parametrize(
+    'end', ['assert 0', 'os.abort()', 'os._exit(0)', 'os.kill(os.getpid(), 9)']
+)
+def test_nothing_outlives_its_tests(suite: Suite, tmp_path: Path, end: str) -> None:
+    """What a process of tests has started ends with it, also in a session of its own."""
+    (tmp_path / 'test_it.py').write_text(ORPHAN.format(end=end))
+    _copy('watchdog.py', 'leftovers.py', to=tmp_path)
+    command = [*suite.command, '-p', 'watchdog']
+    run([[Suite('mine', command, ['true'], suite.reports)]])
+    orphan = int((tmp_path / 'orphan').read_text())
+    wait_until(lambda: not runs(orphan), 30.0, 'the end of what the test started')
+
+
+def test_processes_that_die_are_replaced(suite: Suite, tmp_path: Path) -> None:
+    """Each test in which a process dies fails, once, and all others run, in every file."""
+    _copy('../conftest.py', to=tmp_path)
+    dies, lives = 'test_{}_dies', 'test_{}_lives'
+    for number in range(6):
+        text = DYING.format(dies=dies.format(number), lives=lives.format(number))
+        (tmp_path / f'test_{number}.py').write_text(text)
+    command = [*suite.command, '-n', '3', '--dist', 'loadfile', '--no-loadscope-reorder']
+    assert run([[Suite('mine', command, ['true'], suite.reports)]]) == 1
+    cases = list(ElementTree.parse(tmp_path / 'report.xml').iter('testcase'))
+    failed = [case.get('name') for case in cases if case.find('error') is not None]
+    assert sorted(failed) == [dies.format(number) for number in range(6)]
+    passed = {case.get('name') for case in cases} - set(failed)
+    assert passed == {lives.format(number) for number in range(6)}
 
 
 def test_some_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,7 +182,8 @@ def test_a_whole_day(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[
 
 def test_watchdog(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """A test that hangs in C is ended with its stack, some time after its time limit."""
-    source = (Path(__file__).parent / 'watchdog.py').read_text()
+    _copy('watchdog.py', 'leftovers.py', to=tmp_path)
+    source = (tmp_path / 'watchdog.py').read_text()
     (tmp_path / 'watchdog.py').write_text(source.replace('GRACE_S = 120.0', 'GRACE_S = 2.0'))
     (tmp_path / 'test_it.py').write_text(HANGING)
     command = [*suite.command, '-p', 'watchdog', '-o', 'timeout=1']

@@ -9,10 +9,11 @@ import sys
 
 import commands
 from console import SetupError
+from leftovers import runs
 from locations import Locations
 from ownership import Home
 import processes
-from programs import runs, wait_until
+from programs import wait_until
 import pytest
 from stamp import Stamp
 

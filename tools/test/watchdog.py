@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Says at once what failed, and ends a process of tests that hangs, with its stacks.
+"""
+Says at once what failed, and ends a process of tests that hangs, with its stacks.
 
-A plugin of pytest. The time limit of a test raises an error in Python; this one also ends a
-process whose main thread hangs in C, with Python's lock, where no signal handler runs.
+A plugin of pytest. What a process of tests has started ends with it, even if it is killed. The
+time limit of a test raises an error in Python; this one also ends a process whose main thread
+hangs in C, with Python's lock, where no signal handler runs.
 """
 
 from __future__ import annotations
@@ -10,11 +12,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 import faulthandler
 import os
+import sys
+import uuid
 
 import pytest
 
+sys.path.append(os.path.dirname(__file__))
+
+from leftovers import kill_at_the_end  # noqa: E402
+
 GRACE_S = 120.0
 """How long after the limit of a test."""
+_MARK = 'STARTED_BY_TESTS'
 
 _stderr: list[int] = []
 
@@ -25,6 +34,9 @@ def pytest_configure(config: pytest.Config) -> None:
     if os.environ.pop('PYTEST_ADDOPTS', None):  # asked for this module, of this process alone
         folder = os.path.dirname(__file__)
         os.environ['PYTHONPATH'] = os.environ['PYTHONPATH'].removeprefix(f'{folder}:')
+    name = uuid.uuid4().hex
+    kill_at_the_end(f'{_MARK}={name}', _stderr[0])
+    os.environ[_MARK] = name
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
