@@ -212,7 +212,7 @@ def show_camera(tab: Any) -> None:
     """
     tab.get_by_text('Camera (off)').click()
     tab.locator('label:has-text("Enabled"):visible').first.click()
-    tab.get_by_text('messages have come on /camera/image_raw').wait_for()
+    tab.get_by_text('messages received on /camera/image_raw').wait_for()
 
 
 def walk(tab: Any) -> None:

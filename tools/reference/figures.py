@@ -66,17 +66,19 @@ class Module:
         """All classes."""
         return [node for node in ast.walk(self.tree) if isinstance(node, ast.ClassDef)]
 
-    def imported(self) -> Iterator[tuple[str, bool]]:
-        """Yield what this module imports.
+    def imported(self) -> Iterator[str]:
+        """Yield the names, with dots, of the modules that this one imports, or of things in them.
 
-        Yields
-        ------
-        tuple of str and bool
-            A name with dots, of a module or of something in it, and whether it is imported when
-            this module is (not only by a function, or for types).
-
+        Imports in functions, and those for types only, count as well.
         """
-        yield from _imported(self.tree, self._package(), at_once=True)
+        for node in ast.walk(self.tree):
+            if isinstance(node, ast.Import):
+                yield from (alias.name for alias in node.names)
+            elif isinstance(node, ast.ImportFrom):
+                start = self._package()
+                start = start[: len(start) - node.level + 1] if node.level else []
+                base = '.'.join([*start, *([node.module] if node.module else [])])
+                yield from (f'{base}.{alias.name}' for alias in node.names)
 
     def _package(self) -> list[str]:
         """Return the parts of the name of the package that relative imports begin at."""
@@ -118,15 +120,13 @@ def packages() -> dict[str, Path]:
     return {path.parent.name: path.parent for path in sorted(manifests)}
 
 
-def imports(these: dict[str, Module], *, at_once: bool = False) -> dict[str, set[str]]:
+def imports(these: dict[str, Module]) -> dict[str, set[str]]:
     """Return which modules import which others.
 
     Parameters
     ----------
     these : dict of str to Module
         The modules that count, by their names.
-    at_once : bool
-        Leave out imports inside functions and for types only.
 
     Returns
     -------
@@ -136,7 +136,7 @@ def imports(these: dict[str, Module], *, at_once: bool = False) -> dict[str, set
     """
     found: dict[str, set[str]] = {}
     for name, module in these.items():
-        wanted = {each for each, now in module.imported() if now or not at_once}
+        wanted = set(module.imported())
         known = {each if each in these else each.rpartition('.')[0] for each in wanted}
         found[name] = known & these.keys() - {name}
     return found
@@ -250,7 +250,7 @@ def private_imports(these: dict[str, Module], own: Iterable[str]) -> list[str]:
     """
     found = []
     for name, module in these.items():
-        for each, _ in module.imported():
+        for each in module.imported():
             top, *inner = each.split('.')
             private = any(part.startswith('_') and not part.endswith('__') for part in inner)
             if top not in own and private and top in _TOPS:
@@ -293,24 +293,6 @@ def row(name: str, these: dict[str, Module]) -> list[str]:
         str(max(map(len, circles(graph)), default=0)),
         str(sum(len(foreign_private_names(each)) for each in with_code)),
     ]
-
-
-def _imported(
-    node: ast.AST, package: Sequence[str], *, at_once: bool
-) -> Iterator[tuple[str, bool]]:
-    """Yield what a part of a module imports, and whether it does so at once."""
-    for each in ast.iter_child_nodes(node):
-        if isinstance(each, ast.Import):
-            yield from ((alias.name, at_once) for alias in each.names)
-        elif isinstance(each, ast.ImportFrom):
-            start = package[: len(package) - each.level + 1] if each.level else []
-            base = '.'.join([*start, *([each.module] if each.module else [])])
-            yield from ((f'{base}.{alias.name}', at_once) for alias in each.names)
-        elif isinstance(each, ast.If) and 'TYPE_CHECKING' in ast.unparse(each.test):
-            yield from _imported(each, package, at_once=False)
-        else:
-            later = isinstance(each, Function | ast.Lambda)
-            yield from _imported(each, package, at_once=at_once and not later)
 
 
 def _only_exports(module: Module) -> bool:

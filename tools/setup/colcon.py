@@ -161,6 +161,10 @@ def build_workspace(locations: Locations, arguments: list[str]) -> int:
     """
     Run `colcon build` as a user would in the sourced environment; return its exit status.
 
+    A build of all packages first removes modules that they no longer have. One with arguments,
+    which may select packages, does not: a module removed by mistake, such as a generated one,
+    would not be built again.
+
     Parameters
     ----------
     locations
@@ -169,8 +173,9 @@ def build_workspace(locations: Locations, arguments: list[str]) -> int:
         Further arguments of `colcon build`.
 
     """
-    packages = read_packages(locations.root / 'src').values()
-    remove_outdated_modules(packages, locations.root / 'build')
+    if not arguments:
+        packages = read_packages(locations.root / 'src').values()
+        remove_outdated_modules(packages, locations.root / 'build')
     runner = os.fspath(locations.root / 'tools' / 'in_environment')
     command = [runner, '--underlay', 'colcon', 'build', *arguments]
     return run(command, cwd=locations.root, variables=without_inherited())

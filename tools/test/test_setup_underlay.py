@@ -162,6 +162,19 @@ def test_a_module_that_is_gone_is_removed(workspace: Locations, built: list[list
     assert strange.exists()
 
 
+@pytest.mark.parametrize('arguments', [[], ['--packages-select', 'robot']])
+def test_a_build_of_some_packages_removes_nothing(
+    workspace: Locations, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
+) -> None:
+    """What another package has generated would not come back."""
+    monkeypatch.setattr(colcon, 'run', lambda *_, **__: 0)
+    gone = workspace.root / 'build' / 'robot' / 'build' / 'lib' / 'robot' / 'gone.py'
+    gone.parent.mkdir(parents=True)
+    gone.touch()
+    assert colcon.build_workspace(workspace, arguments) == 0
+    assert gone.exists() == bool(arguments)
+
+
 def test_messages_that_wait_are_described(workspace: Locations, built: list[list[str]]) -> None:
     """They are in the index, with their definitions; an import says what to do."""
     make(workspace)

@@ -33,7 +33,7 @@ def watch_robot(argument: str) -> OnProcessExit:
         ends_all = LaunchConfiguration(argument).perform(context) == 'shutdown'
         sentence = exit_report(event.process_name, event.returncode, ends_all, argument)
         said = LogInfo(msg=sentence)
-        return [said, Shutdown(reason=f'{event.process_name} has ended')] if ends_all else [said]
+        return [said, Shutdown(reason=f'{event.process_name} has exited')] if ends_all else [said]
 
     return OnProcessExit(target_action=_is_robot, on_exit=react)
 
@@ -50,11 +50,11 @@ def exit_report(process: str, status: int, ends_all: bool, argument: str) -> str
         Whether the launch is shut down, and the launch argument that decides that.
 
     """
-    cause = f'was killed by signal {-status}' if status < 0 else f'has ended with status {status}'
+    cause = f'was killed by signal {-status}' if status < 0 else f'has exited with status {status}'
     follows = (
-        f"everything else ends, too. To let it go on, pass '{argument}:=stay'."
+        f"everything else shuts down, too. To keep it running, pass '{argument}:=stay'."
         if ends_all
-        else 'the other nodes go on without it, until Ctrl-C.'
+        else 'the other nodes continue without it, until Ctrl-C.'
     )
     return f'The robot is gone: {process} {cause}, and {follows}'
 

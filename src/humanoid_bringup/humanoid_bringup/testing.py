@@ -195,7 +195,7 @@ class ToldRobot:
                 return False
             return bool(answer.result().success)
 
-        self.ros.wait_until(plans, READY_S, 'a robot that can be told something')
+        self.ros.wait_until(plans, READY_S, 'a robot that accepts commands')
 
     def _hear(self, message: String) -> None:
         self.said.append(message.data)

@@ -32,7 +32,7 @@ def generate_launch_description() -> LaunchDescription:
                 'backend',
                 default_value='mujoco',
                 choices=['mujoco', 'mock'],
-                description='What moves: a simulator with physics, or a mock without.',
+                description='The robot: a simulator with physics, or a mock without.',
             ),
             DeclareLaunchArgument(
                 'use_controller',
@@ -44,20 +44,20 @@ def generate_launch_description() -> LaunchDescription:
                 'use_sim_time',
                 default_value='auto',
                 choices=['auto', 'true', 'false'],
-                description='Take the time from the topic /clock instead of the computer; '
-                'auto does so with the simulator.',
+                description='Use the time of the topic /clock instead of the system clock; auto '
+                'does so with the simulator.',
             ),
             DeclareLaunchArgument(
                 'gui',
                 default_value='true',
                 choices=['true', 'false'],
-                description='Show the robot in RViz, with what one drives and watches it with.',
+                description='Show the robot in RViz, with panels to drive and monitor it.',
             ),
             DeclareLaunchArgument(
                 'navigation',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Start Nav2, so that the robot finds its way in a map, or makes one.',
+                description='Start Nav2, to navigate with a map or to make one.',
             ),
             DeclareLaunchArgument(
                 'perception',
@@ -69,7 +69,7 @@ def generate_launch_description() -> LaunchDescription:
                 'manipulation',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Let the arms reach; the robot needs hands:=true.',
+                description='Let the arms reach for objects; the robot needs hands:=true.',
             ),
             DeclareLaunchArgument(
                 'report_period_s',
@@ -80,7 +80,7 @@ def generate_launch_description() -> LaunchDescription:
                 'when_robot_ends',
                 default_value='shutdown',
                 choices=['shutdown', 'stay'],
-                description='What the rest does when the simulator or the mock robot ends.',
+                description='What the other nodes do when the simulator or the mock robot exits.',
             ),
             RegisterEventHandler(watch_robot('when_robot_ends')),
             RegisterEventHandler(announce_page()),

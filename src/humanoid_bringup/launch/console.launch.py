@@ -40,28 +40,28 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'host',
                 default_value='127.0.0.1',
-                description='The address at which the page is served; 0.0.0.0 shows it to others.',
+                description='The address of the page; 0.0.0.0 opens it to other machines.',
             ),
             DeclareLaunchArgument(
                 'port',
                 default_value='0',
-                description='The port of the page; 0 takes the first free one from 8080 on.',
+                description='The port of the page; 0 takes the first free one from 8080 up.',
             ),
             DeclareLaunchArgument(
                 'token',
                 default_value='',
-                description='What opens the page; made up if empty, "none" to do without.',
+                description='The token that opens the page; generated if empty, "none" for none.',
             ),
             DeclareLaunchArgument(
                 'prefix',
                 default_value='',
-                description='What the names of all links and joints begin with.',
+                description='Prefix of the names of all links and joints.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Take the time from the topic /clock instead of the computer.',
+                description='Use the time of the topic /clock instead of the system clock.',
             ),
             crash_proof(
                 lambda **options: Node(

@@ -17,17 +17,20 @@ from launch_ros.substitutions import FindPackageShare
 
 DEFAULTS = {
     'scene': ('apartment', 'The scene that is simulated.'),
-    'navigation': ('true', 'Start Nav2, so that the robot finds its way.'),
+    'navigation': ('true', 'Start Nav2, for autonomous navigation.'),
     'perception': ('true', 'Detect objects, remember where they are, and look for them.'),
-    'hands': ('true', 'Give the arms wrists and grippers.'),
-    'manipulation': ('true', 'Take things, carry them, and put them down; the robot needs hands.'),
-    'assistants_port': ('8765', 'The port of the server for assistants; 0 for any.'),
+    'hands': ('true', 'Add wrists and grippers to the arms.'),
+    'manipulation': (
+        'true',
+        'Pick up objects, carry them, and put them down; the robot needs hands.',
+    ),
+    'assistants_port': ('8765', 'The port of the MCP server; 0 for any free one.'),
 }
 
 PARTS = {
-    'planner': ('true', 'Understand commands, and do them.'),
-    'voice': ('true', 'Hear commands, and speak aloud what the robot says.'),
-    'assistants': ('false', 'Let assistants that speak MCP reach the robot, by HTTP.'),
+    'planner': ('true', 'Understand commands, and carry them out.'),
+    'voice': ('true', 'Listen for spoken commands, and speak the replies of the robot aloud.'),
+    'assistants': ('false', 'Let MCP assistants control the robot, over HTTP.'),
 }
 
 

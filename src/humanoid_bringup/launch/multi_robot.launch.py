@@ -18,7 +18,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'robots',
                 default_value='3',
-                description='How many robots: they are named robot1, robot2 and so on.',
+                description='The number of robots, which are named robot1, robot2 and so on.',
             ),
             OpaqueFunction(function=_controllers),
         ]

@@ -129,7 +129,7 @@ STORIES = (
     Story(
         'refusing',
         'put it down',
-        stays('I would hold nothing by then.'),
+        stays('I would not be holding anything by then.'),
     ),
     Story(
         'refusing',

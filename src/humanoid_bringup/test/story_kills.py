@@ -21,7 +21,7 @@ STARTED = re.compile(r'\[(\w+)-\d+\]: process started with pid \[(\d+)\]')
 ROOMS = ('kitchen', 'corridor')
 BACK_S, AGAIN_S, NEXT_S = 60.0, 90.0, 120.0
 
-LOCALISED = 'The localisation was started anew.'
+LOCALISED = 'Localisation restarted;'
 OTHERS = (
     'audio_source', 'speech_recognizer', 'speaker', 'object_detector', 'object_memory', 'gaze',
     'navigation_guard', 'robot_state_publisher', 'joint_controller', 'sensor_processor', 'rviz2',

@@ -33,7 +33,7 @@ def test_all_ends_with_the_robot() -> None:
         kill_robot(program, signal.SIGKILL)
         report = program.wait_for_exit(TIMEOUT_S)
     assert re.search(
-        r'The robot is gone: mock_robot-\d+ was killed by signal 9, and everything else ends',
+        r'The robot is gone: mock_robot-\d+ was killed by signal 9, and everything else shuts',
         report.output,
     )
     assert 'Traceback' not in report.output
@@ -45,7 +45,9 @@ def test_all_stays_without_the_robot() -> None:
     arguments = (*QUIET, 'when_robot_ends:=stay')
     with ros_sandbox(), running_launch_file(LAUNCH_FILE, *arguments) as program:
         kill_robot(program, signal.SIGTERM)
-        program.wait_for_output('has ended with status 0, and the other nodes go on', TIMEOUT_S)
+        program.wait_for_output(
+            'has exited with status 0, and the other nodes continue', TIMEOUT_S
+        )
         assert not program.has_ended
         report = program.stop(signal.SIGINT)
     assert report.output.count('The robot is gone') == 1
@@ -62,8 +64,8 @@ def test_ctrl_c_is_no_death() -> None:
 @pytest.mark.parametrize(
     ('status', 'ends_all', 'words'),
     [
-        (-9, True, "killed by signal 9, and everything else ends, too. To let it go on, pass 'a:"),
-        (1, False, 'has ended with status 1, and the other nodes go on without it'),
+        (-9, True, "and everything else shuts down, too. To keep it running, pass 'a:"),
+        (1, False, 'has exited with status 1, and the other nodes continue without it'),
     ],
 )
 def test_sentence(status: int, ends_all: bool, words: str) -> None:

@@ -49,7 +49,7 @@ def test_it_takes_a_thing(told: ToldRobot):
     x, y, z = told.entities.position_m('red_mug')
     assert z > 0.8 and abs(complex(x, y) - told.robot.pose.position_m) < 0.6
     told.tell('where is it')
-    told.wait_for('I hold the red mug.')
+    told.wait_for('I am holding the red mug.')
 
 
 def test_it_stops_at_once(told: ToldRobot):

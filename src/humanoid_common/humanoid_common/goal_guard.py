@@ -138,10 +138,10 @@ class GuardedActionClient(ActionClient):
 def main() -> int:
     """Read goals until the end of the input, and cancel them."""
     parser = argparse.ArgumentParser(
-        description='Cancel goals at the end of the input. Nodes start this beside them.'
+        description='Cancel goals when stdin closes. Nodes start this as a helper process.'
     )
-    parser.add_argument('node', help='its name')
-    parser.add_argument('namespace', help='that of the node')
+    parser.add_argument('node', help='name of the node')
+    parser.add_argument('namespace', help='namespace of the node')
     told = parser.parse_args()
     for number in STOP_SIGNALS:  # Ctrl-C ends the other process, and thereby this one
         signal.signal(number, signal.SIG_IGN)

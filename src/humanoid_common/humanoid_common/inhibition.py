@@ -3,10 +3,8 @@
 
 from __future__ import annotations
 
-FALLEN = (
-    'The robot has fallen. Put it onto its feet first; in a simulation, call the service stand_up.'
-)
-STANDING_UP = 'The robot is being put onto its feet. Send the goal again when it stands.'
+FALLEN = 'The robot has fallen. Stand it up first; in simulation, call the service stand_up.'
+STANDING_UP = 'The robot is still standing up. Send the goal again once it stands.'
 
 
 class Inhibition:

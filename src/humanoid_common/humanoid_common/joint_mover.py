@@ -150,13 +150,13 @@ class JointMover:
         if self._handle is not None and not self._handle.accepted:
             raise GoalAborted(
                 self._code,
-                f"'{self.action}' rejected the motion: the log of the robot says why.",
+                f"'{self.action}' rejected the motion. See the log of the robot for the reason.",
             )
         if self._end is None or not self._end.done():
             return False
         answer = self._end.result()
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
-            reason = answer.result.error_string or 'somebody else moves these joints'
+            reason = answer.result.error_string or 'another client is moving these joints'
             is_off = answer.result.error_code in _OFF
             raise GoalAborted(
                 self._blocked if is_off else self._code,

@@ -104,10 +104,7 @@ def _initialize(args: Sequence[str] | None) -> None:
 def _refusal(reason: str) -> str:
     """Build the message about a failed initialisation, with what to do."""
     if 'initialize logging' in reason:
-        return (
-            f'This node cannot write its log: {reason}. '
-            'Set ROS_LOG_DIR to a folder that can be written.'
-        )
+        return f'This node cannot write its log: {reason}. Set ROS_LOG_DIR to a writable folder.'
     return (
         f'The ROS arguments of this node cannot be used: {reason}. '
         'Correct what follows --ros-args, or the parameter file that it names.'
@@ -181,8 +178,10 @@ def _missing_time_warning(publishers: int) -> str:
         Number of publishers of /clock.
 
     """
-    why = f'no time has come on {_CLOCK} so far' if publishers else f'nobody publishes {_CLOCK}'
+    why = (
+        f'no time received on {_CLOCK} yet' if publishers else f'there is no publisher on {_CLOCK}'
+    )
     return (
         f'use_sim_time is true, but {why}: the time of this node stands still. Start the '
-        'simulator, or play the bag with --clock; without one, leave out use_sim_time.'
+        'simulator, or play the bag with --clock; without one, do not set use_sim_time.'
     )

@@ -162,20 +162,20 @@ class RunningGoal:
 
         """
         if not await self.comes(client.server_is_ready):
-            raise GoalAborted(code, f"The action '{action}' is not there. Start what offers it.")
+            raise GoalAborted(code, f"No action server for '{action}'. Start its node.")
         sent = client.send_goal_async(wanted)
         try:
             if not await self.comes(sent.done):
                 raise GoalAborted(code, f"'{action}' does not answer.")
             handle = sent.result()
             if not handle.accepted:
-                raise GoalAborted(code, f"'{action}' rejected a goal: its log says why.")
+                raise GoalAborted(code, f"'{action}' rejected a goal. Its log says why.")
             end = ResultRequest(handle)
             while not end.done():
                 await self.tick()
                 check()
                 if not client.server_is_ready() and not await self.comes(end.done):
-                    raise GoalAborted(code, f"'{action}' ended in the middle of its work.")
+                    raise GoalAborted(code, f"The server of '{action}' exited during a goal.")
         except BaseException:
             cancel_goal(sent)
             raise

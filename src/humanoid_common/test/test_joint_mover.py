@@ -121,6 +121,6 @@ def test_a_motion_that_is_rejected(controller: Controller) -> None:
     """The sentence says where the reason is."""
     controller.accepts = False
     controller.mover.send([trajectory_point(0.5, (0.1, 0.2))])
-    with pytest.raises(GoalAborted, match='the log of the robot says why') as raised:
+    with pytest.raises(GoalAborted, match='See the log of the robot for the reason') as raised:
         controller.end()
     assert raised.value.name == 'FAILED'

@@ -63,7 +63,7 @@ def test_array_of_ros() -> None:
         ({'gains': 1.0}, ["'gains' is 1.0", 'must be a list of numbers']),
         ({'gains': [1.0, 'x']}, ["'gains' contains 'x'", 'must be a list of numbers']),
         ({'gains': []}, ["'gains' is []", 'must not be empty']),
-        ({'mode': None}, ["'mode' is None", 'must be a text']),
+        ({'mode': None}, ["'mode' is None", 'must be a string']),
     ],
 )
 def test_wrong_type(values: dict[str, Any], words: list[str]) -> None:

@@ -142,7 +142,7 @@ def test_time_that_nobody_tells(tmp_path: Path) -> None:
     script.write_text(BUSY, encoding='utf-8')
     command = [sys.executable, str(script), '--ros-args', '-p', 'use_sim_time:=true']
     with ros_sandbox(), running_program(command) as program:
-        program.wait_for_output('use_sim_time is true, but nobody publishes /clock: ')
+        program.wait_for_output('use_sim_time is true, but there is no publisher on /clock: ')
         assert_clean_exit(program.stop(signal.SIGTERM))
 
 

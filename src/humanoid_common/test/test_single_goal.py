@@ -106,7 +106,8 @@ def test_another_action_is_canceled_with_the_goal(world: World) -> None:
 
 
 @pytest.mark.parametrize(
-    ('is_there', 'sentence'), [(False, "'look' is not there"), (True, "'look' rejected a goal")]
+    ('is_there', 'sentence'),
+    [(False, "No action server for 'look'"), (True, "'look' rejected a goal")],
 )
 def test_an_action_that_is_of_no_use_aborts_the_goal(
     world: World, is_there: bool, sentence: str

@@ -99,8 +99,7 @@ class StopGuard:
     def _gone(self) -> str:
         """Build the message about a lost console."""
         return (
-            'the console that was in control is gone, without a heartbeat for '
-            f'{self.heartbeat_timeout_s:g} s'
+            f'the console in control is lost, with no heartbeat for {self.heartbeat_timeout_s:g} s'
         )
 
 
@@ -172,8 +171,7 @@ class StopListener:
         self._state.publish(String(data=reason))
         if reason:
             self._log.warning(
-                f'Holding still: {reason}. It moves on when false is published on '
-                f"'{self._release}'."
+                f"Holding still: {reason}. To release it, publish false on '{self._release}'."
             )
         else:
-            self._log.info('Released: moving on')
+            self._log.info('Released: moving again')

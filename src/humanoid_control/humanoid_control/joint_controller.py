@@ -25,33 +25,33 @@ class JointControllerParameters:
     """Publishing rate, and the swing of each joint: every list has one element per joint."""
 
     rate_hz: float = parameter(
-        50.0, 'How many joint commands are published a second.', at_least=1.0, at_most=1000.0
+        50.0, 'Number of joint commands published per second.', at_least=1.0, at_most=1000.0
     )
     joints: tuple[str, ...] = parameter(
         ('left_shoulder', 'left_elbow', 'right_shoulder', 'right_elbow'),
-        'The names of the joints that are moved.',
+        'Names of the joints to move.',
     )
     amplitudes_rad: tuple[float, ...] = parameter(
         (0.5, 0.8, 0.5, 0.8),
-        'How far each joint swings to either side.',
+        'Amplitude of each joint.',
         at_least=-10.0,
         at_most=10.0,
     )
     frequencies_rad_s: tuple[float, ...] = parameter(
         (1.0, 1.5, 1.0, 1.5),
-        'How fast the phase of each joint grows.',
+        'Angular frequency of each joint.',
         at_least=-1000.0,
         at_most=1000.0,
     )
     phases_rad: tuple[float, ...] = parameter(
         (0.0, 0.0, math.pi, math.pi),
-        'The phase of each joint at the start.',
+        'Initial phase of each joint.',
         at_least=-100.0,
         at_most=100.0,
     )
     heartbeat_timeout_s: float = parameter(
         1.0,
-        'How long the console that is in control may be silent before the joints are held.',
+        'How long the console in control may be silent before the joints are held.',
         at_least=0.2,
         at_most=10.0,
     )
@@ -85,7 +85,7 @@ class JointControllerParameters:
         if length != len(self.joints):
             raise ParameterError(
                 f"Parameter '{name}' has {length} elements, but 'joints' has "
-                f'{len(self.joints)}. Give one element a joint; to change the number of joints '
+                f'{len(self.joints)}. Give one element per joint; to change the number of joints '
                 'while the node runs, set all four lists in one atomic request.',
                 name,
                 'joints',

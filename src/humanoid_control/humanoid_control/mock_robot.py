@@ -31,8 +31,8 @@ from humanoid_description.loading import load_robot
 from rclpy.node import Node
 
 NO_TURN = (
-    'The mock robot does not turn: its inertial sensor is level and faces ahead for ever. It '
-    'walks straight on and sideways; to turn, use the simulator.'
+    'The mock robot does not turn: its IMU is always level and faces forward. It walks straight '
+    'or sideways; to turn, use the simulator.'
 )
 
 

@@ -22,7 +22,7 @@ class SensorProcessorParameters:
     """Report period of the sensor processor."""
 
     report_period_s: float = parameter(
-        1.0, 'The least time between two reports.', at_least=0.1, at_most=3600.0
+        1.0, 'Minimum time between two reports.', at_least=0.1, at_most=3600.0
     )
 
 

@@ -33,12 +33,12 @@ def generate_launch_description() -> LaunchDescription:
                 'use_sim_time',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Take the time from the topic /clock instead of the computer.',
+                description='Use the time of the topic /clock instead of the system clock.',
             ),
             DeclareLaunchArgument(
                 'report_period_s',
                 default_value='1.0',
-                description='How often the sensor processor logs the first joint, in seconds.',
+                description='Seconds between two logs of the first joint by the sensor processor.',
             ),
             Node(
                 package='humanoid_control',

@@ -24,7 +24,7 @@ def generate_launch_description() -> LaunchDescription:
                 'use_sim_time',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Take the time from the topic /clock instead of the computer.',
+                description='Use the time of the topic /clock instead of the system clock.',
             ),
             DeclareLaunchArgument(
                 'gui',

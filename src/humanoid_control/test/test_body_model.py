@@ -59,7 +59,7 @@ def test_not_finite(model: BodyModel, name: str, bad: float) -> None:
     """What is not finite is refused, with its place."""
     inputs = state_inputs(model)
     inputs[name].flat[2] = bad
-    with pytest.raises(DynamicsError, match=f'{name} holds {bad} at place 2'):
+    with pytest.raises(DynamicsError, match=f'{name} holds {bad} at index 2'):
         model.state(**inputs)
 
 

@@ -25,7 +25,7 @@ def test_taken() -> None:
 @pytest.mark.parametrize(
     ('names', 'positions', 'reason'),
     [
-        ([], [], 'It names no joint'),
+        ([], [], 'It names no joints'),
         (['left_elbow'], [], "field 'position' has length 0, but it names 1 joints"),
         (['left_elbow'], [0.1, 0.2], "field 'position' has length 2"),
         (['left_elbw'], [0.1], "no joint 'left_elbw'. Did you mean 'left_elbow'?"),
@@ -48,7 +48,7 @@ def test_refused(names: list[str], positions: list[float], reason: str) -> None:
         ([math.nan], [], 'velocity'),
         ([], [math.inf], 'effort'),
         ([1.0, 2.0], [], 'velocity'),
-        ([-1e308], [], 'velocity of .* is -1e.308, beyond all that a joint can do'),
+        ([-1e308], [], 'velocity of .* is -1e.308, beyond the limits of any joint'),
     ],
 )
 def test_other_fields(velocities: Sequence[float], efforts: Sequence[float], field: str) -> None:

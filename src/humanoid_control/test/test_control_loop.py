@@ -67,7 +67,7 @@ def test_velocity_and_its_timeout() -> None:
 
 def test_robot_without_legs_to_walk() -> None:
     """A velocity for a robot that does not walk is refused."""
-    with pytest.raises(CommandError, match='does not walk'):
+    with pytest.raises(CommandError, match='cannot walk'):
         Fleet().robots['robot2'].walk(VelocityCommand(0.2))
 
 

@@ -253,7 +253,7 @@ def test_hold_lends_nothing() -> None:
     robot = Robot()
     robot.manager.switch('hold')
     robot.run(1)
-    with pytest.raises(CommandError, match="mode 'hold', which leaves no joint to controllers"):
+    with pytest.raises(CommandError, match="mode 'hold', which leaves no joints to controllers"):
         robot.command('left_elbow', 0.1)
 
 
@@ -307,7 +307,7 @@ def test_controller_at_fault(fault: float) -> None:
     assert np.isfinite(after.positions_rad).all()
     assert after.positions_rad[0] == pytest.approx(told.positions_rad[0], abs=0.01)
     assert robot.said == [
-        "'walking' asks for a target of 'left_elbow' that is not finite: the joint is held."
+        "'walking' commands 'left_elbow' to a target that is not finite: the joint is held."
     ]
 
 

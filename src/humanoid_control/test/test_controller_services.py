@@ -120,9 +120,9 @@ def test_restart() -> None:
     ('activate', 'deactivate', 'sentence'),
     [
         (['left_arm_controler'], [], "Did you mean 'left_arm_controller'?"),
-        ([LEFT], [], "'left_arm_controller' is active already."),
+        ([LEFT], [], "'left_arm_controller' is already active."),
         (['hold'], [], "Set the parameter 'mode' of the node"),
-        ([], ['joint_commands'], 'for whoever publishes on its topic'),
+        ([], ['joint_commands'], 'is always active and listens to its topic'),
     ],
 )
 def test_strict(activate: list[str], deactivate: list[str], sentence: str) -> None:
@@ -144,7 +144,7 @@ def test_best_effort() -> None:
     assert switch(robot.control, [], [], BEST_EFFORT) == (True, '')
     assert switch(robot.control, [LEFT], [], 7) == (
         False,
-        '7 is no strictness. Give BEST_EFFORT (1) or STRICT (2).',
+        'Unknown strictness 7. Give BEST_EFFORT (1) or STRICT (2).',
     )
 
 
@@ -155,7 +155,7 @@ def test_activate_where_nothing_can_be_claimed() -> None:
     robot.control.manager.switch('hold')
     robot.tick()
     ok, message = switch(robot.control, [LEFT], [], BEST_EFFORT)
-    assert not ok and "the mode 'hold' leaves its joints to no controller" in message
+    assert not ok and "the mode 'hold' lets no controller claim its joints" in message
 
 
 class World:

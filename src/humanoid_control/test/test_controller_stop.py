@@ -87,7 +87,7 @@ def test_stop_and_release(watch: Watch, qos: QoSProfile) -> None:
     first = next(each for each in watch.commands[count:] if list(each.position) != held)
     assert list(first.position) == pytest.approx(held, abs=0.01)
     watch.ros.wait_until(lambda: watch.states[-1:] == [''], what='the state')
-    watch.ros.wait_until(lambda: watch.told('Released: moving on') == 1, what='the log')
+    watch.ros.wait_until(lambda: watch.told('Released: moving again') == 1, what='the log')
 
 
 def test_stop_from_before(watch: Watch) -> None:
@@ -103,9 +103,7 @@ def test_console_is_gone(watch: Watch) -> None:
     heartbeat = watch.publisher('console_heartbeat', BEST_EFFORT)
     heartbeat.publish(Bool(data=True))
     watch.ros.wait_until(watch.holds, what='still joints')
-    watch.ros.wait_until(
-        lambda: watch.told('the console that was in control is gone') == 1, what='the log'
-    )
+    watch.ros.wait_until(lambda: watch.told('the console in control is lost') == 1, what='the log')
     heartbeat.publish(Bool(data=True))
     heartbeat.publish(Bool(data=False))
     count = len(watch.commands)
@@ -130,7 +128,7 @@ def test_stop_in_a_pause(watch: Watch) -> None:
     watch.ros.start(HumanoidJointController, {'use_sim_time': True})
     heartbeat = watch.publisher('console_heartbeat', BEST_EFFORT)
     heartbeat.publish(Bool(data=True))
-    watch.ros.wait_until(lambda: 'is gone' in ''.join(watch.states), what='the console is missed')
+    watch.ros.wait_until(lambda: 'is lost' in ''.join(watch.states), what='the console is missed')
     stop = watch.publisher('emergency_stop', LATCHED)
     stop.publish(Bool(data=False))
     watch.ros.wait_until(lambda: watch.states[-1] == '', what='the release')

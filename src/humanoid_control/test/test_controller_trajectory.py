@@ -79,7 +79,7 @@ def test_successor() -> None:
         ([], 'It has no points'),
         ([(-1.0, [0.1])], 'first point is at -1 s'),
         ([(0.0, [0.1])], 'only point is at 0 s, which is a jump'),
-        ([(1.0, [0.1]), (1.0, [0.2])], 'Point 2 is at 1 s, not after the one before it, at 1 s'),
+        ([(1.0, [0.1]), (1.0, [0.2])], 'Point 2 is at 1 s, not after the previous one, at 1 s'),
         ([(1.0, [math.nan])], "position of 'left_elbow' is nan"),
         ([(1.0, [0.1, 0.2])], "field 'position' has length 2"),
         ([(1.0, [0.1]), (2.0, [math.inf])], "position of 'left_elbow' is inf"),
@@ -89,9 +89,9 @@ def test_successor() -> None:
             'It has 1001 points. Give at most 1000',
         ),
         ([(1.0, [])], "field 'position' has length 0"),
-        ([(1.0, [1.5])], "Point 1 has 'left_elbow' at 1.5 rad, which it does not reach"),
-        ([(1.0, [1.0]), (1.1, [-1.0])], "'left_elbow' would have to turn at 20 rad/s to be at p"),
-        ([(1.0, [0.1], [99.0])], "Point 1 lets 'left_elbow' turn at 99 rad/s, but it can do"),
+        ([(1.0, [1.5])], "Point 1 has 'left_elbow' at 1.5 rad, out of its range"),
+        ([(1.0, [1.0]), (1.1, [-1.0])], "'left_elbow' would have to move at 20 rad/s to be at p"),
+        ([(1.0, [0.1], [99.0])], "Point 1 moves 'left_elbow' at 99 rad/s, but it can do"),
     ],
 )
 def test_refused(points: list[tuple[Any, ...]], reason: str) -> None:

@@ -63,7 +63,7 @@ def test_it_is_logged_once(monkeypatch: pytest.MonkeyPatch) -> None:
         node.get_logger().info('over')
         ros.wait_until(lambda: 'over' in logs)
     slow = [each for each in logs if each.startswith('Slow: the real-time factor is 0.43')]
-    assert len(slow) == 1 and slow[0].endswith('so that the world goes slower.')
+    assert len(slow) == 1 and slow[0].endswith('so simulated time runs slower.')
 
 
 @pytest.fixture(name='ros')
@@ -86,7 +86,7 @@ def test_a_rival_is_said_once(ros: RosSandbox, monkeypatch: pytest.MonkeyPatch) 
         ros.wait_until(partial(_are_as_many, said, count), what='a warning')
         _let_it_look(ros, node)
         assert len(said) == count
-        assert "Another node publishes '/joint_states', too" in said[-1]
+        assert "Another node also publishes '/joint_states', so" in said[-1]
         node.destroy_publisher(rival)
         ros.wait_until(lambda: node.count_publishers('joint_states') == 1, what='the end')
         _let_it_look(ros, node)

@@ -34,7 +34,7 @@ def test_console_is_gone() -> None:
     guard.check(0.0)
     guard.heartbeat(True)
     assert checked(guard, 0.0, 0.46) == ''
-    assert 'is gone, without a heartbeat for 0.5 s' in checked(guard, 0.48, 0.54)
+    assert 'is lost, with no heartbeat for 0.5 s' in checked(guard, 0.48, 0.54)
 
 
 def test_heartbeats_keep_the_robot_moving() -> None:

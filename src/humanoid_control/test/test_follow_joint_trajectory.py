@@ -187,15 +187,15 @@ def test_emergency_stop(world: World) -> None:
         (trajectory_goal(ARM), 'It has no points'),
         (
             trajectory_goal(HEAD, (1.0, [0.0, 0.0])),
-            "'head_yaw' is no joint of 'left_arm_controller'",
+            "'head_yaw' is not a joint of 'left_arm_controller'",
         ),
         (trajectory_goal(ARM[:3], (1.0, [0.0] * 3)), "It leaves out 'left_elbow'"),
-        (trajectory_goal(ARM, (1.0, [0.0] * 4), (1.0, [0.1] * 4)), 'Let the times grow'),
+        (trajectory_goal(ARM, (1.0, [0.0] * 4), (1.0, [0.1] * 4)), 'Times must increase'),
         (
             trajectory_goal(ARM, (1.0, [float('nan'), 0.0, 0.0, 0.0])),
             "position of 'left_shoulder' is nan",
         ),
-        (trajectory_goal(ARM, (1.0, [99.0, 0.0, 0.0, 0.0])), 'which it does not reach'),
+        (trajectory_goal(ARM, (1.0, [99.0, 0.0, 0.0, 0.0])), 'out of its range'),
         (
             trajectory_goal(
                 ARM,
@@ -208,7 +208,7 @@ def test_emergency_stop(world: World) -> None:
             trajectory_goal(
                 ARM, (1.0, [0.0] * 4), component_path_tolerance=[JointComponentTolerance()]
             ),
-            'tolerances of components',
+            'component tolerances',
         ),
     ],
 )
@@ -230,7 +230,7 @@ def test_old_stamp(world: World) -> None:
     given = trajectory_goal(ARM, (1.0, [0.0, 0.2, 0.0, -0.5]))
     given.trajectory.header.stamp.sec = 1000
     assert not client.send(given).accepted
-    world.wait('a sentence', lambda: any('By the stamp of its header' in x for x in world.logs))
+    world.wait('a sentence', lambda: any('By its header stamp' in x for x in world.logs))
 
 
 def test_mode_ends_the_goal(world: World) -> None:

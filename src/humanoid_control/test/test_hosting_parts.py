@@ -74,7 +74,7 @@ def test_many_different_refusals() -> None:
     for number in range(250):
         refusals.add(f'{number}')
     assert said[:2] == ['0', '1'] and len(said) == 11
-    assert 'no more of it is said' in said[-1]
+    assert 'further ones are not logged' in said[-1]
     clock[0] = 6.0
     refusals.add('later')
     assert said[-1] == 'later'
@@ -94,10 +94,10 @@ def test_load() -> None:
 @pytest.mark.parametrize(
     ('robots', 'reason'),
     [
-        (['', 'robot1'], "contains '', which is no namespace"),
+        (['', 'robot1'], "contains '', which is not a valid namespace"),
         (['2nd'], "contains '2nd'"),
         (['a/b'], "contains 'a/b'"),
-        (['a' * 300], 'at most 60 letters'),
+        (['a' * 300], 'up to 60 letters'),
         (['robot1', 'robot1'], "names 'robot1' more than once"),
     ],
 )

@@ -317,14 +317,14 @@ def test_start_later_and_earlier() -> None:
     ('joints', 'points', 'options', 'reason'),
     [
         (['left_shoulder'], [(1.0, [0.0])], {}, "leaves out 'left_elbow'"),
-        ([*ARM, 'head_yaw'], [(1.0, [0.0] * 3)], {}, "'head_yaw' is no joint of"),
+        ([*ARM, 'head_yaw'], [(1.0, [0.0] * 3)], {}, "'head_yaw' is not a joint of"),
         (['left_shoulder', 'left_elbw'], [(1.0, [0.0] * 2)], {}, "Did you mean 'left_elbow'"),
         ([], [(1.0, [])], {}, 'names no joint'),
         (ARM, [], {}, 'has no points'),
-        (ARM, [(2.0, [0.0, 0.0]), (1.0, [0.1, 0.1])], {}, 'Let the times grow'),
+        (ARM, [(2.0, [0.0, 0.0]), (1.0, [0.1, 0.1])], {}, 'Times must increase'),
         (ARM, [(1.0, [math.nan, 0.0])], {}, "position of 'left_shoulder' is nan"),
-        (ARM, [(1.0, [1.2, 0.0])], {}, 'does not reach'),
-        (ARM, [(1.0, [0.0, 0.0]), (1.1, [0.9, 0.0])], {}, 'would have to turn at 9 rad/s'),
+        (ARM, [(1.0, [1.2, 0.0])], {}, 'out of its range'),
+        (ARM, [(1.0, [0.0, 0.0]), (1.1, [0.9, 0.0])], {}, 'would have to move at 9 rad/s'),
         (ARM, [(1.0, [0.0, 0.0], [0.5, 0.0])], {}, 'End at rest'),
         (ARM, [(1.0, [0.0, 0.0])], {'goal_time_s': -1.0}, 'goal time tolerance is -1 s'),
         (

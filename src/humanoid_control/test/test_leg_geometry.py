@@ -51,7 +51,7 @@ def test_prefix() -> None:
 
 def test_no_side(robot: Robot) -> None:
     """There are two sides."""
-    with pytest.raises(DynamicsError, match="left and right, not 'middle'"):
+    with pytest.raises(DynamicsError, match="left or right, not 'middle'"):
         LegGeometry.of(robot, 'middle')
 
 
@@ -64,14 +64,14 @@ def test_no_leg() -> None:
 
 def test_fewer_joints(robot: Robot) -> None:
     """A leg with other joints has no such solution."""
-    with pytest.raises(DynamicsError, match='hip_yaw, left_hip_pitch.*; needed are left_hip_yaw'):
+    with pytest.raises(DynamicsError, match='hip_yaw, left_hip_pitch.*, but needs left_hip_yaw'):
         LegGeometry.of(changed(robot, 'left_hip_roll', kind='fixed'), 'left')
 
 
 def test_other_axis(robot: Robot) -> None:
     """A joint that turns about another axis is named."""
     bent = changed(robot, 'left_knee', axis=np.array([0.0, -1.0, 0.0]))
-    with pytest.raises(DynamicsError, match="'left_knee' must turn about y"):
+    with pytest.raises(DynamicsError, match="'left_knee' must rotate about y"):
         LegGeometry.of(bent, 'left')
     assert LegGeometry.of(bent, 'right').joints[3] == 'right_knee'
 
@@ -88,5 +88,5 @@ def test_other_axis(robot: Robot) -> None:
 )
 def test_other_build(robot: Robot, joint: str, shift_m: tuple[float, ...]) -> None:
     """A leg whose axes do not meet has no such solution."""
-    with pytest.raises(DynamicsError, match='left leg is of another build'):
+    with pytest.raises(DynamicsError, match='kinematics of the left leg are not supported'):
         LegGeometry.of(shifted(robot, joint, *shift_m), 'left')

@@ -175,7 +175,7 @@ def test_knee_is_refused_once(watch: Watch) -> None:
     robot = watch.start()
     publisher = watch.publisher(JointState, 'joint_commands')
     command = JointState(name=['left_knee'], position=[0.9])
-    reason = "Refused a message on 'joint_commands'. 'left_knee' is claimed by the mode 'walking'"
+    reason = "Rejected a message on 'joint_commands'. 'left_knee' is claimed by the mode 'walking'"
     watch.keep_on(publisher, command, lambda: watch.told(reason), 'the refusal')
     for _ in range(20):
         publisher.publish(command)
@@ -204,7 +204,7 @@ def test_knee_is_refused_once(watch: Watch) -> None:
             JointState(name=['left_elbow'], position=[math.nan]),
             "The position of 'left_elbow' is nan",
         ),
-        (JointTrajectory, 'joint_trajectory', JointTrajectory(), 'It names no joint'),
+        (JointTrajectory, 'joint_trajectory', JointTrajectory(), 'It names no joints'),
     ],
 )
 def test_bad_commands(watch: Watch, kind: type, topic: str, message: Any, reason: str) -> None:
@@ -212,7 +212,7 @@ def test_bad_commands(watch: Watch, kind: type, topic: str, message: Any, reason
     watch.start()
     publisher = watch.publisher(kind, topic)
     watch.keep_on(publisher, message, lambda: watch.told(reason), 'the refusal')
-    assert watch.told(f"Refused a message on '{topic}'") == 1
+    assert watch.told(f"Rejected a message on '{topic}'") == 1
 
 
 def test_bad_velocity(watch: Watch) -> None:
@@ -223,7 +223,7 @@ def test_bad_velocity(watch: Watch) -> None:
     watch.keep_on(
         watch.publisher(Twist, 'cmd_vel'),
         bad,
-        lambda: watch.told("Refused a message on 'cmd_vel'. The velocity (forward nan"),
+        lambda: watch.told("Rejected a message on 'cmd_vel'. The velocity (forward nan"),
         'the refusal',
     )
 

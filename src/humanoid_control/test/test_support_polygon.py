@@ -48,5 +48,5 @@ def test_clamped_is_the_closest_point() -> None:
 
 def test_a_line_is_refused() -> None:
     """Points on a line are nothing to stand on."""
-    with pytest.raises(WalkingError, match='no area'):
+    with pytest.raises(WalkingError, match='not a support polygon'):
         SupportPolygon([0j, 1 + 1j, 2 + 2j])

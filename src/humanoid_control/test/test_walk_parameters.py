@@ -51,7 +51,7 @@ def test_they_are_parameters_of_nodes() -> None:
 @pytest.mark.parametrize('rates', [(1.3, 1.6), (1.0, 2.0, 1.5), (1.0, 1.0)])
 def test_rates_of_a_hurried_step_grow(rates: tuple[float, ...]) -> None:
     """From that of one that is not hurried; else none would be found for a step."""
-    with pytest.raises(ParameterError, match='must begin with 1.0 and grow') as refused:
+    with pytest.raises(ParameterError, match='must start with 1.0 and increase') as refused:
         build(HostParameters, {'walk.step_adjustment.hurry_rates': rates})
     assert refused.value.names == ('walk.step_adjustment.hurry_rates',)
     assert "'walk.step_adjustment.hurry_rates'" in refused.value.reason

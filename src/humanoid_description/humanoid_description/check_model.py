@@ -44,8 +44,8 @@ def _parser() -> argparse.ArgumentParser:
     """Build the argument parser."""
     parser = argparse.ArgumentParser(
         prog='check_model',
-        description='Check a model of a robot: its tree, bodies, joints, and, if it is the '
-        'humanoid, its names, symmetry, size, weight, stand and reach.',
+        description='Check a robot model: its tree, bodies and joints; for the humanoid, also its '
+        'names, symmetry, size, weight, stance and reach.',
     )
     parser.add_argument(
         'file', nargs='?', type=Path, help='a URDF or xacro file (default: the humanoid)'
@@ -53,11 +53,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         'arguments', nargs='*', metavar='NAME:=VALUE', help='arguments of the xacro file'
     )
-    humanoid = parser.add_argument_group('which humanoid, if no file is given')
-    humanoid.add_argument('--scale', type=float, help='its size, 0.5 to 1.3 (default: 1.0)')
-    humanoid.add_argument('--prefix', help='what the names begin with')
+    humanoid = parser.add_argument_group('options of the humanoid, without a file')
+    humanoid.add_argument('--scale', type=float, help='size, 0.5 to 1.3 (default: 1.0)')
+    humanoid.add_argument('--prefix', help='prefix of all link and joint names')
     humanoid.add_argument('--upper-body-only', action='store_true', help='leave out the legs')
-    humanoid.add_argument('--hands', action='store_true', help='give it wrists and grippers')
+    humanoid.add_argument('--hands', action='store_true', help='add wrists and grippers')
     return parser
 
 
@@ -70,14 +70,14 @@ def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
     if has_options or arguments.upper_body_only or arguments.hands:
         raise DescriptionError(
             f'{path} is checked as it is. Leave out --scale, --prefix, --upper-body-only and '
-            '--hands, which say which humanoid to make, or leave out the file.'
+            '--hands, which apply to the built-in humanoid, or leave out the file.'
         )
     try:
         return _file(path, arguments.arguments)
     except OSError as error:
         raise DescriptionError(f'{path} cannot be read: {error.strerror}.') from error
     except UnicodeDecodeError as error:
-        raise DescriptionError(f'{path} is no text in UTF-8.') from error
+        raise DescriptionError(f'{path} is not valid UTF-8 text.') from error
 
 
 def _file(path: Path, words: Sequence[str]) -> tuple[str, str]:
@@ -88,7 +88,7 @@ def _file(path: Path, words: Sequence[str]) -> tuple[str, str]:
         return text, str(path)
     from humanoid_description.expansion import expand
 
-    return expand(path, given), f'What xacro makes of {path}'
+    return expand(path, given), f'The xacro output of {path}'
 
 
 def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
@@ -101,10 +101,10 @@ def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
     for word in words:
         if ':=' not in word[1:]:
             raise DescriptionError(
-                f"'{word}' is not NAME:=VALUE, as arguments of a xacro file are. Give one file."
+                f"'{word}' is not a xacro argument of the form NAME:=VALUE. Give only one file."
             )
     if words and path.suffix != '.xacro':
-        raise DescriptionError(f"{path} is no xacro file, and takes no '{words[0]}'.")
+        raise DescriptionError(f"{path} is not a xacro file; it cannot take '{words[0]}'.")
     return {name: value for name, _, value in (word.partition(':=') for word in words)}
 
 

@@ -67,8 +67,8 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
         )
     except FileNotFoundError as error:
         raise DescriptionError(
-            f"{path} cannot be expanded: there is no program 'xacro' on PATH. Source the setup "
-            'file of ROS 2.'
+            f"{path} cannot be expanded: the program 'xacro' is not on PATH. Source the ROS 2 "
+            'setup file.'
         ) from error
     if result.returncode != 0:
         raise DescriptionError(f'xacro cannot expand {path}:\n{result.stderr.strip()}')

@@ -81,10 +81,10 @@ def readable(text: str, source: str) -> Any:
     try:
         robot = etree.fromstring(text.encode())
     except etree.XMLSyntaxError as error:
-        raise DescriptionError(f'{source} is no valid XML: {error.msg}.') from error
+        raise DescriptionError(f'{source} is not valid XML: {error.msg}.') from error
     if robot.tag != 'robot':
         raise DescriptionError(
-            f'{source} is no URDF: its outermost element is <{robot.tag}> instead of <robot>.'
+            f'{source} is not a URDF: its root element is <{robot.tag}> instead of <robot>.'
         )
     for element in _elements(robot):
         for problem in _problems(element):
@@ -106,7 +106,7 @@ def _problems(element: Any) -> Iterator[str]:
     """Yield messages on missing items, values that are not numbers, and unexpanded xacro."""
     if element.prefix == 'xacro':
         tag = f'xacro:{element.tag.rpartition("}")[2]}'
-        yield f'<{tag}> is xacro and not URDF. Expand the file first, or name it .xacro.'
+        yield f'<{tag}> is xacro, not URDF. Expand the file first, or name it *.xacro.'
     for attribute in ATTRIBUTES.get(element.tag, ()):
         if not element.get(attribute):
             yield f"<{element.tag}> lacks the attribute '{attribute}'."

@@ -27,7 +27,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'prefix',
                 default_value='',
-                description='What the names of all links and joints begin with.',
+                description='Prefix of the names of all links and joints.',
             ),
             DeclareLaunchArgument(
                 'upper_body_only',
@@ -39,13 +39,13 @@ def generate_launch_description() -> LaunchDescription:
                 'hands',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Give the arms wrists and grippers.',
+                description='Add wrists and grippers to the arms.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Take the time from the topic /clock instead of the computer.',
+                description='Use the time of the topic /clock instead of the system clock.',
             ),
             Node(
                 package='robot_state_publisher',

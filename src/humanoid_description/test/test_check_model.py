@@ -262,43 +262,43 @@ def stiff_arms(robot: Element) -> None:
 
 BROKEN: dict[str, tuple[Break, str]] = {
     'two roots': (two_roots, "There are 2 roots: 'base_link', 'camera_link'. Connect them"),
-    'loop': (loop, "lead in a loop, and to no root: 'torso', 'neck', 'head'"),
-    'no root': (only_a_loop, 'There is no root: every link hangs from a joint.'),
+    'loop': (loop, "lead into a loop, not to a root: 'torso', 'neck', 'head'"),
+    'no root': (only_a_loop, 'There is no root: every link has a parent.'),
     'two parents': (
         two_parents,
-        "Link 'l_gripper' hangs from several joints: 'l_gripper_fixed', 'clasp'.",
+        "Link 'l_gripper' is the child of several joints: 'l_gripper_fixed', 'clasp'.",
     ),
     'unknown link': (
         unknown_link,
-        "The parent of joint 'left_elbow' is 'left_uper_arm', which is no link. "
+        "The parent of joint 'left_elbow' is 'left_uper_arm', which does not exist. "
         "Did you mean 'left_upper_arm'?",
     ),
     'same name': (same_name, "Several joints are named 'left_knee'."),
     'negative mass': (negative_mass, "Link 'left_shank' has a mass of -2.2 kg."),
     'impossible inertia': (
         impossible_inertia,
-        "Link 'left_thigh' has the inertia of no real body: the largest principal moment, "
-        '1 kg m2, is more than the sum',
+        "Link 'left_thigh' has a physically impossible inertia: the largest principal moment, "
+        '1 kg m2, exceeds the sum',
     ),
     'negative inertia': (
         negative_inertia,
         "Link 'left_thigh' has a principal moment of inertia of -0.4",
     ),
-    'no body': (no_body, "Link 'neck' is moved by joint 'head_yaw', but has no mass"),
+    'no body': (no_body, "Link 'neck' is moved by joint 'head_yaw', but neither it nor "),
     'exchanged limits': (
         exchanged_limits,
         "Joint 'left_knee' has the lower limit 2.3, which is not below the upper limit 0.",
     ),
-    'no limits': (no_limits, "Joint 'head_yaw' is revolute, but no <limit> says how far"),
+    'no limits': (no_limits, "Joint 'head_yaw' is revolute, but has no <limit> with its range"),
     'no effort': (no_effort, "Joint 'head_pitch' has 0 as effort limit"),
     'no axis': (no_axis, "The axis of joint 'waist_yaw' is 0 0 0"),
     'unknown type': (
         unknown_type,
-        "Joint 'waist_yaw' is of the unknown type 'revolut'. Did you mean 'revolute'?",
+        "Joint 'waist_yaw' has the unknown type 'revolut'. Did you mean 'revolute'?",
     ),
     'unknown leader': (
         mimics('left_elbow', 'right_elbo'),
-        "Joint 'left_elbow' mimics 'right_elbo', which is no joint. Did you mean 'right_elbow'?",
+        "mimics 'right_elbo', which does not exist. Did you mean 'right_elbow'?",
     ),
     'fixed leader': (
         mimics('left_elbow', 'camera_link_fixed'),
@@ -306,11 +306,11 @@ BROKEN: dict[str, tuple[Break, str]] = {
     ),
     'circle': (
         circle,
-        "in a circle, so that nothing moves them: 'waist_yaw', 'head_yaw', 'head_pitch'.",
+        "in a loop, so nothing can move them: 'waist_yaw', 'head_yaw', 'head_pitch'.",
     ),
     'other frame': (
         other_frame,
-        "The frame 'l_wrist' is missing, which REP 120 names. Did you mean 'left_wrist'?",
+        "The frame 'l_wrist' of REP 120 is missing. Did you mean 'left_wrist'?",
     ),
     'other joint': (
         other_joint,
@@ -319,13 +319,13 @@ BROKEN: dict[str, tuple[Break, str]] = {
     ),
     'longer leg': (
         longer_leg,
-        "Joints 'left_ankle_pitch' and 'right_ankle_pitch' are not at mirrored places: "
+        "Joints 'left_ankle_pitch' and 'right_ankle_pitch' are not at mirrored positions: "
         '(0, 0, -0.3) and (0, 0, -0.32).',
     ),
     'slightly longer leg': (slightly_longer_leg, '(0, 0, -0.3) and (0, 0, -0.3001).'),
     'other strength': (
         other_strength,
-        "Joints 'left_knee' and 'right_knee' have no mirrored ranges and strengths",
+        "Joints 'left_knee' and 'right_knee' do not have mirrored limits",
     ),
     'other kind': (
         other_kind,
@@ -333,24 +333,24 @@ BROKEN: dict[str, tuple[Break, str]] = {
     ),
     'other centre': (
         other_centre,
-        "Links 'left_thigh' and 'right_thigh' have no mirrored centres of mass",
+        "Links 'left_thigh' and 'right_thigh' do not have mirrored centres of mass",
     ),
     'other inertia': (
         other_inertia,
-        "Links 'left_thigh' and 'right_thigh' have no mirrored inertia.",
+        "Links 'left_thigh' and 'right_thigh' do not have mirrored inertias.",
     ),
     'one body': (one_body, "Links 'l_gripper' and 'r_gripper': only one of them has a mass."),
     'third arm': (
         third_arm,
-        "There is the link 'left_tail', but no 'right_tail' on the other side.",
+        "The link 'left_tail' has no counterpart 'right_tail' on the other side.",
     ),
     'no velocity': (no_velocity, "Joint 'head_pitch' has 0 as velocity limit"),
-    'slightly impossible inertia': (slightly_impossible_inertia, 'the inertia of no real body'),
+    'slightly impossible inertia': (slightly_impossible_inertia, 'physically impossible inertia'),
     'somewhat heavy torso': (somewhat_heavy_torso, 'kg; at its height of 1.35 m it should weigh'),
     'hands apart': (hands_apart, 'the hands cannot meet in front of it'),
     'other range': (
         other_range,
-        "Joints 'left_shoulder_roll' and 'right_shoulder_roll' have no mirrored ranges",
+        "Joints 'left_shoulder_roll' and 'right_shoulder_roll' do not have mirrored limits",
     ),
     'heavy foot': (
         heavy_foot,
@@ -360,9 +360,9 @@ BROKEN: dict[str, tuple[Break, str]] = {
         heavy_torso,
         'The robot weighs 50.80 kg; at its height of 1.35 m it should weigh 42.80 kg.',
     ),
-    'giant': (giant, 'The robot is 2.20 m tall, but its build is made for 0.68 to 1.76 m.'),
-    'leaning': (leaning, 'outside of the area that the robot stands on'),
-    'no soles': (no_soles, 'There is nothing flat to stand on'),
+    'giant': (giant, 'The robot is 2.20 m tall; this build is designed for 0.68 to 1.76 m.'),
+    'leaning': (leaning, 'outside the support polygon'),
+    'no soles': (no_soles, 'There is no flat surface to stand on'),
     'stiff arms': (stiff_arms, 'The left hand reaches only'),
 }
 
@@ -448,7 +448,7 @@ def test_arguments_of_a_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([file, 'scale:=0.5', 'prefix:=r1_', 'sclae:=1']) == 0
     captured = capsys.readouterr()
     assert '5.350 kg' in captured.out
-    assert captured.out.endswith(f'What xacro makes of {file} is sound: 18 checks passed.\n')
+    assert captured.out.endswith(f'The xacro output of {file} is sound: 18 checks passed.\n')
     assert 'sclae' in captured.err
 
 
@@ -459,8 +459,8 @@ def test_arguments_of_a_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
         (['nowhere.urdf'], 'nowhere.urdf cannot be read: No such file or directory.'),
         (['nowhere.xacro'], 'nowhere.xacro cannot be read: No such file or directory.'),
         (['scale:=0.5'], "'scale:=0.5' is an argument of a xacro file: name the file before it."),
-        (['robot.xacro', 'other.xacro'], "'other.xacro' is not NAME:=VALUE"),
-        (['robot.urdf', 'scale:=1'], "robot.urdf is no xacro file, and takes no 'scale:=1'."),
+        (['robot.xacro', 'other.xacro'], "'other.xacro' is not a xacro argument"),
+        (['robot.urdf', 'scale:=1'], "robot.urdf is not a xacro file; it cannot take 'scale:=1'."),
         (['robot.urdf', '--scale', '1'], 'robot.urdf is checked as it is. Leave out --scale'),
     ],
 )
@@ -483,7 +483,7 @@ def test_nothing_to_check(
         (
             '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m">'
             '<xacro:m/></xacro:macro><xacro:m/></robot>',
-            'macros or includes lead to themselves without end',
+            'macros or includes call themselves without end',
         ),
     ],
 )
@@ -510,7 +510,7 @@ def test_file_that_includes_itself(tmp_path: Path, capsys: pytest.CaptureFixture
     two.write_text(text.format('filename="one.xacro"'))
     assert main([str(one)]) == 1
     error = capsys.readouterr().err
-    assert 'macros or includes lead to themselves without end' in error
+    assert 'macros or includes call themselves without end' in error
     assert str(one) in error and str(two) in error
 
 
@@ -519,7 +519,7 @@ def test_text_that_is_not_in_utf_8(tmp_path: Path, capsys: pytest.CaptureFixture
     path = tmp_path / 'latin.urdf'
     path.write_bytes('<robot name="Bär"/>'.encode('latin-1'))
     assert main([str(path)]) == 1
-    assert capsys.readouterr().err == f'{path} is no text in UTF-8.\n'
+    assert capsys.readouterr().err == f'{path} is not valid UTF-8 text.\n'
 
 
 def test_long_chain_of_frames() -> None:
@@ -531,7 +531,7 @@ def test_long_chain_of_frames() -> None:
         parts.append(f'<joint name="j{i}" type="{kind}">{ends}</joint>')
     outcomes = check_robot(load_robot(f'<robot name="r">{"".join(parts)}</robot>', 'chain.urdf'))
     defects = [defect for outcome in outcomes for defect in outcome.defects]
-    start = "line 1: Link 'l1' is moved by joint 'j1', but has"
+    start = "line 1: Link 'l1' is moved by joint 'j1', but neither"
     assert len(defects) == 1 and defects[0].startswith(start)
 
 

@@ -80,4 +80,4 @@ def test_joint_that_mimics_a_misspelt_one(
     text = GOOD.replace('"shoulder"', '"elbow_1"').replace('"elbow"', '"elbow_2"')
     file.write_text(text.replace('mimic joint="elbow_1"', 'mimic joint="elbow_3"'))
     assert main([str(file)]) == 1
-    assert "which is no joint. Did you mean 'elbow_1'?" in capsys.readouterr().out
+    assert "which does not exist. Did you mean 'elbow_1'?" in capsys.readouterr().out

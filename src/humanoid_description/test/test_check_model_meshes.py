@@ -37,7 +37,7 @@ def test_missing_mesh(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[s
     mesh, reason = MISSING[name]
     assert status(tmp_path, mesh) == 1
     out = capsys.readouterr().out
-    assert f"- line 2: The mesh '{mesh}' of link 'a' is not there: " in out
+    assert f"- line 2: The mesh '{mesh}' of link 'a' was not found: " in out
     assert reason in out
 
 
@@ -47,4 +47,4 @@ def test_mesh_that_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     uri = (tmp_path / 'a b.stl').as_uri()
     for mesh in (uri, 'a b.stl', f'{SHARE}/package.xml', 'https://example.org/arm.stl'):
         assert status(tmp_path, mesh) == 0
-    assert ' 1 file, 1 not looked for ' in capsys.readouterr().out
+    assert ' 1 file, 1 remote not checked ' in capsys.readouterr().out

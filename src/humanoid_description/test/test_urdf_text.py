@@ -13,9 +13,9 @@ JOINT = (
     '<parent link="a"/><child link="b"/>'
 )
 UNREADABLE = {
-    'nothing': ('', 'm.urdf is no valid XML: '),
-    'tags': ('<robot name="r">\n<link name="a"></robot>', 'm.urdf is no valid XML: Opening and'),
-    'sdf': ('<sdf/>', 'm.urdf is no URDF: its outermost element is <sdf> instead of <robot>.'),
+    'nothing': ('', 'm.urdf is not valid XML: '),
+    'tags': ('<robot name="r">\n<link name="a"></robot>', 'm.urdf is not valid XML: Opening and'),
+    'sdf': ('<sdf/>', 'm.urdf is not a URDF: its root element is <sdf> instead of <robot>.'),
     'no name': ('<robot/>', "m.urdf, line 1: <robot> lacks the attribute 'name'."),
     'no child': (
         '<robot name="r"><link name="a"/>\n<joint name="j" type="fixed"><parent link="a"/>'

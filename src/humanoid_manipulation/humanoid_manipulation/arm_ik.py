@@ -340,7 +340,7 @@ def _wrist_yaws(back: float, across: float, given: float) -> tuple[float, ...]:
 def _gripper(robot: Robot, side: str) -> str:
     """Return the name of the link between the fingers of a hand."""
     if side not in _GRIPPERS:
-        raise ManipulationError(f"The sides of a robot are {' and '.join(SIDES)}, not '{side}'.")
+        raise ManipulationError(f"A side must be {' or '.join(SIDES)}, not '{side}'.")
     gripper = robot.prefix + _GRIPPERS[side]
     if gripper not in robot.link:
         raise ManipulationError(f"Robot '{robot.name}' has no {side} arm: no link '{gripper}'.")
@@ -353,22 +353,22 @@ def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[A
     found = [joint.name for joint in joints]
     if found != needed:
         raise ManipulationError(
-            f'The {side} arm has the joints {", ".join(found) or "(none)"}; needed are '
-            f'{", ".join(needed)}. Give the robot hands: hands:=true'
+            f'The {side} arm has the joints {", ".join(found) or "(none)"}, but needs '
+            f'{", ".join(needed)}. Start the robot with hands: hands:=true'
         )
     for joint, pose, letter in zip(joints, at_zero, AXES.values()):
         unit = np.eye(3)['xyz'.index(letter)]
         if not np.allclose(pose[:3, :3] @ joint.axis, unit, atol=_TOLERANCE):
             raise ManipulationError(
-                f'{named(joint)} must turn about {letter} of the root while the arm is at zero.'
+                f'{named(joint)} must rotate about {letter} of the root link at the zero pose.'
             )
         if joint.limits is None:
-            raise ManipulationError(f'{named(joint)} needs limits.')
+            raise ManipulationError(f'{named(joint)} needs joint limits.')
     pitch, roll, yaw, elbow, wrist_yaw, wrist_pitch = (pose[:3, 3] for pose in at_zero)
     meets = pitch[[0, 2]] - roll[[0, 2]], roll[:2] - yaw[:2]
     below = yaw[:2] - elbow[:2], elbow[:2] - wrist_yaw[:2], wrist_yaw[:2] - wrist_pitch[:2]
     if not np.allclose(np.concatenate((*meets, *below)), 0.0, atol=_TOLERANCE):
         raise ManipulationError(
-            f'The {side} arm is of another build: the three axes of its shoulder must meet in one '
-            'point, with elbow and wrist straight below it.'
+            f'The kinematics of the {side} arm are not supported: the three shoulder axes must '
+            'intersect in one point, with the elbow and the wrist straight below it.'
         )

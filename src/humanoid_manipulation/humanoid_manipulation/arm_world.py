@@ -54,7 +54,7 @@ class Obstacle:
         """Validate the pose and the size."""
         numbers = (*self.size_m, *self.middle.position_m, *self.middle.rotation.ravel())
         if min(self.size_m) <= 0.0 or not np.isfinite(numbers).all():
-            raise ManipulationError(f"'{self.name}' is no box: its edges are {self.size_m} m.")
+            raise ManipulationError(f"'{self.name}' is not a box: its edges are {self.size_m} m.")
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ class Arms:
         self._node, self._guard = node, guard
         self._body: UpperBody | None = None
         self._urdf = self._prefix = ''
-        self._reason = 'No robot_description has come. Start robot_state_publisher.'
+        self._reason = 'No robot_description received. Start robot_state_publisher.'
         self._movers: dict[str, JointMover] = {}
         self._waist: JointMover | None = None
         self._positions: dict[str, float] = {}
@@ -227,7 +227,7 @@ class Arms:
         try:
             while not all(mover.has_arrived() for mover in movers):
                 if self._now_s() > end_s:
-                    raise GoalAborted(_CODE, f'The {side} arm does not come to where it shall be.')
+                    raise GoalAborted(_CODE, f'The {side} arm did not reach its target.')
                 await goal.tick()
                 tell()
         except BaseException:
@@ -245,10 +245,10 @@ class Arms:
         assert self._waist is not None
         for mover in (*self._movers.values(), self._waist):
             if not mover.is_ready:
-                return f"The action '{mover.action}' is not there. Start the robot's controllers."
+                return f"No action server for '{mover.action}'. Start the robot's controllers."
         needed = [self._body.waist, *(j for arm in self._body.arms.values() for j in arm.joints)]
         unknown = [joint for joint in needed if joint not in self._positions]
-        return f"No joint_states tell where '{unknown[0]}' is." if unknown else ''
+        return f"joint_states has no position of '{unknown[0]}'." if unknown else ''
 
     def _take(self, message: JointState) -> None:
         self._positions.update(zip(message.name, message.position))

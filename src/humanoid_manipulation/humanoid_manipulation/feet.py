@@ -29,7 +29,7 @@ _FASTEST = (0.15, 0.08, 0.35)
 _STUCK_S, _PROGRESS_M, _LEVER_M = 4.0, 0.01, 0.2
 """The robot is stuck if its error does not decrease by this distance within this time; a turn by
 1 rad counts as much as the lever."""
-_STUCK = 'I do not get any nearer than %.0f cm: something may be in my way.'
+_STUCK = 'I cannot get any closer than %.0f cm: something may be in my way.'
 _SETTLE_S = 1.0
 _BEND_S = 6.0
 _BENT_RAD = 0.04
@@ -194,7 +194,7 @@ class Feet:
         calm = 0
         while calm < _SETTLE_S * 20.0:
             if self._now_s() > until_s:
-                raise GoalAborted(_CODE, 'I could not bend so far.')
+                raise GoalAborted(_CODE, 'I could not bend that far.')
             self._poses.publish(message)
             pitch_rad = -math.asin(
                 float(np.clip(self._transforms.pose('odom', self._base)[2, 0], -1.0, 1.0))

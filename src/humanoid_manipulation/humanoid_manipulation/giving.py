@@ -104,7 +104,7 @@ class Giving(ManipulationAction):
         self.tell(goal, 'waiting')
         if not await self._is_taken(goal, side, held):
             await self._draw_back(goal)
-            raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
+            raise GoalAborted('NOT_TAKEN', 'Nobody took it.')
 
     async def _give(self, goal: RunningGoal, side: str) -> None:
         """Release the object, and retract the arms."""

@@ -97,4 +97,4 @@ def unsound_side(side: str) -> str:
     """
     if side in ('', *SIDES):
         return ''
-    return f"There is no side '{side}'. Give left, right, or nothing for the one that fits."
+    return f"Unknown side '{side}'. Give left, right, or nothing to choose automatically."

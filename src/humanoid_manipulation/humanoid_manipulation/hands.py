@@ -86,7 +86,7 @@ class Hands:
         for side, held in self._held.items():
             if asked in ('', side):
                 return side, held
-        raise GoalAborted('EMPTY_HAND', 'I hold nothing.')
+        raise GoalAborted('EMPTY_HAND', 'I am not holding anything.')
 
     async def grip(self, goal: RunningGoal, side: str, gap_m: float, most_n: float = 0.0) -> Any:
         """
@@ -114,7 +114,7 @@ class Hands:
         command.command.position, command.command.max_effort = gap_m, most_n
         answer = await goal.delegate(client, command, name, _CODE)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
-            raise GoalAborted(_CODE, f"'{name}' did not do what it was told.")
+            raise GoalAborted(_CODE, f"'{name}' did not reach its commanded position.")
         return answer.result
 
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:

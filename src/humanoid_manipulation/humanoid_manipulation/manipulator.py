@@ -51,15 +51,15 @@ class ManipulatorParameters:
     base_frame: str = parameter('base_link', 'The pelvis.', read_only=True)
     places_file: str = parameter(
         '',
-        'Named places, whose surfaces arms keep clear of: a file, or the name of one of '
-        'humanoid_perception; nothing for none.',
+        'Named places, whose surfaces the arms avoid: a file, or the name of one in '
+        'humanoid_perception; empty for none.',
         read_only=True,
     )
     max_velocity: float = parameter(
-        1.0, 'How fast the joints of arms turn (rad/s).', at_least=0.05, at_most=6.0
+        1.0, 'Speed limit of the arm joints (rad/s).', at_least=0.05, at_most=6.0
     )
     clearance: float = parameter(
-        0.01, 'How near to something arms come at most (m).', at_least=0.0, at_most=0.1
+        0.01, 'Smallest distance of the arms to obstacles (m).', at_least=0.0, at_most=0.1
     )
 
 
@@ -194,9 +194,9 @@ def _unsound(request: ReachAction.Goal) -> str:
     at, turn = request.pose.pose.position, request.pose.pose.orientation
     numbers = (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
     if not all(map(math.isfinite, numbers)):
-        return 'Its pose has a number that is not finite.'
+        return 'Its pose has a value that is not finite.'
     if not 0.5 < math.hypot(*numbers[3:]) < 2.0:
-        return 'The orientation of its pose is no quaternion of length 1.'
+        return 'The orientation of its pose is not a unit quaternion.'
     if reason := unsound_side(request.side):
         return reason
     if not 0.0 <= request.approach <= _LONGEST_APPROACH_M:

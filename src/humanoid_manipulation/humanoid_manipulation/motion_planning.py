@@ -109,13 +109,13 @@ def plan(
         allowed[contact.names] = least_m
     for contact in world.contacts(side, goal):
         if contact.distance_m < min(0.0, allowed.get(contact.names, 0.0)):
-            raise BlockedError(f'The {side} arm cannot be there: {contact}.')
+            raise BlockedError(f'The {side} arm cannot take that pose: {contact}.')
         least_m = allowed.get(contact.names, math.inf)
         allowed[contact.names] = min(least_m, contact.distance_m - _NEARER_M)
     search = _Search(world, side, allowed, np.random.default_rng(seed))
     way = search.way(_array(start), _array(goal))
     if way is None:
-        raise BlockedError(f'No free way was found for the {side} arm.')
+        raise BlockedError(f'There is no collision-free path for the {side} arm.')
     return [Reach(each[0], tuple(each[1:])) for each in np.array(way).tolist()]
 
 
@@ -162,7 +162,7 @@ def approach(
         if max(abs(a - b) for a, b in zip(found.posture, last.posture)) > _MOST_JUMP_RAD:
             raise OutOfReachError(
                 f'The {side} arm cannot go straight there: '
-                f'{arm.joints[0]} and others would have to swing round.',
+                f'{arm.joints[0]} and others would have to swing around.',
                 last,
                 body.forward(side, last),
             )

@@ -63,7 +63,7 @@ class Picking(ManipulationAction):
 
         """
         if not request.object:
-            return 'It names no object. Give the id of a remembered thing, or a class such as mug.'
+            return 'It names no object. Give the id of a remembered one, or a class such as mug.'
         return unsound_side(request.side)
 
     async def work(self, goal: RunningGoal) -> None:
@@ -103,7 +103,7 @@ class Picking(ManipulationAction):
         """Find the nearest remembered object that matches an id or a class."""
         found = self.node.surroundings.things(asked)
         if not found:
-            raise GoalAborted('NOT_SEEN', f"I remember nothing that is '{asked}'.")
+            raise GoalAborted('NOT_SEEN', f"I do not remember any '{asked}'.")
         return min(
             found, key=lambda each: math.dist(near_m, each.graspable.position_m[:2].tolist())
         )
@@ -116,7 +116,7 @@ class Picking(ManipulationAction):
         )
         if not sides:
             names = ' and '.join(each.object_id for each in held.values())
-            raise GoalAborted('OCCUPIED_HAND', f'The hand holds {names} already.')
+            raise GoalAborted('OCCUPIED_HAND', f'The hand is already holding {names}.')
         return sides
 
     def _stances(
@@ -141,7 +141,7 @@ class Picking(ManipulationAction):
         )
         if not found:
             raise GoalAborted(
-                'NOT_REACHABLE', f'I get to {thing.object_id} from nowhere that I could stand.'
+                'NOT_REACHABLE', f'I cannot reach {thing.object_id} from anywhere I can stand.'
             )
         return found[:_STANCES]
 
@@ -157,7 +157,7 @@ class Picking(ManipulationAction):
                 if error.name not in ('BLOCKED', 'SLIPPED') or side in self.node.held:
                     raise trouble or error from None
                 trouble = error
-                self.node.get_logger().info(f'I try another grasp: {error}')
+                self.node.get_logger().info(f'Trying another grasp: {error}')
         assert trouble is not None
         raise trouble
 

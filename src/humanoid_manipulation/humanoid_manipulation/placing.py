@@ -96,7 +96,7 @@ class Placing(ManipulationAction):
             goal.result.place = surface.name
             spots = self._spots(surface, held, place[:2])
             if not spots:
-                raise GoalAborted('BLOCKED', f'Nothing is free on {_words(surface)}.')
+                raise GoalAborted('BLOCKED', f'There is no free space on {_words(surface)}.')
 
             async def put(stance: Stance) -> None:
                 await self._put(goal, side, held, surface, spots)
@@ -109,14 +109,14 @@ class Placing(ManipulationAction):
         surfaces = self.node.surroundings.places.surfaces
         if not asked:
             if not surfaces:
-                raise GoalAborted('INVALID', 'I know no surface. Give the node a places_file.')
+                raise GoalAborted('INVALID', 'I know no surfaces. Set the parameter places_file.')
             return min(surfaces, key=lambda each: each.distance_m(near_m))
         wanted = asked.replace(' ', '_')
         for each in surfaces:
             if each.name == wanted:
                 return each
         hint = did_you_mean(wanted, [each.name for each in surfaces])
-        raise GoalAborted('INVALID', f"There is no surface '{asked}'. {hint}".rstrip())
+        raise GoalAborted('INVALID', f"There is no surface named '{asked}'. {hint}".rstrip())
 
     def _spots(
         self, surface: Surface, held: Held, near_m: tuple[float, float]
@@ -162,7 +162,7 @@ class Placing(ManipulationAction):
             )
         if not found:
             raise GoalAborted(
-                'NOT_REACHABLE', f'I get to {_words(surface)} from nowhere that I could stand.'
+                'NOT_REACHABLE', f'I cannot reach {_words(surface)} from anywhere I can stand.'
             )
         return sorted(found, key=lambda stance: stance.cost)[:_STANCES]
 

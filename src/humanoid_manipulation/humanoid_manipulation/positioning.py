@@ -115,7 +115,7 @@ class Positioning:
                 if error.name not in _OTHERWISE or node.held.get(stance.side) is not held:
                     raise
                 trouble = error
-                node.get_logger().info(f'I try another way: {error}')
+                node.get_logger().info(f'Trying another stance: {error}')
                 if has_begun:
                     await self.withdraw(goal)
             except GoalCanceled:
@@ -148,7 +148,7 @@ class Positioning:
         except GoalAborted as error:
             if error.name not in _OTHERWISE:
                 raise
-            self._node.get_logger().info(f'I do not get back to where I stand at ease: {error}')
+            self._node.get_logger().info(f'Cannot return to the posture for walking: {error}')
 
     async def _stand(self, goal: RunningGoal, stance: Stance) -> None:
         """

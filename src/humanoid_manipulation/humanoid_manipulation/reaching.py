@@ -86,7 +86,7 @@ class Reaching:
         now = self._base
         held = node.held.boxes
         best: tuple[float, Grasp, Bend] | None = None
-        trouble = GoalAborted('NOT_REACHABLE', f'I do not get to {where} from here.')
+        trouble = GoalAborted('NOT_REACHABLE', f'I cannot reach {where} from here.')
         for bend in bends:
             base = base_of(*place, bend)
             world = node.arms.world([_moved(each, now, base) for each in around], held, 0.0)
@@ -105,7 +105,7 @@ class Reaching:
                     if contact.names not in anyway and but not in contact.names
                 ]
                 if touched:
-                    text = f'The {side} arm cannot get to {where}: {touched[0]}.'
+                    text = f'The {side} arm cannot reach {where}: {touched[0]}.'
                     trouble = GoalAborted('BLOCKED', text)
                 else:
                     best = cost, grasp, bend
@@ -134,7 +134,7 @@ class Reaching:
         start = arms.reach_of(side)
         reached = grasp_reaches(arms.body, side, grasp, self._base, start, _TURNS_RAD)
         if reached is None:
-            raise GoalAborted('NOT_REACHABLE', f'I do not get to {name} from here.')
+            raise GoalAborted('NOT_REACHABLE', f'I cannot reach {name} from here.')
         await self._motions.bring_arms(goal, {side: reached[0]})
 
     async def go_to(self, goal: RunningGoal, side: str, grasp: Grasp, but: str) -> None:

@@ -106,8 +106,8 @@ class UpperBody:
         is_waist = len(driven) == 1 and joints[-1] is driven[0]
         if not is_waist or not np.allclose(turned[:3, :3] @ driven[0].axis, (0.0, 0.0, 1.0)):
             raise ManipulationError(
-                f"Between '{robot.roots[0]}' and '{torso}' there must be one joint, which turns "
-                'the torso about z.'
+                f"Between '{robot.roots[0]}' and '{torso}' there must be exactly one joint, "
+                'which turns the torso about z.'
             )
         (waist,) = driven
         if waist.limits is None:
@@ -269,9 +269,9 @@ class UpperBody:
         gap_m = float(np.linalg.norm(gripper.position_m - pose.position_m))
         turn = math.degrees(float(np.linalg.norm(log(pose.rotation.T @ gripper.rotation))))
         if gap_m > turn / 90.0 * _LEVER_M:
-            why = f'the {side} hand gets no closer than {gap_m:.2f} m'
+            why = f'the {side} hand cannot get closer than {gap_m:.2f} m'
         else:
-            why = f'the {side} hand cannot be turned so there: it lacks {turn:.0f} degrees'
+            why = f'the {side} hand cannot turn that way there: it is {turn:.0f} degrees short'
         x, y, z = gripper.position_m
         return OutOfReachError(
             f'x {x:.2f}, y {y:.2f}, z {z:.2f} m from the pelvis is out of reach: {why}.',

@@ -127,7 +127,7 @@ def test_what_is_out_of_reach_gets_the_nearest_pose(world: World) -> None:
     end = world.caller.end_of(world.send((0.9, 0.2, 0.2), side='left'))
     assert end.status == GoalStatus.STATUS_ABORTED
     assert end.result.error_code == Reach.Result.NOT_REACHABLE
-    assert 'no closer than' in end.result.error_msg
+    assert 'cannot get closer than' in end.result.error_msg
     assert 0.4 < at(end.result.reached)[0] < 0.8
 
 

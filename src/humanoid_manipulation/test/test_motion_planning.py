@@ -168,7 +168,7 @@ def test_a_motion_to_where_the_arm_is() -> None:
 
 def test_a_box_that_cannot_be() -> None:
     """Without a size, or nowhere."""
-    with pytest.raises(ManipulationError, match="'thing' is no box"):
+    with pytest.raises(ManipulationError, match="'thing' is not a box"):
         Obstacle('thing', Frame(np.zeros(3), np.eye(3)), (0.1, 0.0, 0.1))
-    with pytest.raises(ManipulationError, match="'thing' is no box"):
+    with pytest.raises(ManipulationError, match="'thing' is not a box"):
         Obstacle('thing', Frame(np.full(3, math.nan), np.eye(3)), (0.1, 0.1, 0.1))

@@ -103,8 +103,8 @@ def test_the_waist_turns_only_if_it_must(body: UpperBody) -> None:
 @pytest.mark.parametrize(
     ('position_m', 'part'),
     [
-        ((1.0, 0.2, 0.2), 'no closer than'),
-        ((0.2, 0.2, 1.5), 'no closer than'),
+        ((1.0, 0.2, 0.2), 'cannot get closer than'),
+        ((0.2, 0.2, 1.5), 'cannot get closer than'),
         ((-0.4, 0.0, 0.2), 'out of reach'),
     ],
 )
@@ -126,7 +126,7 @@ def test_out_of_reach_it_says_why_and_what_is_nearest(
 def test_a_hand_that_cannot_be_turned_so(body: UpperBody) -> None:
     """The place is near enough, but the fingers cannot point up there."""
     upwards = from_rpy(math.pi, 0.0, 0.0)
-    with pytest.raises(OutOfReachError, match='it lacks [0-9]+ degrees'):
+    with pytest.raises(OutOfReachError, match='is [0-9]+ degrees short'):
         body.reach('left', Frame(np.array([0.25, 0.25, 0.10]), upwards))
 
 

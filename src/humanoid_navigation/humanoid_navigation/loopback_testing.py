@@ -232,7 +232,7 @@ class LoopbackRobot:
             self.wait(SETTLE_S)
             if self._is_localised:
                 return
-        raise AssertionError(f'The robot does not believe to be at {place}.')
+        raise AssertionError(f'The robot is not localised at {place}.')
 
     def _tell(self, place: Place) -> None:
         odometry, odometry_rad = self._odometry or 0j, self._odometry_rad

@@ -63,8 +63,8 @@ class MapChoice(Substitution):
         known = ', '.join(stem for stem in stems if not stem.endswith('_mask'))
         what = f"There is no map '{given}'" if given else f"There is no map of the scene '{name}'"
         raise SubstitutionFailure(
-            f'{what}. Give the path of one, as map:=/path/to/map.yaml, the name of one of this '
-            f'package ({known}), or make one with slam:=True.'
+            f'{what}. Give the path of a map, as map:=/path/to/map.yaml, or the name of one of '
+            f'this package ({known}), or make one with slam:=True.'
         )
 
 

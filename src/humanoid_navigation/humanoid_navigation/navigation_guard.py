@@ -59,9 +59,9 @@ class NavigationGuard(Node):
         if reason == self._said:
             return
         if reason:
-            self.get_logger().warning(f'Goals of navigation are ended. {reason}')
+            self.get_logger().warning(f'Navigation goals are canceled. {reason}')
         elif self._said:
-            self.get_logger().info('Goals of navigation are possible again.')
+            self.get_logger().info('Navigation goals are accepted again.')
         self._said = reason
         self._publisher.publish(String(data=reason))
         if reason and self._publisher.get_subscription_count() == 0:

@@ -53,8 +53,8 @@ class PoseKeeper:
         self._is_replaced = False
         place = self._last.pose.pose.position
         self._node.get_logger().warning(
-            f'The localisation was started anew. It is told that the robot is where it was: '
-            f'x {place.x:.2f}, y {place.y:.2f}.'
+            'Localisation restarted; its initial pose is set to where the robot was: x '
+            f'{place.x:.2f}, y {place.y:.2f}.'
         )
         told = PoseWithCovarianceStamped(pose=self._last.pose)
         told.header.frame_id = self._last.header.frame_id

@@ -220,7 +220,7 @@ class NavigatingRobot:
         """
         self._answer(handle.cancel_goal_async())
         begin_s = self.robot.topics.time_s
-        assert self.robot.wait_until(lambda: not self.is_moved, 5.0), 'The robot is still moved.'
+        assert self.robot.wait_until(lambda: not self.is_moved, 5.0), 'The robot is still moving.'
         return self.robot.topics.time_s - begin_s
 
     @property

@@ -18,19 +18,24 @@ from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
 ARGUMENTS = (
-    ('map', '', 'A map: its YAML file, or the name of one of this package; else by the scene.'),
+    (
+        'map',
+        '',
+        'The map: a YAML file, or the name of a map of this package; by default, that of the '
+        'scene.',
+    ),
     ('slam', 'False', 'Whether to make a map (SLAM) instead of using one.'),
     (
         'params_file',
         PathJoinSubstitution(
             [FindPackageShare('humanoid_navigation'), 'config', 'nav2_params.yaml']
         ),
-        'The parameters of all nodes of Nav2.',
+        'The parameter file of all Nav2 nodes.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
     ('use_composition', 'True', 'Whether all nodes of Nav2 share one process.'),
-    ('use_respawn', 'True', 'Whether to start a process anew that has ended.'),
+    ('use_respawn', 'True', 'Whether to restart processes that exit.'),
 )
 PASSED_ON = ('slam', 'params_file', 'namespace', 'use_sim_time', 'use_composition', 'use_respawn')
 

@@ -17,10 +17,10 @@ ARGUMENTS = (
         PathJoinSubstitution(
             [FindPackageShare('humanoid_navigation'), 'config', 'keepout_params.yaml']
         ),
-        'The masks of the zones, and what they mean.',
+        'The parameter file with the masks of the zones, and what they mean.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
 )
 SERVERS = {
     f'{zone}_{name}': f'nav2_map_server::{plugin}'

@@ -81,11 +81,11 @@ def find(
     _check(question.colour, COLOURS, 'colour')
     if question.place and not places.names:
         raise QuestionError(
-            f"The place '{shortened(question.place)}' is not known, as no places are. Give "
-            'object_memory a file of named places: places_file.'
+            f"There is no place named '{shortened(question.place)}': no places are loaded. Set "
+            'places_file of object_memory to a file of named places.'
         )
     _check(question.place, places.names, 'place')
-    _check(question.object_id, [thing.object_id for thing in things], 'remembered thing')
+    _check(question.object_id, [thing.object_id for thing in things], 'remembered object')
     found = [thing for thing in things if _fits(question, thing, places)]
     return sorted(found, key=lambda thing: -thing.last_seen_s)
 
@@ -106,6 +106,6 @@ def _check(name: str, known: Iterable[str], what: str) -> None:
     if not name or name in names:
         return
     hint = did_you_mean(name, names) or (
-        f'There are: {", ".join(names)}.' if names else 'There is none yet.'
+        f'Known names: {", ".join(names)}.' if names else 'There is none yet.'
     )
-    raise QuestionError(f"No {what} is called '{shortened(name)}'. {hint}")
+    raise QuestionError(f"There is no {what} named '{shortened(name)}'. {hint}")

@@ -38,36 +38,36 @@ class GazeParameters:
     """The parameters of the node."""
 
     joints: tuple[str, ...] = parameter(
-        ('head_yaw', 'head_pitch'), 'The joints of the neck, from the body on.', read_only=True
+        ('head_yaw', 'head_pitch'), 'The neck joints, from the body to the head.', read_only=True
     )
     controller: str = parameter(
-        'head_controller', 'The trajectory controller of these joints.', read_only=True
+        'head_controller', 'The trajectory controller of the neck joints.', read_only=True
     )
     odom_frame: str = parameter('odom', 'The frame in which the body turns.')
     camera_frame: str = parameter(
-        'camera_optical_frame', 'What looks at a point if a goal names nothing.'
+        'camera_optical_frame', 'The frame to point with if a goal names none.'
     )
     max_velocity: float = parameter(
-        1.5, 'How fast the joints turn (rad/s).', at_least=0.05, at_most=12.0
+        1.5, 'Speed limit of the neck joints (rad/s).', at_least=0.05, at_most=12.0
     )
     tolerance_rad: float = parameter(
-        0.05, 'How exactly it has to look at a point (rad).', at_least=0.001, at_most=1.0
+        0.05, 'Pointing tolerance (rad).', at_least=0.001, at_most=1.0
     )
     scan_up_rad: float = parameter(
-        0.15, 'Up to which elevation a room is looked at (rad).', at_least=-1.0, at_most=1.5
+        0.15, 'Highest elevation of a room scan (rad).', at_least=-1.0, at_most=1.5
     )
     scan_down_rad: float = parameter(
-        0.85, 'Down to which depression a room is looked at (rad).', at_least=-1.0, at_most=1.5
+        0.85, 'Largest depression angle of a room scan (rad).', at_least=-1.0, at_most=1.5
     )
     looks_per_view: int = parameter(
-        4, 'How many pictures are waited for at each stop of a scan.', at_least=1, at_most=100
+        4, 'Images to wait for at each stop of a scan.', at_least=1, at_most=100
     )
     turn_rate_rad_s: float = parameter(
-        0.5, 'How fast the body turns in a scan (rad/s).', at_least=0.05, at_most=2.0
+        0.5, 'Turn rate of the body during a scan (rad/s).', at_least=0.05, at_most=2.0
     )
     turn_with: str = parameter(
         'auto',
-        'What turns the body: spin of Nav2, which looks out for obstacles, or cmd_vel.',
+        'What turns the body: spin of Nav2, which checks for collisions, or cmd_vel.',
         choices=('auto', 'spin', 'cmd_vel'),
     )
 
@@ -189,14 +189,14 @@ class Gaze(Node):
             if is_over and has_arrived and sent.error_rad > told.tolerance_rad:
                 raise GoalAborted(
                     'UNKNOWN',
-                    'The head cannot turn so far: it looks as near as it can, '
-                    f'{math.degrees(error_rad):.0f} degrees beside the target. Turn the body '
+                    'The head cannot turn that far: at its limit it points '
+                    f'{math.degrees(error_rad):.0f} degrees off the target. Turn the body '
                     'towards it first.',
                 )
             if now_s > max(end_s, begin_s + at_least_s + _LATE_S):
                 raise GoalAborted(
                     'HEAD_FAILED',
-                    f'The head does not come closer than {error_rad:.2f} rad to the target.',
+                    f'The head did not get closer than {error_rad:.2f} rad to the target.',
                 )
             ticks += 1
             await goal.tick()
@@ -210,11 +210,11 @@ def _unsound(request: PointHead.Goal) -> str:
     """Validate a goal of `look_at`; return the rejection message, or an empty string."""
     numbers = (*_vector(request.target.point), *_vector(request.pointing_axis))
     if not all(map(math.isfinite, (*numbers, request.max_velocity))):
-        return 'It has a number that is not finite.'
+        return 'It has a value that is not finite.'
     if request.max_velocity < 0.0:
-        return 'max_velocity is negative. Give rad/s, or 0 for the usual one.'
+        return 'max_velocity is negative. Give rad/s, or 0 for the default.'
     if not request.target.header.frame_id:
-        return 'The target has no frame_id. Give the frame of the point, as map.'
+        return 'The target has no frame_id. Give the frame of the point, such as map.'
     return ''
 
 

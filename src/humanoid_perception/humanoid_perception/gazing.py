@@ -92,15 +92,15 @@ class HeadChain:
         missing = [name for name in names if name not in elements]
         if missing or not names:
             raise HeadError(
-                f'The robot has no joint {", ".join(missing)}. Name those of its neck in the '
+                f'The robot has no joint {", ".join(missing)}. List its neck joints in the '
                 'parameter joints.'
             )
         joints = [_joint(elements[name]) for name in names]
         for before, after in zip(joints, joints[1:]):
             if before.child != after.parent:
                 raise HeadError(
-                    f"Joint '{after.name}' does not hang on the link that '{before.name}' moves. "
-                    'Name the joints of the neck from the body on.'
+                    f"Joint '{after.name}' is not attached to the link of '{before.name}'. "
+                    'List the neck joints from the body to the head.'
                 )
         return cls(joints)
 
@@ -314,7 +314,7 @@ def _joint(element: ElementTree.Element) -> HeadJoint:
         raise HeadError(f"Joint '{name}' of the robot cannot be read: {error}.") from error
     length = float(np.linalg.norm(axis))
     if not length or numbers[0] > numbers[1] or numbers[2] <= 0.0:
-        raise HeadError(f"Joint '{name}' needs an axis, limits in order, and a velocity above 0.")
+        raise HeadError(f"Joint '{name}' needs an axis, lower <= upper limit, and a velocity > 0.")
     return HeadJoint(
         name, parent.get('link', ''), child.get('link', ''), origin, axis / length, *numbers
     )
@@ -323,5 +323,5 @@ def _joint(element: ElementTree.Element) -> HeadJoint:
 def _three(text: str) -> Array:
     values = np.array([float(each) for each in text.split()])
     if values.shape != (3,):
-        raise ValueError(f"'{text}' are not three numbers")
+        raise ValueError(f"'{text}' is not three numbers")
     return values

@@ -40,7 +40,7 @@ class Head(Transforms):
         self._names = list(joints)
         self._mover = JointMover(node, joints, controller, 'HEAD_FAILED')
         self._known: HeadChain | None = None
-        self._reason = 'No robot_description has come. Start robot_state_publisher.'
+        self._reason = 'No robot_description received. Start robot_state_publisher.'
         node.create_subscription(String, 'robot_description', self._read, LATCHED)
 
     @property
@@ -78,7 +78,7 @@ class Head(Transforms):
             _ = self.chain
             raise GoalAborted(
                 'HEAD_FAILED',
-                f"The action '{self._mover.action}' is not there. Start the robot's controllers.",
+                f"No action server for '{self._mover.action}'. Start the robot's controllers.",
             )
         await self.known(goal, self.chain.base_frame, self.chain.tip_frame)
 

@@ -58,8 +58,8 @@ def color_of(image: ImageMessage) -> Color:
     channels = _CHANNELS.get(image.encoding)
     if channels is None:
         raise ImageError(
-            f"Pictures come in the encoding '{image.encoding}', but the detector needs one of "
-            f'{", ".join(_CHANNELS)}. Have the camera publish one of these, or convert them.'
+            f"The images have the encoding '{image.encoding}', but the detector needs one of "
+            f'{", ".join(_CHANNELS)}. Configure the camera for one of these, or convert them.'
         )
     pixels = _rows(image, np.dtype(np.uint8), channels)
     if channels == 1:
@@ -93,8 +93,8 @@ def depth_of(image: ImageMessage) -> Depth:
     """
     if image.encoding not in _DEPTHS:
         raise ImageError(
-            f"The depth comes in the encoding '{image.encoding}', but 32FC1 (m) or 16UC1 (mm) "
-            'is needed (REP 118). Have the camera publish one of these.'
+            f"The depth images have the encoding '{image.encoding}', but must have 32FC1 (m) or "
+            '16UC1 (mm), see REP 118. Configure the camera for one of these.'
         )
     kind, scale = _DEPTHS[image.encoding]
     dtype = np.dtype(('>' if image.is_bigendian else '<') + kind)
@@ -132,12 +132,12 @@ def _rows(image: ImageMessage, dtype: np.dtype[Any], channels: int) -> npt.NDArr
     if image.width < 1 or image.height < 1 or image.step < row_bytes:
         raise ImageError(
             f'An image of {image.width} x {image.height} pixels in {image.encoding} needs rows of '
-            f'{row_bytes} bytes, but step is {image.step}. The driver of the camera is wrong.'
+            f'{row_bytes} bytes, but step is {image.step}. This is a bug in the camera driver.'
         )
     if len(image.data) < needed:
         raise ImageError(
             f'An image of {image.width} x {image.height} pixels in {image.encoding} needs '
-            f'{needed} bytes, but has {len(image.data)}. The driver of the camera is wrong.'
+            f'{needed} bytes, but has {len(image.data)}. This is a bug in the camera driver.'
         )
     data = np.frombuffer(image.data, np.uint8, needed)
     strides = (image.step, channels * dtype.itemsize, dtype.itemsize)

@@ -91,9 +91,9 @@ def camera_of(
     values = np.asarray(k, dtype=np.float64).reshape(-1)
     if (height_px, width_px) != picture:
         raise CameraInfoError(
-            f'camera_info is for pictures of {width_px} x {height_px} pixels, but they have '
-            f'{picture[1]} x {picture[0]}. Have the camera publish the camera_info of these '
-            'pictures.'
+            f'camera_info is for images of {width_px} x {height_px} pixels, but the images have '
+            f'{picture[1]} x {picture[0]}. Configure the camera to publish the camera_info of '
+            'these images.'
         )
     fits = values.size == 9 and bool(np.isfinite(values).all())
     if fits:
@@ -107,9 +107,9 @@ def camera_of(
     if not fits:
         shown = [round(float(value), 3) for value in values[:9]]
         raise CameraInfoError(
-            f'The K of camera_info, {shown}, is not that of a camera with {width_px} x '
-            f'{height_px} pixels: it needs focal lengths above zero and a centre inside the '
-            'picture. Calibrate the camera, or correct its camera_info.'
+            f'The K of camera_info, {shown}, is not valid for a camera with {width_px} x '
+            f'{height_px} pixels: it needs focal lengths above zero and a principal point inside '
+            'the image. Calibrate the camera, or correct its camera_info.'
         )
     return PinholeCamera(width_px, height_px, float(fx), float(fy), float(cx), float(cy))
 

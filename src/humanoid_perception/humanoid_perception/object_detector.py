@@ -71,60 +71,60 @@ class DetectorParameters:
 
     backend: str = parameter(
         ONNX,
-        'What detects: a YOLO network (onnx), or colours and shapes without a network (colour).',
+        'The detector: a YOLO network (onnx), or colours and shapes without a network (colour).',
         choices=(ONNX, COLOUR),
         read_only=True,
     )
     model_path: str = parameter(
-        '', 'The ONNX file of a YOLO network; empty for the one of this package.', read_only=True
+        '', 'The ONNX file of a YOLO network; empty for the one in this package.', read_only=True
     )
     labels_file: str = parameter(
         '',
-        'Names of classes, one a line or YAML; empty for those that the model names.',
+        'Class names, one per line or as YAML; empty for the names in the model.',
         read_only=True,
     )
     layout: str = parameter(
-        AUTO, 'The layout of the output of the network.', choices=LAYOUTS, read_only=True
+        AUTO, 'The output layout of the network.', choices=LAYOUTS, read_only=True
     )
     input_size: int = parameter(
         0,
-        'The longer edge of what the network gets, for networks that take any size; 0 for the '
-        'size that the model names (pixels).',
+        'The longer edge of the network input, for networks that accept any size; 0 for the '
+        'size that the model declares (pixels).',
         at_least=0,
         at_most=4096,
         read_only=True,
     )
     num_threads: int = parameter(
-        1, 'How many threads the network computes with.', at_least=1, at_most=64, read_only=True
+        1, 'Number of inference threads.', at_least=1, at_most=64, read_only=True
     )
     confidence: float = parameter(
-        0.5, 'The least score of a detection.', at_least=0.001, at_most=1.0
+        0.5, 'Minimum score of a detection.', at_least=0.001, at_most=1.0
     )
     iou: float = parameter(
         0.5,
-        'The most by which two detections of a class overlap, as intersection over union.',
+        'Largest overlap of two detections of a class, as intersection over union.',
         at_least=0.0,
         at_most=1.0,
     )
     max_rate_hz: float = parameter(
         5.0,
-        'How many pictures are looked at in a second, by their stamps.',
+        'Maximum rate of processed images, by their stamps (Hz).',
         at_least=0.01,
         at_most=1000.0,
     )
     max_depth_offset_s: float = parameter(
         0.02,
-        'How far the stamp of depth may be from that of its picture (s).',
+        'Largest difference between the stamps of a depth image and its colour image (s).',
         at_least=0.0,
         at_most=1.0,
     )
     target_frame: str = parameter(
         'odom',
-        'The frame of detections in space, whose z axis points up; empty for that of the camera.',
+        'The frame of 3-D detections, whose z axis points up; empty for the camera frame.',
     )
     image_reliability: str = parameter(
         AUTO,
-        'How pictures are subscribed to; auto begins with reliable, and takes what is offered.',
+        'Reliability of the image subscription; auto starts with reliable, then adapts.',
         choices=(AUTO, RELIABLE, BEST_EFFORT),
         read_only=True,
     )
@@ -208,7 +208,7 @@ class ObjectDetector(Node):
         self.create_service(SetBool, '~/enable', self._enable)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_LOOK_S, ending(self, self._look), clock=steady)
-        self.get_logger().info(f'Detects objects with {self._detector.title}.')
+        self.get_logger().info(f'Detecting objects with {self._detector.title}.')
 
     def _change(self, told: DetectorParameters) -> None:
         self._pairs.period_s = 1.0 / told.max_rate_hz
@@ -250,7 +250,7 @@ class ObjectDetector(Node):
         elif not request.data:
             self._unsubscribe()
         response.success = True
-        response.message = 'Detects objects.' if request.data else 'Does not detect objects.'
+        response.message = 'Detection started.' if request.data else 'Detection stopped.'
         return response
 
     def _take_camera(self, data: bytes) -> None:
@@ -298,13 +298,13 @@ class ObjectDetector(Node):
                 self._subscribe()
             else:
                 self._warn(
-                    f"Pictures on '{topic}' are offered as best effort, so none of them arrives. "
+                    f"Images on '{topic}' are published as best effort, so none of them arrive. "
                     "Set the parameter 'image_reliability' to 'auto' or 'best_effort'."
                 )
         elif now_s - self._since_s > _SILENCE_S and not offered:
             self._since_s = math.inf
             self.get_logger().warning(
-                f"Nobody publishes pictures on '{topic}'. Start the camera, or remap "
+                f"No publisher of images on '{topic}'. Start the camera, or remap "
                 "'camera/image_raw' to its topic."
             )
 
@@ -343,19 +343,19 @@ class ObjectDetector(Node):
         info = self._camera
         if info is None:  # the first message may still be on its way
             if time.monotonic() > self._since_s + _SILENCE_S:
-                self._warn("Detections are in 2-D only, as nothing comes on 'camera/camera_info'.")
+                self._warn("Detections are 2-D only: nothing received on 'camera/camera_info'.")
             return None, None
         try:
             depth_m = depth_of(deserialize_message(frame.depth, Image))
             camera = camera_of(info.k, info.width, info.height, (color.shape[0], color.shape[1]))
         except (ImageError, CameraInfoError) as error:
-            self._warn(f'Detections are in 2-D only. {error}')
+            self._warn(f'Detections are 2-D only. {error}')
             return None, None
         if depth_m.shape != color.shape[:2]:
             self._warn(
-                f'Detections are in 2-D only. The depth has {depth_m.shape[1]} x '
-                f'{depth_m.shape[0]} pixels, but the picture {color.shape[1]} x {color.shape[0]}. '
-                'Have the camera register its depth to the picture.'
+                f'Detections are 2-D only. The depth image has {depth_m.shape[1]} x '
+                f'{depth_m.shape[0]} pixels, but the colour image {color.shape[1]} x '
+                f'{color.shape[0]}. Configure the camera to register depth to colour.'
             )
             return None, None
         return depth_m, camera
@@ -366,8 +366,8 @@ class ObjectDetector(Node):
             self._has_said_flat = True
             topic = self.resolve_topic_name('camera/depth/image_raw')
             self.get_logger().info(
-                f"Detections are in 2-D only, as no depth comes on '{topic}' with the stamps of "
-                'the pictures.'
+                f"Detections are 2-D only: no depth received on '{topic}' with the stamps of "
+                'the images.'
             )
 
     def _place(self) -> None:
@@ -380,8 +380,8 @@ class ObjectDetector(Node):
                 if time.monotonic() - seen.received_s < _TRANSFORM_WAIT_S:
                     return
                 self._warn(
-                    f"Detections are in 2-D only, as it is not known where '"
-                    f"{seen.header.frame_id}' was in '{self._told.current.target_frame}': {error}"
+                    f"Detections are 2-D only: no transform of '"
+                    f"{seen.header.frame_id}' in '{self._told.current.target_frame}': {error}"
                 )
             self._seen.popleft()
 

@@ -67,35 +67,35 @@ _QUIET_S = 10.0
 class MemoryParameters:
     """The parameters of the node."""
 
-    map_frame: str = parameter('map', 'The frame in which things are remembered, if it exists.')
-    odom_frame: str = parameter('odom', 'The frame in which they are remembered otherwise.')
+    map_frame: str = parameter('map', 'The frame of remembered objects, if it exists.')
+    odom_frame: str = parameter('odom', 'The frame of remembered objects otherwise.')
     places_file: str = parameter(
         '',
-        'The named places: a YAML file, or the name of one of this package (apartment).',
+        'The named places: a YAML file, or the name of one in this package (apartment).',
         read_only=True,
     )
     hand_frames: tuple[str, ...] = parameter(
         ('l_gripper', 'r_gripper'),
-        "Frames of the robot's own hands: what is detected there is no thing.",
+        "Frames of the robot's own hands; detections there are ignored.",
     )
     classes: tuple[str, ...] = parameter(
-        _CLASSES, 'What the detector can name; a question for another class is refused.'
+        _CLASSES, 'Classes of the detector; a query for any other class is rejected.'
     )
     birth_sightings: int = parameter(
-        3, 'In how many pictures a thing has to be detected.', at_least=1, at_most=100
+        3, 'Images with a detection before an object is remembered.', at_least=1, at_most=100
     )
     max_range_m: float = parameter(
-        3.0, 'How far away things are that have to be detected (m).', at_least=0.1, at_most=50.0
+        3.0, 'Range within which a detection is expected (m).', at_least=0.1, at_most=50.0
     )
     min_size_px: float = parameter(
-        8.0, 'How small they may be in the picture (pixels).', at_least=1.0, at_most=1000.0
+        8.0, 'Size from which a detection is expected (pixels).', at_least=1.0, at_most=1000.0
     )
-    max_things: int = parameter(300, 'How many are kept.', at_least=1, at_most=10_000)
+    max_things: int = parameter(300, 'Maximum number of objects.', at_least=1, at_most=10_000)
     follows_jumps: bool = parameter(
-        True, 'Whether things move along when the localisation corrects itself by a jump.'
+        True, 'Whether objects move along when the localization jumps.'
     )
     publish_rate_hz: float = parameter(
-        2.0, 'How often changes are published at most (Hz).', at_least=0.1, at_most=20.0,
+        2.0, 'Highest rate at which changes are published (Hz).', at_least=0.1, at_most=20.0,
         read_only=True,
     )  # fmt: skip
 
@@ -169,7 +169,7 @@ class ObjectMemoryNode(Node):
     def _take(self, message: Detection3DArray) -> None:
         stamp_s = _seconds(message.header.stamp)
         if stamp_s < self._stamp_s - _BACK_S:
-            self.get_logger().info('Time went back: everything that was seen is forgotten.')
+            self.get_logger().info('Time jumped backwards: all remembered objects are cleared.')
             self._clear()
         if stamp_s > self._stamp_s:
             self._stamp_s = stamp_s
@@ -195,8 +195,8 @@ class ObjectMemoryNode(Node):
                 if time.monotonic() - received_s < _WAIT_S:
                     return
                 self._warn(
-                    f"Detections in the frame '{message.header.frame_id}' are left out, as it is "
-                    f'not known where that is: {error}'
+                    f"Detections in the frame '{message.header.frame_id}' are ignored: no "
+                    f'transform to it is known: {error}'
                 )
             self._pending.popleft()
 
@@ -207,8 +207,8 @@ class ObjectMemoryNode(Node):
         view = self._view(told.odom_frame, message.header.stamp, stamp)
         if view is None:
             self._warn(
-                'Detections are left out, as no camera/camera_info has come: without it, nobody '
-                'knows what should be visible.'
+                'Detections are ignored: no camera/camera_info received, which tells what should '
+                'be visible.'
             )
             return
         self._choose_frame(told)
@@ -299,7 +299,7 @@ class ObjectMemoryNode(Node):
                 try:
                     return depth_of(deserialize_message(data, Image))
                 except ImageError as error:
-                    self._warn(f'What is hidden is not known. {error}')
+                    self._warn(f'Occlusions are unknown. {error}')
         return None
 
     def _publish(self) -> None:
@@ -333,13 +333,13 @@ class ObjectMemoryNode(Node):
             return response
         response.objects = [remembered_object(thing, self._places) for thing in found]
         response.success = True
-        response.message = '' if found else 'Nothing of that kind is remembered.'
+        response.message = '' if found else 'No such object is remembered.'
         return response
 
     def _forget(self, _: Any, response: Any) -> Any:
         count = len(self._memory.things)
         self._memory.clear()
-        response.success, response.message = True, f'{count} things are forgotten.'
+        response.success, response.message = True, f'Forgot all objects: {count}.'
         return response
 
     def _warn(self, text: str) -> None:

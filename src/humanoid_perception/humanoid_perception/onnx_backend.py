@@ -99,7 +99,7 @@ class OnnxDetector:
     def title(self) -> str:
         """Return the display name of the detector: model, input size, layout and classes."""
         size = 'any size' if self._fixed is None else f'{self._fixed[1]}x{self._fixed[0]}'
-        count = f'{len(self._names)} classes' if self._names else 'classes without names'
+        count = f'{len(self._names)} classes' if self._names else 'unnamed classes'
         return f"the model '{self._path}' ({size}, {self._layout}, {count})"
 
     @property
@@ -176,8 +176,8 @@ class OnnxDetector:
             return np.asarray(self._session.run([self._output], {self._input.name: given})[0])
         except Exception as error:  # onnxruntime's errors share no other class
             raise DetectorError(
-                f'onnxruntime cannot run it with a picture of {picture.shape[1]} x '
-                f'{picture.shape[0]} pixels: {_first_line(error)} Export it anew, or set the '
+                f'onnxruntime cannot run it with an image of {picture.shape[1]} x '
+                f'{picture.shape[0]} pixels: {_first_line(error)} Export it again, or set the '
                 "parameter 'input_size' to the size that it was made for."
             ) from None
 
@@ -217,8 +217,7 @@ def names_in_file(path: str) -> list[str]:
         ) from None
     if not names:
         raise DetectorError(
-            f"The labels file '{path}' has no names. It needs one a line, or in YAML a list "
-            "'names'."
+            f"The labels file '{path}' has no names. Give one per line, or a YAML list 'names'."
         )
     return names
 
@@ -234,7 +233,7 @@ def _session(path: str, threads: int) -> Any:
         ) from None
     if not Path(path).is_file():
         raise DetectorError(
-            f"There is no model file '{path}'. Correct the parameter 'model_path', or set the "
+            f"Model file '{path}' not found. Correct the parameter 'model_path', or set the "
             "parameter 'backend' to 'colour', which needs none."
         )
     options = onnxruntime.SessionOptions()
@@ -248,9 +247,9 @@ def _session(path: str, threads: int) -> Any:
         return onnxruntime.InferenceSession(path, options, providers=['CPUExecutionProvider'])
     except Exception as error:  # onnxruntime's errors share no other class
         raise DetectorError(
-            f"The model file '{path}' cannot be loaded: {_first_line(error)} It is cut off or no "
-            'ONNX file, or newer than the installed onnxruntime '
-            f'({onnxruntime.__version__}). Copy or export it anew.'
+            f"The model file '{path}' cannot be loaded: {_first_line(error)} It is truncated, not "
+            'ONNX, or newer than the installed onnxruntime '
+            f'({onnxruntime.__version__}). Copy or export it again.'
         ) from None
 
 
@@ -276,8 +275,8 @@ def _input_of(session: Any) -> tuple[Any, Any, float]:
     )
     if not fits or inputs[0].type not in _TYPES:
         raise DetectorError(
-            f'It takes {kinds or "nothing"}, but a detector takes one picture: [1, 3, height, '
-            'width] of float32, float16 or uint8. Export it for a single picture, channels first.'
+            f'It takes {kinds or "nothing"}, but a detector takes one image: [1, 3, height, '
+            'width] of float32, float16 or uint8. Export it for a single image, channels first.'
         )
     return (inputs[0], *_TYPES[inputs[0].type])
 
@@ -326,8 +325,8 @@ def _listed(names: Any) -> list[str]:
 def _other_count(known: int, in_output: int, labels_file: str) -> str:
     source = f"The labels file '{labels_file}'" if labels_file else 'Its metadata'
     return (
-        f'{source} names {known} classes, but its output has {in_output}. Give the parameter '
-        "'labels_file' the names that it was trained with."
+        f'{source} names {known} classes, but its output has {in_output}. Set the parameter '
+        "'labels_file' to a file of the names that it was trained with."
     )
 
 

@@ -217,9 +217,9 @@ def places_path(given: str) -> Path | None:
     known = sorted(path.stem.removeprefix(_PREFIX) for path in folder.glob(f'{_PREFIX}*.yaml'))
     hint = f' {question}' if (question := did_you_mean(given, known)) else ''
     raise PlacesError(
-        f"There is no file of named places '{given}'.{hint} Give "
-        f'places_file the path of one, the name of one of this package ({", ".join(known)}), or '
-        'nothing for none.'
+        f"File of named places '{given}' not found.{hint} Set "
+        f'places_file to the path of one, the name of one in this package ({", ".join(known)}), '
+        'or leave it empty for none.'
     )
 
 
@@ -261,7 +261,7 @@ def _places(table: Any) -> Places:
     )
     for name in places.names:
         if places.names.count(name) > 1:
-            raise PlacesError(f"two places are called '{name}'. Give each a name of its own.")
+            raise PlacesError(f"two places are named '{name}'. Give each a unique name.")
     return places
 
 
@@ -270,7 +270,7 @@ def _surface(entry: Any) -> Surface:
     known = _checked(entry, 'a surface', keys, ('name', 'outline', 'height'))
     name, is_container = _name(known), known.get('container', False)
     if not isinstance(is_container, bool):
-        raise PlacesError(f'container of {name} is {is_container!r}, but has to be true or false.')
+        raise PlacesError(f'container of {name} is {is_container!r}, but must be true or false.')
     return Surface(
         name,
         _outline(known['outline'], name),
@@ -300,7 +300,7 @@ def _checked(
 ) -> Mapping[str, Any]:
     """Validate the keys of a table: no unknown ones, and none missing."""
     if not isinstance(entry, dict):
-        raise PlacesError(f'{what} is {entry!r}, but has to be a table of {", ".join(keys)}.')
+        raise PlacesError(f'{what} is {entry!r}, but must be a table of {", ".join(keys)}.')
     for key in entry:
         if key not in keys:
             question = did_you_mean(str(key), keys)
@@ -314,20 +314,20 @@ def _checked(
 def _list(table: Mapping[str, Any], key: str) -> list[Any]:
     value = table.get(key) or []
     if not isinstance(value, list):
-        raise PlacesError(f'{key} is {value!r}, but has to be a list.')
+        raise PlacesError(f'{key} is {value!r}, but must be a list.')
     return value
 
 
 def _name(entry: Mapping[str, Any]) -> str:
     if not isinstance(entry['name'], str) or not entry['name']:
-        raise PlacesError(f'a name is {entry["name"]!r}, but has to be a text.')
+        raise PlacesError(f'a name is {entry["name"]!r}, but must be a string.')
     return entry['name']
 
 
 def _number(value: Any, what: str) -> float:
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if not is_number or not math.isfinite(value):
-        raise PlacesError(f'{what} is {value!r}, but has to be a number of metres.')
+        raise PlacesError(f'{what} is {value!r}, but must be a number of metres.')
     return float(value)
 
 
@@ -335,7 +335,7 @@ def _outline(value: Any, name: str) -> Outline:
     is_list = isinstance(value, list) and len(value) >= 3
     if not is_list or any(not isinstance(each, list) or len(each) != 2 for each in value):
         raise PlacesError(
-            f'the outline of {name} is {value!r}, but has to be three or more corners [x, y].'
+            f'the outline of {name} is {value!r}, but must be three or more corners [x, y].'
         )
     what = f'a corner of {name}'
     return tuple((_number(x, what), _number(y, what)) for x, y in value)

@@ -126,7 +126,7 @@ class RoomScan:
         late_s = gaze.now_s() + duration_s + _LATE_S
         while not head.has_arrived():
             if gaze.now_s() > late_s:
-                raise GoalAborted('HEAD_FAILED', 'The head does not come to where it shall look.')
+                raise GoalAborted('HEAD_FAILED', 'The head did not reach its target.')
             await self._tick(goal)
 
     async def _tick(self, goal: RunningGoal) -> None:
@@ -135,7 +135,7 @@ class RoomScan:
 
     def _check_time(self) -> None:
         if self._gaze.now_s() > self._end_s:
-            raise GoalAborted('TIMEOUT', 'The look around took longer than its time allowance.')
+            raise GoalAborted('TIMEOUT', 'The scan took longer than its time allowance.')
 
     async def _sleep(self, goal: RunningGoal, duration_s: float) -> None:
         end_s = self._gaze.now_s() + duration_s

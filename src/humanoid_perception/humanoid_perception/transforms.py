@@ -95,14 +95,12 @@ class Transforms:
             No transform connects the two frames.
 
         """
-        assert self._listens, 'Transforms are known while they are listened to.'
+        assert self._listens, 'Transforms are not being received: call listen first.'
         pose = np.eye(4)
         if frame != child:
             try:
                 found = self._buffer.lookup_transform(frame, child, Time())
             except TransformException as error:
-                raise GoalAborted(
-                    'NO_TRANSFORM', f"It is not known where '{child}' is: {error}"
-                ) from None
+                raise GoalAborted('NO_TRANSFORM', f"No transform of '{child}': {error}") from None
             pose[:3, 3], pose[:3, :3] = pose_of(found.transform)
         return pose

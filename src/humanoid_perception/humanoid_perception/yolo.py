@@ -224,8 +224,8 @@ def _guess(rows: int, columns: int, class_count: int | None, metadata: dict[str,
 
 def _not_a_detector(shape: Sequence[int]) -> str:
     return (
-        f'Its output has the shape {list(shape)}, which no export of YOLO for detection has: '
-        '[1, 4 + classes, N], [1, N, 5 + classes] or [1, N, 6]. Export it anew as a detector, '
+        f'Its output has the shape {list(shape)}, which is not that of a YOLO detector: '
+        '[1, 4 + classes, N], [1, N, 5 + classes] or [1, N, 6]. Export it again as a detector, '
         'with its boxes decoded.'
     )
 

@@ -11,9 +11,9 @@ from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
 ARGUMENTS = (
-    ('detector_backend', 'onnx', 'What detects: a YOLO network (onnx), or colours (colour).'),
-    ('model_path', '', 'The ONNX file of a YOLO network; empty for the one of this package.'),
-    ('labels_file', '', 'Names of its classes; empty for those that the model names.'),
+    ('detector_backend', 'onnx', 'The detector: a YOLO network (onnx), or colours (colour).'),
+    ('model_path', '', 'The ONNX file of a YOLO network; empty for the one in this package.'),
+    ('labels_file', '', 'Names of its classes; empty for the names in the model.'),
     (
         'places_file',
         '',
@@ -24,7 +24,7 @@ ARGUMENTS = (
         PathJoinSubstitution(
             [FindPackageShare('humanoid_perception'), 'config', 'perception.yaml']
         ),
-        'The parameters of the nodes.',
+        'Parameter file of the nodes.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
     ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),

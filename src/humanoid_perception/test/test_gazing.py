@@ -102,7 +102,7 @@ def test_a_target_in_the_camera_itself_does_no_harm(chain: HeadChain) -> None:
     [
         ('<robot', NAMES, 'cannot be read'),
         ('<robot name="r"/>', NAMES, 'no joint head_yaw'),
-        (None, ('head_pitch', 'head_yaw'), 'from the body on'),
+        (None, ('head_pitch', 'head_yaw'), 'from the body to the head'),
         (None, ('head_yaw', 'neck'), 'no joint neck'),
         (None, (), 'no joint'),
     ],

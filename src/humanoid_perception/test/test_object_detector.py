@@ -186,15 +186,15 @@ def test_without_depth_detections_are_in_the_picture_only_and_that_is_said_once(
         camera.look()
         assert len(camera.detected(count).detections) == 1
     assert camera.placed == []
-    assert capfd.readouterr().err.count('Detections are in 2-D only, as no depth comes') == 1
+    assert capfd.readouterr().err.count('Detections are 2-D only: no depth received') == 1
 
 
 @pytest.mark.parametrize(
     ('info', 'depth', 'part'),
     [
-        ({'k': [0.0] * 9}, scene(), 'is not that of a camera'),
-        ({'width': 640}, scene(), 'camera_info is for pictures of 640 x 120'),
-        ({}, scene()[::2, ::2].copy(), 'Have the camera register its depth'),
+        ({'k': [0.0] * 9}, scene(), 'is not valid for a camera'),
+        ({'width': 640}, scene(), 'camera_info is for images of 640 x 120'),
+        ({}, scene()[::2, ::2].copy(), 'register depth to colour'),
     ],
     ids=['k', 'size', 'depth'],
 )
@@ -217,7 +217,7 @@ def test_a_transform_that_comes_late_is_waited_for(camera: Camera):
 def test_a_transform_that_is_missing_is_said(camera: Camera, capfd):
     camera.look(scene())
     camera.ros.wait_until(
-        lambda: "not known where 'camera_optical_frame' was in 'odom'" in capfd.readouterr().err,
+        lambda: "no transform of 'camera_optical_frame' in 'odom'" in capfd.readouterr().err,
         what='a warning',
     )
     assert camera.placed == []
@@ -286,5 +286,5 @@ def test_a_camera_that_offers_best_effort_is_seen(ros: RosSandbox):
 
 
 def test_a_model_that_is_missing_is_said_at_the_start(ros: RosSandbox):
-    with pytest.raises(NodeStartError, match='There is no model file'):
+    with pytest.raises(NodeStartError, match='Model file .* not found'):
         ros.start(ObjectDetector, {'model_path': '/nowhere.onnx'})

@@ -139,7 +139,7 @@ def refusal(path: Path | str, **options) -> str:
 
 
 def test_a_missing_file_is_refused(tmp_path: Path):
-    assert 'There is no model file' in refusal(tmp_path / 'none.onnx')
+    assert "none.onnx' not found" in refusal(tmp_path / 'none.onnx')
 
 
 def test_a_file_that_was_cut_is_refused(tmp_path: Path):
@@ -153,10 +153,10 @@ def test_a_file_that_was_cut_is_refused(tmp_path: Path):
 @pytest.mark.parametrize(
     ('shape', 'output', 'metadata', 'part'),
     [
-        ((1, 3, 320, 320), np.zeros((1, 1000)), {}, 'no export of YOLO for detection'),
-        ((1, 1, 320, 320), scores_layout(8), {}, 'a detector takes one picture'),
-        ((8, 3, 320, 320), scores_layout(8), {}, 'a detector takes one picture'),
-        ((1, 3, 320), scores_layout(8), {}, 'a detector takes one picture'),
+        ((1, 3, 320, 320), np.zeros((1, 1000)), {}, 'not that of a YOLO detector'),
+        ((1, 1, 320, 320), scores_layout(8), {}, 'a detector takes one image'),
+        ((8, 3, 320, 320), scores_layout(8), {}, 'a detector takes one image'),
+        ((1, 3, 320), scores_layout(8), {}, 'a detector takes one image'),
         ((1, 3, 320, 320), scores_layout(), {'task': 'segment'}, 'made for segmentation'),
         ((1, 3, 320, 320), scores_layout(), {'names': "{0: 'mug'}"}, 'names 1 classes'),
     ],

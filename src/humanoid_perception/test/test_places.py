@@ -105,7 +105,7 @@ def test_the_apartment_has_what_people_name() -> None:
         ),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0]]}]', 'three or more corners'),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, .nan]]}]', 'number of metres'),
-        ('rooms: [{name: 3, outline: [[0, 0], [1, 0], [1, 1]]}]', 'text'),
+        ('rooms: [{name: 3, outline: [[0, 0], [1, 0], [1, 1]]}]', 'string'),
         ('room: []', "Did you mean 'rooms'?"),
         ('frame: 3', 'frame'),
         ('- 3', 'table'),
@@ -113,7 +113,7 @@ def test_the_apartment_has_what_people_name() -> None:
         (
             'rooms: [{name: a, outline: [[0, 0], [1, 0], [1, 1]]}, '
             '{name: a, outline: [[0, 0], [1, 0], [1, 1]]}]',
-            "two places are called 'a'",
+            "two places are named 'a'",
         ),
     ],
 )

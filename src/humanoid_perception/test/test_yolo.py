@@ -54,7 +54,7 @@ def test_layouts_are_told_apart(shape, classes, metadata, expected):
 
 @pytest.mark.parametrize('shape', [(1, 1000), (2, 84, 100), (1, 4, 4), (1, 0, 6), (1, 3, 2)])
 def test_other_shapes_are_refused(shape):
-    with pytest.raises(DetectorError, match='no export of YOLO'):
+    with pytest.raises(DetectorError, match='not that of a YOLO detector'):
         layout_of(shape, None, {})
 
 

@@ -191,8 +191,8 @@ class EntityCatalogue:
             pattern = re.compile(search.pattern) if search.pattern else None
         except re.error as error:
             raise SimulationError(
-                f"The filter '{search.pattern}' is no regular expression: {error}. All that begin "
-                "with 'red' are 'red.*'."
+                f"The filter '{search.pattern}' is not a valid regular expression: {error}. To "
+                "match all names that start with 'red', give 'red.*'."
             ) from error
         return [
             entity

@@ -144,7 +144,7 @@ class EntityServices:
             tags = [tag for tag in (place.room, surface) if tag]
             if not _tags(request.tags).match(tags):
                 continue
-            words = f'where one reaches {surface}' if surface else 'where one can stand'
+            words = f'where {surface} is within reach' if surface else 'where the robot can stand'
             pose = NamedPose(name=place.name, description=words, tags=tags)
             pose.pose.position.x, pose.pose.position.y = place.x_m, place.y_m
             fill_quaternion(pose.pose.orientation, quaternion_from_rpy(0.0, 0.0, place.yaw_rad))
@@ -156,8 +156,8 @@ class EntityServices:
             self._backend.scene.place(request.name)
         raise RequestError(
             Result.RESULT_FEATURE_UNSUPPORTED,
-            'Places have no bounds here: they are poses to stand in. The room that a thing takes '
-            'is told by get_entity_bounds.',
+            'Named poses have no bounds here: they are poses to stand at. get_entity_bounds '
+            'returns the bounds of an object.',
         )
 
     def _tell_spawnables(self, _: Any, response: GetSpawnables.Response) -> None:
@@ -185,12 +185,14 @@ class EntityServices:
         if not _NAMESPACE.fullmatch(request.entity_namespace):
             raise RequestError(
                 SpawnEntity.Response.NAMESPACE_INVALID,
-                f"'{request.entity_namespace}' is no namespace. Things have no topics: leave it "
-                'empty.',
+                f"'{request.entity_namespace}' is not a valid namespace. Objects have no topics: "
+                'leave it empty.',
             )
         resource, scene = request.entity_resource, self._backend.scene
         if len(scene.things) >= MOST_THINGS:
-            raise SimulationError(f'The scene has {MOST_THINGS} things already. Delete some.')
+            raise SimulationError(
+                f'The scene already has {MOST_THINGS} objects, the maximum. Delete some first.'
+            )
         initial = request.initial_pose
         with refusing(SpawnEntity.Response.INVALID_POSE):
             state = self._in_world(EntityStateMessage(header=initial.header, pose=initial.pose))
@@ -209,8 +211,8 @@ class EntityServices:
         things = tuple(thing for thing in scene.things if thing.name != entity)
         if len(things) == len(scene.things):
             raise SimulationError(
-                f"'{entity}' is a robot, and robots stay: the parameter robots of the simulator "
-                'says which ones there are.'
+                f"'{entity}' is a robot, which cannot be deleted. The parameter 'robots' of the "
+                'simulator sets which robots there are.'
             )
         self._world.change_scene(_without(scene, entity, things))
         self._catalogue.forget([entity])
@@ -256,13 +258,13 @@ class EntityServices:
         if not _NAME.fullmatch(name):
             raise RequestError(
                 SpawnEntity.Response.NAME_INVALID,
-                f"An entity cannot be called '{name}'. Give a name of letters, digits and '_', or "
+                f"An entity cannot be named '{name}'. Give a name of letters, digits and '_', or "
                 'allow_renaming.',
             )
         if name in taken and not request.allow_renaming:
             raise RequestError(
                 SpawnEntity.Response.NAME_NOT_UNIQUE,
-                f"There is a '{name}' already. Give another name, or allow_renaming.",
+                f"There is already an entity '{name}'. Give another name, or set allow_renaming.",
             )
         numbered = (f'{name}_{number}' for number in range(2, len(taken) + 3))
         return name if name not in taken else next(each for each in numbered if each not in taken)
@@ -299,7 +301,7 @@ def _region(bounds: Bounds) -> Region | None:
         return None
     points = [vector(point) for point in bounds.points]
     if not np.isfinite(points).all():
-        raise SimulationError('The bounds have a number that is not finite.')
+        raise SimulationError('The bounds have a value that is not finite.')
     if bounds.type == Bounds.TYPE_BOX and len(points) == 2 and (points[0] <= points[1]).all():
         return Region(points[0], points[1])
     if bounds.type == Bounds.TYPE_SPHERE and len(points) == 2 and points[1][0] >= 0.0:
@@ -307,11 +309,11 @@ def _region(bounds: Bounds) -> Region | None:
     if bounds.type == Bounds.TYPE_CONVEX_HULL:
         raise RequestError(
             Result.RESULT_FEATURE_UNSUPPORTED,
-            'Entities cannot be searched for in a convex hull here. Give a box or a sphere.',
+            'Searching for entities in a convex hull is not supported. Give a box or a sphere.',
         )
     raise SimulationError(
-        'The bounds mean nothing. Give a box by its lower and its upper corner, or a sphere by '
-        'its middle and (radius, 0, 0).'
+        'The bounds are not valid. Give a box by its lower and upper corners, or a sphere by its '
+        'centre and (radius, 0, 0).'
     )
 
 

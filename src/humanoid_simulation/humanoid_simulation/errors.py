@@ -50,5 +50,5 @@ def named(kind: str, name: str, things: Mapping[str, T]) -> T:
     from humanoid_common.naming import did_you_mean, shortened
 
     known = ', '.join(f"'{other}'" for other in things) or 'none'
-    hint = did_you_mean(name, things) or f'There are: {known}.'
+    hint = did_you_mean(name, things) or f'Available: {known}.'
     raise SimulationError(f"There is no {kind} '{shortened(name)}'. {hint}")

@@ -61,8 +61,8 @@ def _parser() -> argparse.ArgumentParser:
     """Create the parser of the command line."""
     parser = argparse.ArgumentParser(
         prog='scene_map',
-        description='Write the map of a scene that a perfect mapper would have drawn, as .pgm '
-        'and .yaml, which map_server and RViz read.',
+        description='Write the map that a perfect mapper would make of a scene, as .pgm and '
+        '.yaml files for map_server and RViz.',
     )
     parser.add_argument(
         'scene',
@@ -71,11 +71,13 @@ def _parser() -> argparse.ArgumentParser:
         help='its name or YAML file (default: apartment)',
     )
     parser.add_argument(
-        '--output', type=Path, help='the files, without .yaml (default: the name of the scene)'
+        '--output',
+        type=Path,
+        help='the output files, without .yaml (default: the name of the scene)',
     )
     heights = parser.add_argument_group(
-        'heights', 'What is solid between two heights is drawn, so that what is below or above '
-        'the plane of a laser scanner, such as a table, is in the map as well.',
+        'heights', 'Everything solid between two heights is drawn, so that obstacles above or '
+        'below the scan plane of a laser scanner, such as table tops, are in the map as well.',
     )  # fmt: skip
     heights.add_argument(
         '--from-height',
@@ -95,14 +97,14 @@ def _parser() -> argparse.ArgumentParser:
         '--height',
         type=float,
         metavar='M',
-        help='one height instead: what a scanner there would see',
+        help='a single height instead: what a scanner there would see',
     )
     parser.add_argument(
         '--resolution',
         type=float,
         metavar='M',
         default=0.05,
-        help='edge of a cell (default: 0.05)',
+        help='size of a cell (default: 0.05)',
     )
     parser.add_argument(
         '--start',
@@ -110,10 +112,14 @@ def _parser() -> argparse.ArgumentParser:
         nargs=2,
         metavar=('X', 'Y'),
         default=(0.0, 0.0),
-        help='where the mapper begins (default: 0 0, as the robot does)',
+        help='where the mapper starts (default: 0 0, as the robot does)',
     )
     parser.add_argument(
-        '--margin', type=float, metavar='M', default=0.5, help='round what is drawn (default: 0.5)'
+        '--margin',
+        type=float,
+        metavar='M',
+        default=0.5,
+        help='around the drawn area (default: 0.5)',
     )
     return parser
 

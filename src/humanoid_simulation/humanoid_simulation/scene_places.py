@@ -46,13 +46,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog='scene_places',
         description='Write the surfaces and rooms of a scene as a file of named places, as if '
-        'somebody had measured them in its map, whose origin is that of the scene.',
+        'they had been measured in its map, whose origin is that of the scene.',
     )
     parser.add_argument(
         'scene', nargs='?', default='apartment', help='its name or YAML file (default: apartment)'
     )
     parser.add_argument(
-        '--output', type=Path, help='the file (default: places_ and the name of the scene)'
+        '--output', type=Path, help='the output file (default: places_ and the name of the scene)'
     )
     arguments = parser.parse_args(argv)
     try:

@@ -233,7 +233,7 @@ class SimulatedWorld:
 
         """
         if not self._host.paused:
-            raise SimulationError('The simulation runs. Pause it before you step it.')
+            raise SimulationError('The simulation is running. Pause it before stepping it.')
         self.refuse_after_failure()
         if not 1 <= steps <= MOST_STEPS:
             raise SimulationError(f'A call cannot do {steps} steps. Give 1 to {MOST_STEPS}.')
@@ -260,7 +260,7 @@ class SimulatedWorld:
         self._host.tick_in_pause(periods, lambda: done.set_result(None))
         await done
         if self.has_failed:
-            raise SimulationError('The physics has failed meanwhile; see the log.')
+            raise SimulationError('The physics failed during the steps; see the log.')
         if self.backend.time_s < end_s:
             raise SimulationError('The steps were ended by another request.')
 

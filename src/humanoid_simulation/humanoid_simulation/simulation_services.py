@@ -68,9 +68,9 @@ FEATURES = tuple(
     ).split()
 )
 _ABOUT = (
-    'MuJoCo. Time never goes back. Steps of physics are rounded up to whole control periods. '
-    'Things can be made from a class, also with a colour (red mug), or from a rigid URDF of '
-    'boxes, cylinders and spheres.'
+    'MuJoCo. Time never goes back. Physics steps are rounded up to whole control periods. Objects '
+    'can be spawned from a class, also with a colour (red mug), or from a rigid URDF of boxes, '
+    'cylinders and spheres.'
 )
 _FEEDBACK_PERIODS = 10
 """Control periods between two feedback messages of the action SimulateSteps."""
@@ -156,7 +156,7 @@ class SimulationServices:
         if wanted == world.state and not world.is_stepping:
             raise RequestError(
                 SetSimulationState.Response.ALREADY_IN_TARGET_STATE,
-                f'The simulation is {world.state.name.lower()} already.',
+                f'The simulation is already {world.state.name.lower()}.',
             )
         if wanted == SimulationState.STATE_PLAYING and world.has_failed:
             raise RequestError(
@@ -179,7 +179,9 @@ class SimulationServices:
 
     def _quit(self) -> None:
         """Shut down the node once the response has been sent."""
-        self._node.get_logger().info('The simulator ends, as set_simulation_state asked')
+        self._node.get_logger().info(
+            'The simulator is shutting down, as requested through set_simulation_state'
+        )
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._node.create_timer(_QUIT_S, self._node.context.try_shutdown, clock=steady)
 
@@ -238,7 +240,7 @@ class SimulationServices:
         if self._world.state == State.PLAYING:
             raise RequestError(
                 Result.RESULT_INCORRECT_STATE,
-                'The simulation runs. Pause it before you step it.',
+                'The simulation is running. Pause it before stepping it.',
             )
         return self._world.periods_of(steps)
 
@@ -268,14 +270,15 @@ class SimulationServices:
         self._loaded = world
         response.world = _world_message(world)
         self._node.get_logger().info(
-            f"Loaded the world '{world.name}'; time stands still until set_simulation_state"
+            f"Loaded the world '{world.name}'; paused until set_simulation_state starts it"
         )
 
     def _unload(self, _: Any, __: Any) -> None:
         """Reject the request: robots need a floor."""
         raise RequestError(
             Result.RESULT_FEATURE_UNSUPPORTED,
-            "There is always a world here, for robots need a floor. Load the world 'flat'.",
+            "A world cannot be unloaded, because robots need a floor. Load the world 'flat' "
+            'instead.',
         )
 
     def _push(self, request: ApplyWrench.Request) -> str:
@@ -289,7 +292,7 @@ class SimulationServices:
             seconds(request.duration),
             vector(request.point),
         )
-        return 'The push begins.'
+        return 'The push starts.'
 
     def _stand_up(self, robot: str, _: Trigger.Request) -> str:
         """Lift a robot onto its feet; its walker takes over when it stands."""

@@ -25,25 +25,26 @@ class CameraParameters:
 
     camera_rate_hz: float = parameter(
         10.0,
-        'How many pictures each camera takes in a second of simulated time; 0 for no cameras.',
+        'How many images each camera takes per second of simulated time; 0 for no cameras.',
         at_least=0.0,
         at_most=100.0,
         read_only=True,
     )
     camera_width_px: int = parameter(
-        320, 'The width of the pictures.', at_least=16, at_most=1920, read_only=True
+        320, 'The width of the images.', at_least=16, at_most=1920, read_only=True
     )
     camera_height_px: int = parameter(
-        240, 'The height of the pictures.', at_least=16, at_most=1920, read_only=True
+        240, 'The height of the images.', at_least=16, at_most=1920, read_only=True
     )
     camera_frame: str = parameter(
         'camera_optical_frame',
-        'The frame of the pictures, without the prefix of the robot.',
+        'The frame of the images, without the prefix of the robot.',
         read_only=True,
     )
     camera_renderer: str = parameter(
         AUTO,
-        'What draws: OpenGL by egl or osmesa, or rays, without OpenGL; auto tries all three.',
+        'How images are rendered: egl or osmesa (OpenGL), or rays, without OpenGL; auto '
+        'tries all three.',
         choices=CHOICES,
         read_only=True,
     )
@@ -55,18 +56,18 @@ class LaserParameters:
 
     scan_rate_hz: float = parameter(
         10.0,
-        'How often scan is published while somebody subscribes; 0 is never.',
+        'How often scan is published while it has subscribers; 0 is never.',
         at_least=0.0,
         at_most=100.0,
     )
     scan_rays: int = parameter(
-        360, 'How many rays a sweep has, all round.', at_least=4, at_most=4096, read_only=True
+        360, 'The number of rays in a full sweep.', at_least=4, at_most=4096, read_only=True
     )
     scan_range_min_m: float = parameter(
-        0.1, 'The nearest that is measured.', at_least=0.0, at_most=0.9, read_only=True
+        0.1, 'The minimum range.', at_least=0.0, at_most=0.9, read_only=True
     )
     scan_range_max_m: float = parameter(
-        12.0, 'The farthest that is measured.', at_least=1.0, at_most=100.0, read_only=True
+        12.0, 'The maximum range.', at_least=1.0, at_most=100.0, read_only=True
     )
 
     @property
@@ -92,12 +93,12 @@ class NoiseParameters:
 
     sensor_noise: float = parameter(
         0.0,
-        'What all noise of sensors is multiplied by: 0 is none, 1 is what the others say.',
+        'Factor on all sensor noise: 0 is none, 1 is what the other parameters say.',
         at_least=0.0,
         at_most=100.0,
         read_only=True,
     )
-    seed: int = parameter(0, 'Of the noise.', at_least=0, at_most=2**31 - 1, read_only=True)
+    seed: int = parameter(0, 'Seed of the noise.', at_least=0, at_most=2**31 - 1, read_only=True)
     joint_position_noise_rad: float = _deviation(REALISTIC.position_rad, 'joint positions')
     joint_velocity_noise_rad_s: float = _deviation(REALISTIC.velocity_rad_s, 'joint velocities')
     joint_effort_noise_nm: float = _deviation(REALISTIC.effort_nm, 'joint efforts')
@@ -106,23 +107,23 @@ class NoiseParameters:
         REALISTIC.angular_velocity_rad_s, 'angular velocities'
     )
     imu_rate_bias_rad_s: float = _deviation(
-        REALISTIC.angular_velocity_bias_rad_s, 'the constant error of angular velocities'
+        REALISTIC.angular_velocity_bias_rad_s, 'the bias of angular velocities'
     )
     imu_acceleration_noise_m_s2: float = _deviation(REALISTIC.acceleration_m_s2, 'accelerations')
     imu_acceleration_bias_m_s2: float = _deviation(
-        REALISTIC.acceleration_bias_m_s2, 'the constant error of accelerations'
+        REALISTIC.acceleration_bias_m_s2, 'the bias of accelerations'
     )
     foot_force_noise_n: float = _deviation(REALISTIC.foot_force_n, 'the forces on the feet')
     foot_torque_noise_nm: float = _deviation(REALISTIC.foot_torque_nm, 'the torques on the feet')
 
-    camera_color_noise: float = _deviation(2.0, 'red, green and blue, of 255')
+    camera_color_noise: float = _deviation(2.0, 'red, green and blue, on a scale of 255')
     camera_depth_noise_m: float = _deviation(
-        0.002, 'depth at a distance of 1 m, and with the square of the distance'
+        0.002, 'depth at a distance of 1 m (it grows with the square of the distance)'
     )
     scan_range_noise_m: float = _deviation(0.01, 'the ranges of the laser scanner')
     scan_dropout_share: float = parameter(
         0.002,
-        'Share of rays of the laser scanner that bring nothing back, at sensor_noise 1.',
+        'Fraction of laser scanner rays without a return, at sensor_noise 1.',
         at_least=0.0,
         at_most=1.0,
         read_only=True,
@@ -174,21 +175,21 @@ class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, Noi
     )
     real_time_factor: float = parameter(
         1.0,
-        'How many seconds of the world pass in a real one; 0 is as fast as possible.',
+        'Seconds of simulated time per real second; 0 is as fast as possible.',
         at_least=0.0,
         at_most=100.0,
     )
     start_paused: bool = parameter(
         False,
-        'Wait at the start until set_simulation_state or step_simulation is called.',
+        'Start paused, until set_simulation_state or step_simulation is called.',
         read_only=True,
     )
     reset_keyframe: str = parameter(
-        'home', 'The posture, one of config/keyframes.yaml, in which robots begin after a reset.'
+        'home', 'The posture in which robots start after a reset, one of config/keyframes.yaml.'
     )
     physics_rate_hz: float = parameter(
         500.0,
-        'Physics steps in a second of the world; a multiple of control_rate_hz.',
+        'Physics steps per second of simulated time; a multiple of control_rate_hz.',
         at_least=100.0,
         at_most=5000.0,
         read_only=True,
@@ -200,31 +201,31 @@ class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, Noi
         read_only=True,
     )
     start_x_m: float = parameter(
-        0.0, 'Where the first robot begins.', at_least=-1000.0, at_most=1000.0, read_only=True
+        0.0, 'The initial x of the first robot.', at_least=-1000.0, at_most=1000.0, read_only=True
     )
     start_y_m: float = parameter(
-        0.0, 'Where the first robot begins.', at_least=-1000.0, at_most=1000.0, read_only=True
+        0.0, 'The initial y of the first robot.', at_least=-1000.0, at_most=1000.0, read_only=True
     )
     start_yaw_rad: float = parameter(
-        0.0, 'Where the robots look at first.', at_least=-7.0, at_most=7.0, read_only=True
+        0.0, 'The initial heading of the robots.', at_least=-7.0, at_most=7.0, read_only=True
     )
     spacing_m: float = parameter(
         1.0,
-        'How far to the left of each other several robots begin.',
+        'How far to the left of each other several robots start.',
         at_least=0.5,
         at_most=100.0,
         read_only=True,
     )
     latency_periods: int = parameter(
         0,
-        'How many control periods old the measurements are.',
+        'The age of the measurements, in control periods.',
         at_least=0,
         at_most=100,
         read_only=True,
     )
     extrapolation_s: float = parameter(
         0.03,
-        'For how long targets that are not renewed go on with their velocity.',
+        'How long targets that are not renewed are extrapolated at their velocity.',
         at_least=0.0,
         at_most=1.0,
         read_only=True,
@@ -268,14 +269,14 @@ class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, Noi
             raise ParameterError(
                 f"Parameter 'real_time_factor' is {self.real_time_factor:g}. Give "
                 f'{SLOWEST_FACTOR:g} or more, or 0 for as fast as possible; the service '
-                'set_simulation_state stops the time.',
+                'set_simulation_state pauses the simulation.',
                 'real_time_factor',
             )
         steps = self.physics_rate_hz / self.control_rate_hz
         if steps < 1.0 or abs(steps - round(steps)) > 1e-6:
             raise ParameterError(
-                f"Parameter 'physics_rate_hz' is {self.physics_rate_hz:g}, which is no multiple "
-                f"of 'control_rate_hz', {self.control_rate_hz:g}. Give a multiple.",
+                f"Parameter 'physics_rate_hz' is {self.physics_rate_hz:g}, which is not a "
+                f"multiple of 'control_rate_hz', {self.control_rate_hz:g}. Give a multiple.",
                 'physics_rate_hz',
                 'control_rate_hz',
             )

@@ -98,7 +98,7 @@ class Table:
     def __init__(self, values: Any, place: SourceLocation) -> None:
         if not isinstance(values, Mapping):
             what = place.key or 'the file'
-            raise place.error(f'{what} must be a table of names and values, but is {values!r}.')
+            raise place.error(f'{what} must be a mapping of names to values, but is {values!r}.')
         self._values = values
         self._lines: Mapping[str, int] = getattr(values, 'lines', {})
         self.place = place
@@ -137,9 +137,9 @@ class Table:
         """
         for name in self.names:
             if name not in names:
-                hint = did_you_mean(name, names) or f'What can be set: {", ".join(names)}.'
+                hint = did_you_mean(name, names) or f'Valid keys: {", ".join(names)}.'
                 raise self.at(name).error(
-                    f"{self.place.key or 'the file'} sets '{name}', which means nothing. {hint}"
+                    f"{self.place.key or 'the file'} has an unknown key '{name}'. {hint}"
                 )
 
     def number(self, name: str, default: float | None = None) -> float:
@@ -183,7 +183,7 @@ class Table:
         """
         value = self._value(name, default)
         if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise self._wrong(name, 'a whole number, not negative', value)
+            raise self._wrong(name, 'a whole number of zero or more', value)
         return value
 
     def vector(
@@ -237,7 +237,7 @@ class Table:
             or len(values) < least
             or not all(_is_vector(value, length) for value in values)
         ):
-            raise self._wrong(name, f'a list of {least} or more [x, y]', values)
+            raise self._wrong(name, f'a list of at least {least} points [x, y]', values)
         return tuple(tuple(float(number) for number in value) for value in values)
 
     def text(self, name: str, default: str | None = None) -> str:
@@ -259,7 +259,7 @@ class Table:
         """
         value = self._value(name, default)
         if not isinstance(value, str) or not (value or default == ''):
-            raise self._wrong(name, 'a text', value)
+            raise self._wrong(name, 'a string', value)
         return value
 
     def choice(self, name: str, choices: Sequence[str], default: str | None = None) -> str:
@@ -390,7 +390,7 @@ class Table:
         value = self._values.get(name, default)
         if value is None:
             raise self.place.error(
-                f"{self.place.key or 'the file'} does not set '{name}', which is needed."
+                f"{self.place.key or 'the file'} lacks the required key '{name}'."
             )
         return value
 
@@ -421,7 +421,7 @@ def load_table(path: Path) -> Table:
     except OSError as error:
         raise SimulationError(f'{path} cannot be read: {error.strerror}.') from error
     except UnicodeDecodeError as error:
-        raise TableError(f'{path} is no YAML file: {error}') from error
+        raise TableError(f'{path} is not a valid YAML file: {error}') from error
     return table_of(text, str(path))
 
 
@@ -448,7 +448,7 @@ def table_of(text: str, source: str) -> Table:
     try:
         content = read_lines(text)
     except (yaml.YAMLError, RecursionError) as error:
-        raise TableError(f'{source} is no YAML file: {error}') from error
+        raise TableError(f'{source} is not a valid YAML file: {error}') from error
     return Table(content, SourceLocation(source, 1))
 
 

@@ -30,7 +30,7 @@ def _construct_table(loader: _Loader, node: yaml.MappingNode) -> Any:
             raise yaml.constructor.ConstructorError(
                 None,
                 None,
-                f"'{key}' stands here and on line {table.lines[key]}: remove one of them",
+                f"duplicate key '{key}', also on line {table.lines[key]}: remove one of them",
                 key_node.start_mark,
             )
         table.lines[key] = key_node.start_mark.line + 1

@@ -32,18 +32,18 @@ def generate_launch_description() -> LaunchDescription:
                 'scene',
                 default_value='flat',
                 choices=SceneChoices(),
-                description='What is in the world besides the robot.',
+                description='The scene around the robot.',
             ),
             DeclareLaunchArgument(
                 'real_time_factor',
                 default_value='1.0',
-                description='Seconds of the world in a real one; 0 is as fast as possible.',
+                description='Seconds of simulated time per real second; 0 is as fast as possible.',
             ),
             DeclareLaunchArgument(
                 'start_paused',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Wait for the service set_simulation_state before any time passes.',
+                description='Start paused, until the service set_simulation_state is called.',
             ),
             DeclareLaunchArgument(
                 'scale', default_value='1.0', description='Size of the humanoid, 0.5 to 1.3.'
@@ -51,13 +51,13 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'prefix',
                 default_value='',
-                description='What the names of all links and joints begin with.',
+                description='Prefix of the names of all links and joints.',
             ),
             DeclareLaunchArgument(
                 'hands',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Give the arms wrists and grippers.',
+                description='Add wrists and grippers to the arms.',
             ),
             Node(
                 package='humanoid_simulation',

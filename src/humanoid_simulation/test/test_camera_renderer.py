@@ -63,7 +63,7 @@ def test_no_opengl(without_opengl: Path, caplog: pytest.LogCaptureFixture) -> No
         place.picture()
     (said,) = (record for record in caplog.records if record.name == place.log.name)
     assert said.levelno == logging.WARNING
-    for part in ('EGL: ', 'OSMesa: ', 'there is no OpenGL here', 'apt install', 'casting rays'):
+    for part in ('EGL: ', 'OSMesa: ', 'there is no OpenGL here', 'apt install', 'ray casting'):
         assert part in said.getMessage()
 
 
@@ -93,7 +93,7 @@ def test_killed(caplog: pytest.LogCaptureFixture) -> None:
         place.picture()
         kill(place)
         assert place.picture().colors[0].any()
-    assert 'interrupted: its process was ended by SIGKILL. The simulation goes on' in caplog.text
+    assert 'interrupted: its process was ended by SIGKILL. The simulation continues' in caplog.text
 
 
 def test_killed_while_it_draws() -> None:
@@ -173,7 +173,7 @@ def test_nothing_starts_before_it_is_needed() -> None:
     ('view', 'reason'),
     [
         (CameraView('eyes', 16, 16), "no camera 'eyes'. Did you mean 'eye'"),
-        (CameraView('eye', 16, 0), 'nothing to show'),
+        (CameraView('eye', 16, 0), 'pixels is empty'),
     ],
 )
 def test_refused(view: CameraView, reason: str) -> None:

@@ -62,7 +62,7 @@ def test_pushes_go_on_with_what_they_push(world: MujocoBackend) -> None:
 
 def test_a_scene_that_cannot_be_changes_nothing(world: MujocoBackend) -> None:
     """A name that is taken is refused, and the world goes on."""
-    with pytest.raises(SimulationError, match="a thing called 'robot'"):
+    with pytest.raises(SimulationError, match="an object named 'robot'"):
         world.change_scene(Scene('bad', things=(replace(BOX, name='robot'),)))
     assert world.scene is SCENE
     world.step({})

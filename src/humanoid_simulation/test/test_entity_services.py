@@ -104,8 +104,8 @@ def test_entities_are_found(home: WatchedSimulator) -> None:
 @pytest.mark.parametrize(
     ('filters', 'sentence'),
     [
-        ({'filter': '['}, 'is no regular expression'),
-        ({'bounds': Bounds(type=Bounds.TYPE_BOX)}, 'The bounds mean nothing'),
+        ({'filter': '['}, 'is not a valid regular expression'),
+        ({'bounds': Bounds(type=Bounds.TYPE_BOX)}, 'The bounds are not valid'),
         ({'bounds': Bounds(type=Bounds.TYPE_CONVEX_HULL)}, 'Give a box or a sphere'),
         (
             {'bounds': Bounds(type=1, points=[Vector3(x=math.nan), Vector3(x=1.0)])},
@@ -215,7 +215,7 @@ def test_things_come_and_go(ros: RosSandbox) -> None:
         (
             {'name': 'x', 'entity_namespace': 'a b'},
             SpawnEntity.Response.NAMESPACE_INVALID,
-            'no namespace',
+            'not a valid namespace',
         ),
         *(
             (
@@ -223,7 +223,7 @@ def test_things_come_and_go(ros: RosSandbox) -> None:
                 SpawnEntity.Response.INVALID_POSE,
                 sentence,
             )
-            for x_m, sentence in ((math.nan, 'finite'), (1e9, 'too large'))
+            for x_m, sentence in ((math.nan, 'finite'), (1e9, 'out of range'))
         ),
     ],
 )
@@ -240,7 +240,7 @@ def test_what_is_not_made(
 def test_what_stays_where_it_is(home: WatchedSimulator) -> None:
     """Robots are not deleted; what is fixed, and what is nowhere, is not put anywhere."""
     refused = call(home, DeleteEntity, entity='robot').result
-    assert 'robots stay' in refused.error_message
+    assert 'cannot be deleted' in refused.error_message
     refused = call(home, SetEntityState, entity='kitchen_table').result
     assert refused.result == SetEntityState.Response.INVALID_POSE
     request = SetEntityState.Request(entity='red_mug')
@@ -309,7 +309,7 @@ def test_worlds_are_loaded(ros: RosSandbox) -> None:
     assert bad.result == LoadWorld.Response.RESOURCE_PARSE_ERROR
     taken = 'things: [{name: robot, shape: box, size: [1, 1, 1], position: [5, 0, 1]}]'
     bad = call(simulator, LoadWorld, resource_string=taken).result
-    assert bad.result != OK and "a thing called 'robot'" in bad.error_message
+    assert bad.result != OK and "an object named 'robot'" in bad.error_message
     assert call(simulator, LoadWorld, uri='x.world').result.result == 101
     assert call(simulator, GetCurrentWorld).world.name == 'flat'
     simulator.run(0.2)

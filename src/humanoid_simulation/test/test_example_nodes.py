@@ -35,7 +35,7 @@ def test_the_square_is_walked(ros: RosSandbox) -> None:
         report = program.wait_for_exit()
     assert report.status == 0, report.output
     assert 'Corner 4 of 4' in report.output
-    assert 'Round. Closing error:' in report.output
+    assert 'Square completed. Closing error:' in report.output
     assert simulator.velocity == Twist()
 
 
@@ -60,7 +60,7 @@ def test_each_direction_is_pushed(ros: RosSandbox) -> None:
         report = program.wait_for_exit()
     assert report.status == 0, report.output
     for direction in ('forward', 'back', 'left', 'right'):
-        assert f'Stood, pushed {direction}: 10 N s' in report.output
+        assert f'Strongest push withstood, {direction}: 10 N s' in report.output
     force = simulator.pushes[0].wrench.force
     assert (force.x, force.y) == pytest.approx((50 * math.cos(0.5), 50 * math.sin(0.5)))
 
@@ -73,7 +73,9 @@ def test_a_refused_push_ends_the_test(ros: RosSandbox) -> None:
         ros.wait_until(lambda: program.has_ended, 30.0, 'the refusal')
         report = program.wait_for_exit()
     assert report.status == 1 and 'Traceback' not in report.output
-    assert 'The simulator refused: There are several robots: say which.' in report.output
+    assert (
+        'The simulator rejected the request: There are several robots: say which.' in report.output
+    )
 
 
 @pytest.mark.parametrize('name', ['walk_square', 'push_test'])
@@ -82,7 +84,7 @@ def test_without_a_simulator_it_says_so(ros: RosSandbox, name: str) -> None:
     with running_program(example(name)) as program:
         report = program.wait_for_exit(30.0)
     assert report.status == 1 and 'Traceback' not in report.output
-    assert 'either no simulator runs there, or it is paused' in report.output
+    assert 'either no simulator is running there, or it is paused' in report.output
 
 
 def test_pushes_that_make_no_sense_are_refused(ros: RosSandbox) -> None:

@@ -74,5 +74,5 @@ def test_a_robot_that_never_stands_is_given_up() -> None:
     """It is not waited for for ever."""
     series = PushSeries(PLAN)
     series.update(0.0, stands=False)
-    with pytest.raises(NeverStoodError, match='has not stood for 2 s within 20 s'):
+    with pytest.raises(NeverStoodError, match='has not stood still for 2 s within 20 s'):
         series.update(20.5, stands=False)

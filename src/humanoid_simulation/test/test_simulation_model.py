@@ -148,8 +148,8 @@ def test_a_link_may_weigh_more(description: RobotDescription) -> None:
 @pytest.mark.parametrize(
     ('change', 'sentence'),
     [
-        (lambda d: replace(d, urdf='<robot'), 'its URDF is no XML'),
-        (lambda d: replace(d, urdf='<robot><link/></robot>'), 'MuJoCo refuses its URDF'),
+        (lambda d: replace(d, urdf='<robot'), 'its URDF is not valid XML'),
+        (lambda d: replace(d, urdf='<robot><link/></robot>'), 'MuJoCo rejects its URDF'),
         (lambda d: replace(d, urdf=d.urdf.replace('imu_link', 'imulink')), "'imulink'?"),
         (lambda d: replace(d, drives={'left_kne': d.drives['left_knee']}), "'left_knee'?"),
     ],
@@ -165,7 +165,7 @@ def test_a_robot_that_cannot_be_simulated(description, change, sentence: str) ->
     ('placements', 'sentence'),
     [
         ((), 'There is no robot'),
-        ((Placement('a'), Placement('a')), "Two robots are called 'a'"),
+        ((Placement('a'), Placement('a')), "Two robots are named 'a'"),
         ((Placement('a'), Placement()), 'needs a name'),
         ((Placement(x_m=float('nan')),), 'is not finite'),
     ],
@@ -180,9 +180,9 @@ def test_robots_that_cannot_be_placed(description, placements, sentence: str) ->
 @pytest.mark.parametrize(
     ('options', 'sentence'),
     [
-        ({'period_s': 0.5}, '0.002 s is well tried'),
+        ({'period_s': 0.5}, '0.002 s is a good default'),
         ({'self_collision': 'arm'}, "Did you mean 'arms'?"),
-        ({'mass_factors': {'torso': 0.0}}, "The mass of link 'torso'"),
+        ({'mass_factors': {'torso': 0.0}}, "The mass factor of link 'torso'"),
     ],
 )
 def test_physics_that_cannot_be(options, sentence: str) -> None:

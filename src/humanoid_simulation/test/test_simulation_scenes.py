@@ -111,15 +111,15 @@ def test_the_friction_of_the_floor_decides(make_backend) -> None:
     [
         (
             'thing: []',
-            "mine.yaml, line 1: the file sets 'thing', which means nothing. Did you mean 'things'",
+            "mine.yaml, line 1: the file has an unknown key 'thing'. Did you mean 'things'",
         ),
-        ('floor: 3', 'mine.yaml, line 1: floor must be a table'),
+        ('floor: 3', 'mine.yaml, line 1: floor must be a mapping'),
         ('floor: {friction: nan}', None),
         ('floor: {friction: .nan}', 'mine.yaml, line 1: floor.friction must be a finite number'),
         ('floor: {friction: -1}', 'cannot have a friction of -1'),
         ('floor: {tile: 0}', 'tiles of 0 m'),
         ('things: {}', 'mine.yaml, line 1: things must be a list'),
-        ('things: [{name: a}]', "mine.yaml, line 1: things[0] does not set 'shape'"),
+        ('things: [{name: a}]', "mine.yaml, line 1: things[0] lacks the required key 'shape'"),
         (
             'things: [{name: a, shape: bal, size: [1], position: [0, 0, 0]}]',
             'mine.yaml, line 1: things[0].shape must be one of box, sphere, cylinder',
@@ -131,7 +131,7 @@ def test_the_friction_of_the_floor_decides(make_backend) -> None:
         ('things: [{name: a, shape: sphere, size: [0], position: [0, 0, 0]}]', 'above zero'),
         ('things: [{name: floor, shape: sphere, size: [1], position: [0, 0, 0]}]', "'floor'"),
         ('things: [{name: world, shape: sphere, size: [1], position: [0, 0, 0]}]', "'world'"),
-        ('things: [{nam: a}]', "things[0] sets 'nam', which means nothing. Did you mean 'name'"),
+        ('things: [{nam: a}]', "things[0] has an unknown key 'nam'. Did you mean 'name'"),
         ('ramps: [{name: r, start: [0, 0], slope_deg: 60, length: 1, width: 1}]', '60 degrees'),
         ('ramps: [{name: r, start: [0, 0], slope_deg: 5, length: 0, width: 1}]', 'above zero'),
         (
@@ -142,9 +142,9 @@ def test_the_friction_of_the_floor_decides(make_backend) -> None:
             'plates: [{name: p, from: [0, 0], to: [1, 1], edge: [1.0e-320, 0.1], height: 0.02}]',
             'room for 1 to 2000 plates',
         ),
-        ('plates: [{name: p, seed: -1}]', 'seed must be a whole number, not negative'),
-        ('a: [', 'is no YAML file'),
-        ('- 1', 'must be a table of names and values'),
+        ('plates: [{name: p, seed: -1}]', 'seed must be a whole number of zero or more'),
+        ('a: [', 'is not a valid YAML file'),
+        ('- 1', 'must be a mapping of names to values'),
     ],
 )
 def test_mistakes_in_a_scene_file(tmp_path: Path, text: str, sentence: str | None) -> None:
@@ -167,7 +167,7 @@ def test_a_scene_that_is_not_there(tmp_path: Path) -> None:
 def test_names_must_differ() -> None:
     """Two things of one name could not be told apart."""
     ball = Thing('ball', 'sphere', (0.1,))
-    with pytest.raises(SimulationError, match="a thing 'ball'"):
+    with pytest.raises(SimulationError, match="an object 'ball'"):
         Scene('two', things=(ball, ball))
 
 
@@ -176,5 +176,7 @@ def test_robots_and_things_must_differ(make_backend, robot: str) -> None:
     """A thing that is called like a robot would be mistaken for it."""
     name = robot or 'robot'
     scene = Scene('one', things=(Thing(name, 'sphere', (0.1,), mass_kg=1.0),))
-    with pytest.raises(SimulationError, match=f"a thing called '{name}', as a robot is"):
+    with pytest.raises(
+        SimulationError, match=f"an object named '{name}', which is also the name of a robot"
+    ):
         make_backend(scene=scene, placements=[Placement(robot)])

@@ -98,9 +98,9 @@ def test_an_entity_goes_where_it_is_put(world: MujocoBackend) -> None:
     ('entity', 'position', 'orientation', 'sentence'),
     [
         ('bal', (0, 0, 1), LEVEL, "Did you mean 'ball'"),
-        ('wall', (0, 0, 1), LEVEL, "no entity that can be moved 'wall'"),
+        ('wall', (0, 0, 1), LEVEL, "no movable entity 'wall'"),
         ('ball', (0, 0, float('nan')), LEVEL, 'must be 3 finite numbers'),
-        ('ball', (0, 0, 1), np.zeros(4), 'is no rotation'),
+        ('ball', (0, 0, 1), np.zeros(4), 'is not a rotation'),
     ],
 )
 def test_states_that_are_refused(world, entity: str, position, orientation, sentence) -> None:

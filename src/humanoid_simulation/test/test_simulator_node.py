@@ -178,7 +178,7 @@ def test_a_pause_outlasts_a_failure(ros: RosSandbox) -> None:
     """Physics that fails while it is stepped is still paused after the reset."""
     watch = WatchedSimulator(ros, start_paused=True)
     watch.ask(ApplyWrench, 'simulator/apply_wrench', **wrench(x=1e15))
-    assert 'failed meanwhile' in watch.step(500)
+    assert 'failed during the steps' in watch.step(500)
     assert 'has failed' in watch.put('', 0.0, 0.0, 1.0)
     assert not watch.ask(Trigger, 'stand_up').success
     assert not watch.reset()
@@ -228,7 +228,7 @@ def test_a_start_that_fails_says_why(ros: RosSandbox, parameters, sentence: str)
 
 def test_rates_that_do_not_fit_are_refused(ros: RosSandbox) -> None:
     """A control period is a whole number of physics steps."""
-    with pytest.raises(ParameterError, match='no multiple'):
+    with pytest.raises(ParameterError, match='not a multiple'):
         WatchedSimulator(ros, physics_rate_hz=500.0, control_rate_hz=150.0)
 
 

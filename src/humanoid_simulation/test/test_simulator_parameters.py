@@ -30,8 +30,8 @@ def test_a_period_has_whole_steps(physics_hz: float, control_hz: float, steps: i
 @pytest.mark.parametrize(
     ('values', 'sentence'),
     [
-        ({'physics_rate_hz': 500.0, 'control_rate_hz': 150.0}, 'no multiple'),
-        ({'physics_rate_hz': 100.0, 'control_rate_hz': 200.0}, 'no multiple'),
+        ({'physics_rate_hz': 500.0, 'control_rate_hz': 150.0}, 'not a multiple'),
+        ({'physics_rate_hz': 100.0, 'control_rate_hz': 200.0}, 'not a multiple'),
         ({'robots': ('a', 'a')}, 'more than once'),
         ({'self_collision': 'legs'}, 'self_collision'),
         ({'real_time_factor': -1.0}, 'real_time_factor'),

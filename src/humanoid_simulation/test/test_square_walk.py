@@ -48,9 +48,9 @@ def test_each_corner_and_the_end_are_told() -> None:
     run = Run()
     assert [text.partition(':')[0] for text in run.news] == [
         *(f'Corner {number} of 4' for number in (1, 2, 3, 4)),
-        'Round. Closing error',
+        'Square completed. Closing error',
     ]
-    assert run.news[0].startswith('Corner 1 of 4: (0.97, 0.00) m, 3 cm from where it is')
+    assert run.news[0].startswith('Corner 1 of 4: (0.97, 0.00) m, 3 cm off')
     assert 'on ground truth' in run.news[-1] and 'by odometry' in run.news[-1]
     assert run.last.command == STANDING
 
@@ -66,7 +66,9 @@ def test_a_robot_that_does_not_get_on_is_given_up() -> None:
     """Four times the planned time is enough."""
     walk = SquareWalk(SquarePlan(), 0.0, PlanarPose(), PlanarPose())
     walk.update(100.0, PlanarPose(), PlanarPose(), stands=True)
-    with pytest.raises(NotRoundError, match='has not come round in 4 times the planned time'):
+    with pytest.raises(
+        NotRoundError, match='has not completed the square in 4 times the planned time'
+    ):
         walk.update(200.0, PlanarPose(), PlanarPose(), stands=True)
 
 

@@ -113,17 +113,17 @@ def test_names_that_are_not_there_get_a_hint(apartment: Scene) -> None:
     [
         ('kind: table', 'kind: tabel', 'line 4: furniture[0].kind must be one of'),
         ('kind: table', 'kind: tabel', "Did you mean 'table'"),
-        ('class: mug', 'clas: mug', "line 6: objects[0] sets 'clas', which means nothing"),
+        ('class: mug', 'clas: mug', "line 6: objects[0] has an unknown key 'clas'"),
         ('colour: red', 'colour: rad', "but is 'rad'. Did you mean 'red'"),
-        ('colour: red', 'colour: [1, 0, 2]', 'line 6: objects[0].colour must have parts from 0'),
-        ('at: [0.2, 0.3]', 'at: [0.4, 0.3]', "line 6: 'mug' would stand beside 'table'"),
+        ('colour: red', 'colour: [1, 0, 2]', 'line 6: objects[0].colour must have components'),
+        ('at: [0.2, 0.3]', 'at: [0.4, 0.3]', "line 6: 'mug' would not stand on 'table'"),
         ('stands_on: table', 'stands_on: tabel', "no surface 'tabel'. Did you mean 'table'"),
         ('surface: table', 'surface: bed', "line 8: there is no surface 'bed'"),
-        ('stand: [0.0, 0.5]', 'stand: [5, 0]', "line 8: place 'table' is in none of the rooms"),
-        ('name: mug', 'name: table', "line 6: 'table' is the name of the thing on line 4"),
+        ('stand: [0.0, 0.5]', 'stand: [5, 0]', "line 8: place 'table' is not in any room"),
+        ('name: mug', 'name: table', "line 6: the name 'table' is already used on line 4"),
         ('[[-2, -2], [2, -2], [2, 2], [-2, 2]]', '[[0, 0], [1, 0]]', 'line 2: rooms[0].outline'),
         ('[[-2, -2], [2, -2], [2, 2], [-2, 2]]', '[[0, 0], [1, 0], [2, 0]]', 'on one line'),
-        ('facing_deg: 90, size', 'at: [0, 0], size', "'at' stands here and on line 4"),
+        ('facing_deg: 90, size', 'at: [0, 0], size', "duplicate key 'at', also on line 4"),
         ('size: [0.6, 1.0, 0.7]', 'size: [0.6, 0, 0.7]', 'line 4: '),
     ],
 )
@@ -137,7 +137,7 @@ def test_mistakes_in_a_home(tmp_path: Path, old: str, new: str, sentence: str) -
 
 def test_two_rooms_or_places_of_one_name(tmp_path: Path) -> None:
     """They could not be told apart."""
-    with pytest.raises(SimulationError, match="two places called 'table'"):
+    with pytest.raises(SimulationError, match="two places named 'table'"):
         read(tmp_path, HOME + '  - {name: table, stand: [0, 0]}\n')
 
 

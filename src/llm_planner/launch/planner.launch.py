@@ -10,7 +10,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 ARGUMENTS = (
-    ('skills_file', '', 'What the robot can be asked for; empty for the file of this package.'),
+    ('skills_file', '', 'The file of skills; empty for the one of this package.'),
     (
         'places_file',
         '',
@@ -19,9 +19,9 @@ ARGUMENTS = (
     (
         'llm_base_url',
         'http://127.0.0.1:11434/v1',
-        'Where the interface of a server of language models begins.',
+        'The base URL of a language model server.',
     ),
-    ('llm_model', '', 'The model to ask; empty for the only one that the server has.'),
+    ('llm_model', '', 'The model to use; may be empty if the server has only one.'),
     ('namespace', '', 'The namespace of the robot.'),
     ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
 )
@@ -52,7 +52,7 @@ def generate_launch_description() -> LaunchDescription:
                 'confirm',
                 default_value='never',
                 choices=['never', 'motion', 'always'],
-                description='Which plans are asked about before they are done.',
+                description='Which plans have to be confirmed by a person.',
             ),
             _node('task_planner', {name: LaunchConfiguration(each) for name, each in PLANNER}),
             _node('skill_executor', {}),

@@ -134,7 +134,9 @@ class Actions:
         side = self._free_arm('right') if arm == 'free' else arm
         held = self._watch.held_by(side)
         if held:
-            raise SkillError(f'My {side} hand holds the {held}: I do not wave it.', is_final=True)
+            raise SkillError(
+                f'I cannot wave: my {side} hand is holding the {held}.', is_final=True
+            )
         yield from self._move_arm(side, [_UP, _OUT, _UP, _OUT, _UP, _DOWN])
 
     def _point_at(self, target: Any) -> SkillRun:
@@ -159,7 +161,7 @@ class Actions:
         other = 'left' if preferred == 'right' else 'right'
         free = [side for side in (preferred, other) if not self._watch.held_by(side)]
         if not free:
-            raise SkillError('Both my hands hold something.', is_final=True)
+            raise SkillError('Both my hands are full.', is_final=True)
         return free[0]
 
     def _move_arm(self, side: str, postures: Sequence[Sequence[float]]) -> SkillRun:

@@ -78,7 +78,7 @@ class ExecutorClient:
         try:
             answer = await self._end_of(sent)
         except _ExecutorLostError as error:
-            self._node.get_logger().warning(f'{plan.command!r} is given up. {error}')
+            self._node.get_logger().warning(f'Giving up on {plan.command!r}. {error}')
             return None
         if answer is None:
             return None
@@ -150,7 +150,7 @@ class ExecutorClient:
             return
         before, self._run = self._run, run
         if before and before != run:  # the new one announces the interruption
-            self._lose('The skill executor was started anew.')
+            self._lose('The skill executor was restarted.')
 
     def _look_for_executor(self) -> None:
         """Detect that the executor has ended, or does not respond."""
@@ -158,8 +158,8 @@ class ExecutorClient:
             self._unanswered[answered] -= 1
             if self._unanswered[answered] < 0 and not answered.done():
                 answered.set_result(False)
-        if not self.is_ready and self._lose('The skill executor has ended.'):
-            self._say('I cannot go on, as the skill executor has ended.')
+        if not self.is_ready and self._lose('The skill executor has exited.'):
+            self._say('I cannot continue, as the skill executor has exited.')
 
     def _lose(self, reason: str) -> bool:
         """Fail all waits for an executor that has ended; return whether there were any."""

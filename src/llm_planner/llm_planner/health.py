@@ -82,10 +82,10 @@ class PlannerHealth:
             message = 'The skill executor is not running: nothing can be done.'
             return PartStatus('planner', message, Level.WARN, values)
         if self.error and now_s - self.error_at_s < _REMEMBERED_S:
-            message = f'The rules plan, as the language model failed. {self.error}'
+            message = f'Planning with the rules, as the language model failed. {self.error}'
             return PartStatus('planner', message, Level.WARN, values)
         maker = 'a language model' if self.server else 'rules'
-        return PartStatus('planner', f'Plans by {maker}', values=values)
+        return PartStatus('planner', f'Planning with {maker}', values=values)
 
 
 def skills_status(missing: Mapping[str, str], implemented: Collection[str]) -> PartStatus:
@@ -102,7 +102,7 @@ def skills_status(missing: Mapping[str, str], implemented: Collection[str]) -> P
     """
     lacking = sorted({*missing} & {*implemented})
     if not lacking:
-        return PartStatus('skills', 'All that can be done is available', values=missing)
+        return PartStatus('skills', 'All implemented skills are available', values=missing)
     names = ', '.join(lacking)
     return PartStatus('skills', f'Not available now: {names}', Level.WARN, missing)
 
@@ -120,5 +120,5 @@ def work_status(command: str, step: str, failure: str) -> PartStatus:
 
     """
     values = {'command': command[:_LONGEST] or 'none', 'last failure': failure or 'none'}
-    message = f'Doing: {step or "looks at the plan"}' if command else 'Waits for a plan'
+    message = f'Doing: {step or "checking the plan"}' if command else 'Waiting for a plan'
     return PartStatus('plan', message[:_LONGEST], values=values)

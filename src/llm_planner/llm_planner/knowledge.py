@@ -22,7 +22,7 @@ class KnowledgeParameters:
     """The parameters that both nodes share."""
 
     skills_file: str = parameter(
-        '', 'What the robot can be asked for; empty for the file of this package.', read_only=True
+        '', 'The file of skills; empty for the one of llm_planner.', read_only=True
     )
     places_file: str = parameter(
         '',

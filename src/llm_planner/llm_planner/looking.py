@@ -62,7 +62,7 @@ class Looking:
         position_m = self._recall.position(target)
         what = in_words(target) if isinstance(target, str) else target.text
         yield from self._walking.face(position_m)
-        yield from self._look(position_m, f'I cannot turn my head so that I see {what} from here.')
+        yield from self._look(position_m, f'I cannot turn my head far enough to see {what}.')
 
     def _look(self, position_m: tuple[float, float, float], otherwise: str = '') -> SkillRun:
         goal = PointHead.Goal()

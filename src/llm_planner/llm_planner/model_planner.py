@@ -113,11 +113,11 @@ class ModelPlanner:
                 reason = str(error)
                 messages += [
                     {'role': 'assistant', 'content': answer[:4000]},
-                    {'role': 'user', 'content': f'This cannot be used: {reason} Answer anew.'},
+                    {'role': 'user', 'content': f'This cannot be used: {reason} Answer again.'},
                 ]
                 continue
             return plan
-        raise ModelError(f'The model made no plan that can be used. {reason}')
+        raise ModelError(f'The model returned no usable plan. {reason}')
 
     def _facts(self, world: World) -> str:
         """Serialise the skills and the state of the world for the model, as JSON."""
@@ -238,7 +238,7 @@ def _step(told: Any, skills: Skills) -> Step:
     skill = skills.skills.get(told['skill'])
     given = told.get('arguments') or {}
     if not isinstance(given, dict):
-        raise PlanError(f'The arguments of {told["skill"]} are no object.')
+        raise PlanError(f'The arguments of {told["skill"]} are not a JSON object.')
     known: Mapping[str, Argument] = skill.arguments if isinstance(skill, Skill) else {}
     arguments = {
         str(name): _value(value, known[name]) if name in known else value
@@ -252,7 +252,7 @@ def _value(value: Any, argument: Argument) -> Any:
     if isinstance(value, dict) and argument.kind in ('object', 'objects', 'target'):
         fields = {key: value.get(key) or '' for key in ('class', 'colour', 'which', 'place', 'id')}
         if not all(isinstance(each, str) for each in fields.values()):
-            raise PlanError(f'The description of {argument.name} has something that is no text.')
+            raise PlanError(f'The description of {argument.name} has a value that is not text.')
         return ObjectDescription(
             fields['class'] or ANYTHING,
             fields['colour'],

@@ -108,8 +108,8 @@ class ModelServer:
         if not names:
             raise ModelError(f'The server at {self._url} has no models: load one there.')
         raise ModelError(
-            f'The server at {self._url} has several models: {_some(names)}. Say which one to ask '
-            'by the parameter model.'
+            f'The server at {self._url} has several models: {_some(names)}. Choose one with '
+            'the parameter model.'
         )
 
     def _models(self, deadline_s: float) -> list[str]:
@@ -119,7 +119,7 @@ class ModelServer:
             names = [str(each['id']) for each in json.loads(text)['data']]
         except (ValueError, KeyError, TypeError):
             raise ModelError(
-                f'What answers at {self._url} is no server of models. Is the parameter base_url '
+                f'The server at {self._url} does not list any models. Is the parameter base_url '
                 'right? It often ends in /v1.'
             ) from None
         return names
@@ -141,9 +141,11 @@ class ModelServer:
                 'environment of the planner.'
             )
         if status == 429:
-            raise ModelError(f'The server at {self._url} is asked too often, or is not paid.')
+            raise ModelError(
+                f'The server at {self._url} rejected the request: too many requests, or no credit.'
+            )
         if status >= 300:
-            raise ModelError(f'The server at {self._url} failed with the status {status}.')
+            raise ModelError(f'The server at {self._url} failed with status {status}.')
 
     def _request(
         self, method: str, path: str, deadline_s: float, body: Any = None
@@ -162,7 +164,7 @@ class ModelServer:
                 for part in response.iter_bytes():
                     received += part
                     if len(received) > _LARGEST:
-                        raise ModelError(f'The answer of {self._url} is endless.')
+                        raise ModelError(f'The answer of {self._url} is too long.')
                     if time.monotonic() > deadline_s:  # the response trickles in
                         raise late
                 return response.status_code, received.decode(errors='replace')
@@ -190,10 +192,10 @@ def _content(text: str) -> str:
         message = json.loads(text)['choices'][0]['message']
         content = message['content']
     except (ValueError, KeyError, IndexError, TypeError, RecursionError):
-        raise ModelError('The server answered something that is no answer of a model.') from None
+        raise ModelError('The answer of the server is not a chat completion.') from None
     if not isinstance(content, str) or not content.strip():
         refusal = message.get('refusal') if isinstance(message, dict) else None
-        raise ModelError(str(refusal)[:200] if refusal else 'The model answered nothing.')
+        raise ModelError(str(refusal)[:200] if refusal else 'The answer of the model is empty.')
     return content
 
 

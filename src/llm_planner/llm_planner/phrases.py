@@ -135,7 +135,7 @@ def parse_phrase(text: str) -> Phrase:
     tokens = _TOKEN.findall(text)
     phrase, end = _alternatives(tokens, 0, text)
     if end != len(tokens):
-        raise GrammarError(f"The phrase '{text}' has a '{tokens[end]}' too many.")
+        raise GrammarError(f"The phrase '{text}' has an unmatched '{tokens[end]}'.")
     return phrase
 
 
@@ -156,7 +156,7 @@ def _sequence(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
         if token in '[(':
             inner, at = _alternatives(tokens, at + 1, text)
             if at >= len(tokens) or tokens[at] != {'[': ']', '(': ')'}[token]:
-                raise GrammarError(f"The phrase '{text}' has a '{token}' that nothing closes.")
+                raise GrammarError(f"The phrase '{text}' has a '{token}' that is not closed.")
             parts.append(Option(inner) if token == '[' else inner)
         elif token[0] == '{':
             parts.append(Slot(token[1:-1], token[1:-1]))
@@ -164,5 +164,5 @@ def _sequence(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
             parts.append(Word(token))
         at += 1
     if not parts:
-        raise GrammarError(f"The phrase '{text}' has an alternative in which nothing is said.")
+        raise GrammarError(f"The phrase '{text}' has an empty alternative.")
     return (parts[0] if len(parts) == 1 else Series(tuple(parts))), at

@@ -97,7 +97,9 @@ def check(plan: Plan, skills: Skills, world: World) -> None:
         if 'standing' in skill.needs and world.inhibition:
             raise UnavailableError(world.inhibition)
         if 'holding' in skill.needs and not is_holding:
-            raise PlanError(f'I cannot {words_for(step, skill)}: I would hold nothing by then.')
+            raise PlanError(
+                f'I cannot {words_for(step, skill)}: I would not be holding anything by then.'
+            )
         if 'empty_hand' in skill.needs and is_holding:
             raise PlanError(f'I cannot {words_for(step, skill)}: my hand would not be empty.')
         is_holding = (is_holding or 'holding' in skill.leaves) and 'empty_hand' not in skill.leaves
@@ -106,7 +108,7 @@ def check(plan: Plan, skills: Skills, world: World) -> None:
 def _check_arguments(step: Step, skill: Skill, skills: Skills, world: World) -> None:
     for name in step.arguments:
         if name not in skill.arguments:
-            raise PlanError(f"{skill.name} has no '{shortened(name)}'.")
+            raise PlanError(f"{skill.name} has no argument '{shortened(name)}'.")
     for argument in skill.arguments.values():
         value = step.arguments.get(argument.name, argument.default)
         if value is None:
@@ -119,7 +121,7 @@ def _check_value(value: Any, argument: Argument, skills: Skills, world: World) -
     """Validate the value of an argument."""
     if isinstance(value, ObjectDescription):
         if argument.kind not in ('object', 'objects', 'target'):
-            raise PlanError(f'{argument.name} is no object, but {argument.kind}.')
+            raise PlanError(f'{argument.name} has to be of type {argument.kind}, not an object.')
         _check_object(value, skills, world)
     elif argument.kind in ('object', 'objects'):
         raise PlanError(f'{argument.name} has to be an object, such as a red mug.')
@@ -128,8 +130,8 @@ def _check_value(value: Any, argument: Argument, skills: Skills, world: World) -
             raise PlanError(f'{argument.name} has to be a number of {argument.unit}.')
         if not math.isfinite(value) or not argument.at_least <= value <= argument.at_most:
             raise PlanError(
-                f'{value:g} {argument.unit} is out of my range: it is from '
-                f'{argument.at_least:g} to {argument.at_most:g} {argument.unit}.'
+                f'{value:g} {argument.unit} is out of my range of {argument.at_least:g} to '
+                f'{argument.at_most:g} {argument.unit}.'
             )
     elif argument.kind == 'choice':
         if not isinstance(value, str) or value not in argument.values:
@@ -140,10 +142,10 @@ def _check_value(value: Any, argument: Argument, skills: Skills, world: World) -
         for place in value:
             _check_place(place, world)
     elif not isinstance(value, str):
-        raise PlanError(f'{argument.name} has to be a text.')
+        raise PlanError(f'{argument.name} has to be a string.')
     elif argument.kind == 'text':
         if len(value) > _LONGEST_TEXT:
-            raise PlanError(f'{argument.name} is longer than {_LONGEST_TEXT} letters.')
+            raise PlanError(f'{argument.name} is longer than {_LONGEST_TEXT} characters.')
     elif value or argument.default is None:
         _check_place(value, world)
 
@@ -158,24 +160,26 @@ def _check_object(value: ObjectDescription, skills: Skills, world: World) -> Non
         known = skills.vocabulary.get(name, {})
         if given and given not in known:
             hint = did_you_mean(given, known) or f'I know {listed(list(known))}.'
-            raise PlanError(f"I know no {name} '{shortened(given)}'. {hint}")
+            raise PlanError(f"Unknown {name} '{shortened(given)}'. {hint}")
     if value.place:
         _check_place(value.place, world)
     ids = {each.object_id for each in world.things}
     if value.object_id and value.object_id not in ids:
-        raise PlanError(f"I remember nothing called '{shortened(value.object_id)}'.")
+        raise PlanError(f"I do not remember anything called '{shortened(value.object_id)}'.")
 
 
 def _check_place(place: Any, world: World) -> None:
     if place in world.place_names:
         return
     if not world.place_names:
-        raise PlanError('I know no places: start me with a file of named places (places_file).')
+        raise PlanError(
+            'I do not know any places: start me with a file of named places (places_file).'
+        )
     name = shortened(str(place))
     hint = did_you_mean(name, world.place_names) or (
         f'I know {listed([in_words(each) for each in world.place_names])}.'
     )
-    raise PlanError(f"I know no place called '{in_words(name)}'. {hint}")
+    raise PlanError(f"I do not know a place called '{in_words(name)}'. {hint}")
 
 
 def moves(step: Step, skills: Skills) -> bool:

@@ -101,7 +101,7 @@ def _value(text: str, argument: Argument, planner: RulePlanner, world: World) ->
         try:
             return float(text)
         except ValueError:
-            raise PlanError(f"{argument.name} is '{text[:40]}', and no number.") from None
+            raise PlanError(f"{argument.name} is '{text[:40]}', which is not a number.") from None
     if argument.kind == 'places':
         return tuple(each.strip() for each in text.split(','))
     is_object = argument.kind in ('object', 'objects') or (

@@ -143,7 +143,7 @@ class _Condition(Behaviour):
     """Guard that fails as soon as the step is inhibited."""
 
     def __init__(self, inhibition: Callable[[], str], progress: Progress) -> None:
-        super().__init__('nothing hinders')
+        super().__init__('not inhibited')
         self._inhibition, self._progress = inhibition, progress
 
     def update(self) -> Status:

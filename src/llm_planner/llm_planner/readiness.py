@@ -21,7 +21,7 @@ from std_srvs.srv import Trigger
 __all__ = ['BACK', 'INTERRUPTED', 'Patience', 'Readiness']
 
 BACK = 'I am back.'
-INTERRUPTED = 'I was interrupted, and have stopped. Please tell me again what I am to do.'
+INTERRUPTED = 'I was interrupted, and have stopped. Please tell me again what to do.'
 LOST = 'I do not know where I am.'
 STARTING = 'Navigation is still starting.'
 UNPLANNED = 'I cannot plan, as the task planner is not running.'

@@ -135,7 +135,7 @@ class Reading:
         if 'pronoun' in said:
             if self.last_object is not None:
                 return self.last_object
-            raise PlanError('I do not know what you mean by "it": name the thing.')
+            raise PlanError('I do not know what you mean by "it": please name the object.')
         return self._described(said, said.get('class', ''), said.get('article') != 'indefinite')
 
     def _described(

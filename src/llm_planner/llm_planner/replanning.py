@@ -76,13 +76,16 @@ def remedy_for(steps: Sequence[Step], failed: int, skills: Skills, world: World)
         return _search(steps, failed, wanted, skills, world)
     if step.skill in _WALKING:
         if 'look_around' in world.missing or 'look_around' not in skills.skills:
-            before, text = Step('wait', {'duration': _WAIT_S}), 'I wait a moment and try again.'
+            before, text = (
+                Step('wait', {'duration': _WAIT_S}),
+                'I will wait a moment and try again.',
+            )
         else:
-            before, text = Step('look_around'), 'I look around and try again.'
+            before, text = Step('look_around'), 'I will look around and try again.'
         return Remedy((before, step, *rest), text)
     if step.skill == 'pick':
         closer = Step('go_to', {'target': wanted})
-        return Remedy((closer, step, *rest), 'I walk up to it anew and try again.')
+        return Remedy((closer, step, *rest), 'I will walk up to it again and retry.')
     return None
 
 
@@ -237,7 +240,7 @@ class ReplanningState:
             steps = steps[count:]  # completed steps are not repeated
         if not steps or not self._may_be_done(steps, world):
             return None
-        text = f'I try something else: {listed(self._in_words(steps))}.'
+        text = f'I will try something else: {listed(self._in_words(steps))}.'
         return Remedy(steps, text, plan.source)
 
     def take(self, remedy: Remedy) -> Plan:

@@ -139,7 +139,7 @@ class RobotInterface:
             if sent.result().accepted:
                 return sent
             if self._is_over(begin):
-                raise SkillError(f"'{name}' has refused it; the log of the robot says why.")
+                raise SkillError(f"'{name}' rejected the goal; the log of the robot says why.")
             for _ in range(_LOOK_TICKS):
                 yield
 
@@ -152,7 +152,7 @@ class RobotInterface:
                 return
             yield
             if tick % _LOOK_TICKS == 0 and not self._servers(name) <= servers:
-                raise SkillError(f"'{name}' ended in the middle of it, and has begun anew.")
+                raise SkillError(f"'{name}' ended in the middle of it, and was restarted.")
             if not client.server_is_ready():
                 yield from self._patiently(
                     client.server_is_ready, f"'{name}' ended in the middle of it."

@@ -64,7 +64,7 @@ class RulePlanner:
 
         """
         if len(text) > _LONGEST:
-            return Refusal(f'That is too long for me: say it in at most {_LONGEST} letters.')
+            return Refusal(f'That is too long for me: say it in at most {_LONGEST} characters.')
         tokens = tokenized(text)
         if not tokens:
             return Refusal('I heard no words. Say, for instance, "go to the kitchen".')
@@ -73,7 +73,7 @@ class RulePlanner:
         if question is None or answer is None or question.is_yes_or_no:
             dialogue.chosen.clear()
         if question is not None and answer == 'no':
-            return Refusal('All right, I leave it.')
+            return Refusal('All right, I will leave it.')
         if question is not None and answer is not None:
             if isinstance(question.subject, Plan):
                 return self._confirmed(question.subject, world)
@@ -296,8 +296,8 @@ def _refuse_unknown_names(
             continue
         elif name == 'place':
             rooms = [in_words(each) for each in (*world.rooms, *world.places)]
-            known = f'I know {listed(rooms)}.' if rooms else 'I know no places at all.'
-            raise PlanError(f'I know no place called "{shortened(value)}". {known}')
+            known = f'I know {listed(rooms)}.' if rooms else 'I do not know any places.'
+            raise PlanError(f'I do not know a place called "{shortened(value)}". {known}')
         else:
             known = listed(sorted({*grammar.lists['class'].values()} - {ANYTHING}))
             raise PlanError(

@@ -107,7 +107,7 @@ def _skills(table: Any) -> Skills:
     parts = (part for phrase in rules.values() for part in part_of(phrase))
     slots = {part.rule for part in parts if isinstance(part, Slot)}
     for slot in sorted(slots - {*rules, *vocabulary}):
-        raise SkillsError(f"a rule has the slot '{slot}', which stands for nothing.")
+        raise SkillsError(f"a rule has the slot '{slot}', which is not defined.")
     return found
 
 
@@ -157,10 +157,10 @@ def _argument(name: str, entry: Any, of: str) -> Argument:
         raise SkillsError(f'{what} has the type {kind!r}. Give one of {", ".join(TYPES)}.')
     values = _words(table['values'], what) if kind == 'choice' and 'values' in table else {}
     if (kind == 'choice') != bool(values):
-        raise SkillsError(f'{what}: a choice, and nothing else, has values.')
+        raise SkillsError(f'{what}: a choice needs values, and only a choice has them.')
     unit = str(table.get('unit', ''))
     if (kind == 'number') != (unit in UNITS):
-        raise SkillsError(f'{what}: a number, and nothing else, has a unit: {", ".join(UNITS)}.')
+        raise SkillsError(f'{what}: a number, and only a number, has a unit: {", ".join(UNITS)}.')
     argument = Argument(
         name,
         kind,
@@ -171,7 +171,9 @@ def _argument(name: str, entry: Any, of: str) -> Argument:
         table.get('default'),
     )
     if kind == 'choice' and argument.default is not None and argument.default not in values:
-        raise SkillsError(f'{what} has the default {argument.default!r}, which is no value.')
+        raise SkillsError(
+            f'{what} has the default {argument.default!r}, which is not one of its values.'
+        )
     return argument
 
 
@@ -184,7 +186,7 @@ def _saying(skill: str, arguments: Mapping[str, Argument], entry: Any) -> Saying
     own = {name: _RULES.get(each.kind, f'{skill}_{name}') for name, each in arguments.items()}
     for name in constants:
         if name not in arguments:
-            raise SkillsError(f"the phrase '{entry}' gives '{name}', which is no argument.")
+            raise SkillsError(f"the phrase '{entry}' gives '{name}', which is not an argument.")
     return Saying(with_rules(phrase, own), dict(constants))
 
 
@@ -208,14 +210,14 @@ def _check_steps(skill: Skill, skills: Skills) -> None:
         if other is None or other.steps:
             hint = did_you_mean(step.skill, skills.skills)
             raise SkillsError(
-                f"the skill '{skill.name}' has the step '{step.skill}', which is no simple skill. "
-                f'{hint}'
+                f"the skill '{skill.name}' has the step '{step.skill}', which is not a simple "
+                f'skill. {hint}'
             )
         for name, source in step.arguments.items():
             if name not in other.arguments or source.split('.')[0] not in skill.arguments:
                 raise SkillsError(
                     f"the step '{step.skill}' of the skill '{skill.name}' takes {name} from "
-                    f'{source}, and one of them is no argument.'
+                    f'{source}, and one of them is not an argument.'
                 )
 
 
@@ -234,12 +236,12 @@ def _table(value: Any, what: str, keys: Iterable[str] = ()) -> Mapping[str, Any]
     if value is None:
         return {}
     if not isinstance(value, dict):
-        raise SkillsError(f'{what} is {value!r}, but has to be a table.')
+        raise SkillsError(f'{what} is {value!r}, but has to be a mapping.')
     known = list(keys)
     for key in value:
         if known and key not in known:
             hint = did_you_mean(str(key), known) or ', '.join(known)
-            raise SkillsError(f"{what} has no '{key}'. {hint}")
+            raise SkillsError(f"{what} has no key '{key}'. {hint}")
     return value
 
 
@@ -253,7 +255,7 @@ def _list(value: Any, what: str) -> list[Any]:
 
 def _text(value: Any, what: str) -> str:
     if not isinstance(value, str) or not value:
-        raise SkillsError(f'{what} is {value!r}, but has to be a text.')
+        raise SkillsError(f'{what} is {value!r}, but has to be a string.')
     return value
 
 

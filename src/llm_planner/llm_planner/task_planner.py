@@ -53,34 +53,34 @@ class PlannerParameters(KnowledgeParameters):
 
     backend: str = parameter(
         'rules',
-        'What makes plans: rules, or a language model (openai), with the rules if that fails.',
+        'What makes plans: rules, or a language model (openai) with the rules as a fallback.',
         choices=('rules', 'openai'),
         read_only=True,
     )
     base_url: str = parameter(
         'http://127.0.0.1:11434/v1',
-        'Where the interface of the server of language models begins.',
+        'The base URL of the language model server.',
         read_only=True,
     )
     model: str = parameter(
-        '', 'The model to ask; empty for the only one that the server has.', read_only=True
+        '', 'The model to use; may be empty if the server has only one.', read_only=True
     )
     output_mode: str = parameter(
         'auto',
-        'How the model is made to answer in JSON; auto tries one after another.',
+        'How the model is made to answer in JSON; auto tries each in turn.',
         choices=('auto', 'json_schema', 'json_object', 'text'),
         read_only=True,
     )
     timeout_s: float = parameter(
         15.0,
-        'How long the model may take for a plan (s).',
+        'The time limit for the model to make a plan (s).',
         at_least=0.5,
         at_most=120.0,
         read_only=True,
     )
     confirm: str = parameter(
         'never',
-        'Which plans are asked about before they are done: those that move the robot, all, none.',
+        'Which plans have to be confirmed by a person: those that move the robot, all, or none.',
         choices=('never', 'motion', 'always'),
         read_only=True,
     )
@@ -235,7 +235,7 @@ class TaskPlanner(Node):
         thread.start()
         outcome: Plan | Refusal | ModelError = await told
         if isinstance(outcome, ModelError):
-            self.get_logger().warning(f'{outcome} The rules plan instead.')
+            self.get_logger().warning(f'{outcome} Planning with the rules instead.')
             self._health.fail(str(outcome), time.monotonic())
         return outcome
 

@@ -63,10 +63,10 @@ class Telling:
 
         """
         if object.names(self._watch.holding):
-            self._robot.say(f'I hold the {self._watch.holding}.')
+            self._robot.say(f'I am holding the {self._watch.holding}.')
             return
         thing = self._recall.thing(object)
-        self._robot.say(f'The {thing.name} is{where_is(thing) or " where I have seen it"}.')
+        self._robot.say(f'The {thing.name} is{where_is(thing) or " where I last saw it"}.')
         return
         yield
 
@@ -130,7 +130,7 @@ class Telling:
             room = self._watch.places.room_at(pose[0], pose[1]) if pose else ''
             seen = [each for each in things if each.room == room] if room else list(things)
             where = f'In the {in_words(room)} I see' if room else 'I see'
-            self._robot.say(f'{where} {enumerated(seen) or "nothing that I know"}.')
+            self._robot.say(f'{where} {enumerated(seen) or "nothing that I recognise"}.')
             return
         position_m, pose = self._recall.position(target), self._watch.pose()
         is_far = pose is not None and math.dist(pose[:2], position_m[:2]) > _CLOSE_M
@@ -144,11 +144,11 @@ class Telling:
             beside.sort(key=lambda each: math.dist(each.position_m, thing.position_m))
             verb = 'is' if len(beside) == 1 else 'are'
             text = f'{capital(enumerated(beside) or "nothing")} {verb} beside the {thing.name}.'
-            self._robot.say(text if beside else f'Nothing is beside the {thing.name}.')
+            self._robot.say(text if beside else f'There is nothing beside the {thing.name}.')
             return
         there = [each for each in things if target in (base_name(each.place), each.room)]
         where = f'{"In" if self._watch.room(target) else "On"} the {in_words(target)}'
-        self._robot.say(f'{where} I see {enumerated(there) or "nothing that I know"}.')
+        self._robot.say(f'{where} I see {enumerated(there) or "nothing that I recognise"}.')
 
 
 def _are_neighbours(one: KnownObject, other: KnownObject) -> bool:

@@ -57,7 +57,7 @@ class Tidying:
 
         """
         if place == destination:
-            raise SkillError('That is where I would carry all of it.', is_final=True)
+            raise SkillError('That is where I would carry everything.', is_final=True)
         yield from self._walking.go_to(place)
         yield from self._looking.look_over(place)
         tried: set[str] = set()

@@ -184,7 +184,7 @@ class Walking:
 
     def _walk_to_first(self, stands: Sequence[Pose], what: str) -> SkillRun:
         """Walk to the first pose to which there is a path; poses missed before are tried last."""
-        reason = 'There is no free floor at it.'
+        reason = 'There is no free floor around it.'
         for stand in sorted(stands, key=self._missed.__contains__)[:_TRIED_STANDS]:
             goal = ComputePathToPose.Goal(goal=stamped(stand))
             try:
@@ -202,7 +202,7 @@ class Walking:
                 self._missed.append(stand)
                 raise
             return
-        raise SkillError(f'I do not find a way to {what}. {reason}')
+        raise SkillError(f'I cannot find a way to {what}. {reason}')
 
     def face(self, position_m: Sequence[float]) -> SkillRun:
         """

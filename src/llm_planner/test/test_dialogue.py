@@ -80,7 +80,7 @@ def test_yes(answer: str) -> None:
 def test_no(answer: str) -> None:
     """Nothing is done; a later yes means nothing."""
     dialogue = asked('go to the hall')
-    assert PLANNER.plan(answer, WORLD, dialogue) == Refusal('All right, I leave it.')
+    assert PLANNER.plan(answer, WORLD, dialogue) == Refusal('All right, I will leave it.')
     assert isinstance(PLANNER.plan('yes', WORLD, dialogue), Refusal)
 
 
@@ -103,7 +103,7 @@ def test_no_is_an_answer_to_a_correction() -> None:
     """It was not meant."""
     dialogue = Dialogue()
     assert isinstance(PLANNER.plan('go to the studdy', WORLD, dialogue), Question)
-    assert PLANNER.plan('no', WORLD, dialogue) == Refusal('All right, I leave it.')
+    assert PLANNER.plan('no', WORLD, dialogue) == Refusal('All right, I will leave it.')
 
 
 def test_a_recogniser_knows_the_answers() -> None:

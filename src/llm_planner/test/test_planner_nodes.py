@@ -93,7 +93,8 @@ def test_it_turns_to_look_at_what_is_behind(ros: RosSandbox, tell: Any) -> None:
     robot = tell.robot
     robot.is_stiff = True
     tell('look at the blue mug')
-    ros.wait_until(robot.heard('I cannot turn my head so that I see the blue mug'), 60.0, 'words')
+    unseen = 'I cannot turn my head far enough to see the blue mug'
+    ros.wait_until(robot.heard(unseen), 60.0, 'words')
     assert robot.looks and robot.spins == []
     robot.is_stiff = False
     robot.move_to(6.0, 1.2)
@@ -134,7 +135,7 @@ def test_it_waves_and_points_with_a_hand_that_is_free(ros: RosSandbox, tell: Any
     tell('take the blue mug')
     ros.wait_until(lambda: robot.held, 60.0, 'a mug in its hand')
     tell('wave your right arm')
-    ros.wait_until(robot.heard('My right hand holds the blue mug'), 60.0, 'words')
+    ros.wait_until(robot.heard('my right hand is holding the blue mug'), 60.0, 'words')
     tell('wave')
     ros.wait_until(lambda: robot.moved == ['right', 'left'], 60.0, 'a wave of the other')
     robot.move_to(3.2, 2.0)
@@ -145,7 +146,7 @@ def test_it_waves_and_points_with_a_hand_that_is_free(ros: RosSandbox, tell: Any
     bowl.header.frame_id = 'l_gripper'
     robot.holding.publish(Detection3DArray(detections=[*robot.held, bowl]))
     tell('wave')
-    ros.wait_until(robot.heard('Both my hands hold something.'), 60.0, 'words')
+    ros.wait_until(robot.heard('Both my hands are full.'), 60.0, 'words')
     assert len(robot.moved) == 3
 
 
@@ -186,7 +187,7 @@ def test_an_executor_that_ends_is_missed(ros: RosSandbox, tell: Any) -> None:
     tell('go to the study')
     ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
     ros.end(tell.executor)
-    lost = 'I cannot go on, as the skill executor has ended.'
+    lost = 'I cannot continue, as the skill executor has exited.'
     ros.wait_until(robot.heard(lost), 60.0, 'words')
     tell('turn left')
     missing = 'I cannot do anything, as the skill executor is not running.'
@@ -320,5 +321,7 @@ def test_a_language_model_plans(ros: RosSandbox, tell: Any) -> None:
 @pytest.mark.parametrize('name', ['skills_file', 'places_file'])
 def test_files_that_cannot_be_used(ros: RosSandbox, kind: Any, name: str) -> None:
     """The node says which one, and does not start."""
-    with pytest.raises(NodeStartError, match=r'cannot start. (The skills in|There is no file)'):
+    with pytest.raises(
+        NodeStartError, match=r'cannot start. (The skills in|File of named places)'
+    ):
         ros.start(kind, {name: '/nowhere.yaml'})

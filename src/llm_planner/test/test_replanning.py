@@ -54,15 +54,15 @@ def told(steps: Any) -> str:
          'I am looking for it elsewhere.'),
         # There is no way, or no grip.
         ('turn left and go to the hall and wave', 1, EMPTY,
-         'look around; go to the hall; wave', 'I look around and try again.'),
+         'look around; go to the hall; wave', 'I will look around and try again.'),
         ('go to the hall and come back', 1, EMPTY,
-         'look around; come back to you', 'I look around and try again.'),
+         'look around; come back to you', 'I will look around and try again.'),
         ('go to the hall', 0, replace(EMPTY, missing={'look_around': 'I am blind.'}),
-         'wait 5 seconds; go to the hall', 'I wait a moment and try again.'),
+         'wait 5 seconds; go to the hall', 'I will wait a moment and try again.'),
         ('go to the red mug', 0, FULL,
-         'look around; go to the red mug', 'I look around and try again.'),
+         'look around; go to the red mug', 'I will look around and try again.'),
         ('take the red mug', 2, FULL,
-         'go to the red mug; pick up the red mug', 'I walk up to it anew and try again.'),
+         'go to the red mug; pick up the red mug', 'I will walk up to it again and retry.'),
     ],
 )  # fmt: skip
 def test_what_the_rules_try(
@@ -179,7 +179,8 @@ def test_what_a_model_plans_anew_is_checked() -> None:
     assert accepted(Step('go_to', {'target': 'moon'})) is None
     assert accepted(turn, study, hall, wave) == 'go to the study; go to the hall; wave'
     found = recovery.by_model(Plan('', (study, wave), 'openai'), EMPTY)
-    assert found is not None and found.text == 'I try something else: go to the study and wave.'
+    assert found is not None
+    assert found.text == 'I will try something else: go to the study and wave.'
     assert recovery.take(found) == Plan(
         'turn left and go to the hall and wave', (study, wave), 'openai'
     )

@@ -79,7 +79,7 @@ def test_a_place_is_reached_at_the_second_try(ros: RosSandbox, tell: Any) -> Non
     robot.failures = ['I am stuck.'] * 2
     tell('go to the desk and say hello')
     ros.wait_until(
-        robot.heard('I am stuck.', 'I look around and try again.', 'hello'), 60.0, 'words'
+        robot.heard('I am stuck.', 'I will look around and try again.', 'hello'), 60.0, 'words'
     )
     stands = [(each.x, each.y) for each in robot.walks]
     assert len(stands) == 3 and stands[0] != stands[1]
@@ -141,16 +141,16 @@ def test_a_model_is_told_of_the_failure(ros: RosSandbox, begin: Begin) -> None:
         **first, 'done': ['say "hi"'], 'failed': 'go to the study',
         'because': 'There is a "wall".',
     }  # fmt: skip
-    assert robot.heard('I try something else: go to the desk.')()
+    assert robot.heard('I will try something else: go to the desk.')()
     assert steps_of(robot) == [['say "hi"', 'go to the study'], ['go to the desk']]
 
 
 @pytest.mark.parametrize(
     'answer, said, count',
     [
-        ((500, ''), 'I look around and try again.', 2),
+        ((500, ''), 'I will look around and try again.', 2),
         (says({'steps': [], 'refusal': 'There is no other way.'}), 'There is no other way.', 1),
-        (plans(('go_to', {'target': 'study'})), 'I look around and try again.', 2),
+        (plans(('go_to', {'target': 'study'})), 'I will look around and try again.', 2),
     ],
 )
 def test_a_model_that_knows_nothing_new(
@@ -177,7 +177,7 @@ def test_a_plan_is_confirmed(ros: RosSandbox, begin: Begin) -> None:
     ros.wait_until(lambda: 'hello' in robot.said, 60.0, 'words')
     assert len(robot.spins) == 1 and 'yes [please]' in robot.grammars[-1]
     for answer, reply in (
-        ('no', 'All right, I leave it.'),
+        ('no', 'All right, I will leave it.'),
         ('stop', 'I have stopped.'),
         ('what do you see', 'In the hall I see'),
     ):
@@ -209,6 +209,6 @@ def test_what_the_nodes_say_of_themselves(ros: RosSandbox, tell: Any) -> None:
         lambda: statuses['skill_executor: plan'].message == 'Doing: go to the study', 60.0
     )
     ros.wait_until(lambda: told('task_planner: planner')['doing'] == 'go to the study', 60.0)
-    assert statuses['task_planner: planner'].message == 'Plans by rules'
+    assert statuses['task_planner: planner'].message == 'Planning with rules'
     tell('stop')
-    ros.wait_until(lambda: statuses['skill_executor: plan'].message == 'Waits for a plan', 60.0)
+    ros.wait_until(lambda: statuses['skill_executor: plan'].message == 'Waiting for a plan', 60.0)

@@ -62,8 +62,8 @@ def _check_one_root(model: RobotModel) -> None:
         reached |= {joint.child for joint in model.joints if joint.parent in reached}
     if len(roots) > 1:
         raise UrdfError(
-            f"Robot '{model.name}' falls apart: {', '.join(roots)} have no parent. "
-            'Join them, so that only one root is left.'
+            f"Robot '{model.name}' is not a single tree: {', '.join(roots)} have no parent. "
+            'Connect them so that only one root remains.'
         )
     if len(reached) < len(model.links):
         loop = ', '.join(link for link in model.links if link not in reached)

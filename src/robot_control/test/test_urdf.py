@@ -69,7 +69,7 @@ def test_description() -> None:
             '<link name="tip"/><link name="tip"/>',
             "several links named 'tip'",
         ),
-        ('<link name="tip"/>', '<link name="tip"/><link name="lost"/>', 'falls apart: base, lost'),
+        ('<link name="tip"/>', '<link name="tip"/><link name="lost"/>', 'single tree: base, lost'),
         ('<child link="tip"/>', '<child link="slide"/>', "'slide' is the child of several joints"),
         ('name="rail"', 'name="shoulder"', "several joints named 'shoulder'"),
         ('<parent link="upper"/>', '<parent link="tip"/>', 'loop among slide, tip'),

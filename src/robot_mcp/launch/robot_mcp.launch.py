@@ -10,9 +10,9 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 ARGUMENTS = (
-    ('port', '8765', 'The port of the server; 0 for any.'),
-    ('audit_log', '', 'The file in which each call is noted; empty for one in ROS_HOME.'),
-    ('skills_file', '', 'What the robot can be asked for; empty for the file of llm_planner.'),
+    ('port', '8765', 'The port of the server; 0 for any free port.'),
+    ('audit_log', '', 'The file in which each call is logged; empty for one in ROS_HOME.'),
+    ('skills_file', '', 'The file of skills; empty for the one of llm_planner.'),
     (
         'places_file',
         '',
@@ -22,8 +22,11 @@ ARGUMENTS = (
     ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
 )
 SWITCHES = (
-    ('allow_motion', 'Whether assistants may make the robot do anything but stop.'),
-    ('confirm', 'Whether a person has to agree to each thing that the robot does.'),
+    (
+        'allow_motion',
+        'Whether assistants may make the robot act; looking and stopping are always allowed.',
+    ),
+    ('confirm', 'Whether a person has to confirm each action of the robot.'),
 )
 TOLD = ('port', 'audit_log', 'skills_file', 'use_sim_time', 'allow_motion', 'confirm')
 

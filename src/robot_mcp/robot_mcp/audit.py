@@ -95,7 +95,7 @@ class AuditLog:
             written = os.write(file, line)
             self._is_torn = 0 < written < len(line)
             if written < len(line):
-                raise OSError('there is no room')
+                raise OSError('no space left')
         finally:
             os.close(file)
 
@@ -105,5 +105,5 @@ def _short(arguments: Any) -> Any:
     try:
         text = json.dumps(arguments)
     except (TypeError, ValueError, RecursionError):
-        return f'{type(arguments).__name__} that is no JSON'
+        return f'{type(arguments).__name__} that is not valid JSON'
     return arguments if len(text) <= _LONGEST else f'{text[:_LONGEST]}...'

@@ -43,7 +43,7 @@ _LONGEST_SENTENCE = 500
 _REPORT_S = 2.0
 _HEARTBEAT_S = 5.0
 """Period without feedback after which progress is reported to a client again."""
-_STOPPED = 'Somebody said stop meanwhile.'
+_STOPPED = 'Somebody said stop in the meantime.'
 
 
 @dataclass(frozen=True)
@@ -210,7 +210,7 @@ class Calls:
         self.asked.forget()
         self._codes.forget()
         count = await self._link.stop()
-        return Answer('The robot stops.' if count else 'The robot was doing nothing.')
+        return Answer('The robot is stopping.' if count else 'The robot was doing nothing.')
 
     async def _tell(
         self, client: Client, given: Mapping[str, Any], code: Any, stops: int
@@ -218,9 +218,9 @@ class Calls:
         """Plan a natural-language command with the task planner, and execute it."""
         sentence = given.get('sentence')
         if not isinstance(sentence, str) or not sentence.strip() or len(given) > 1:
-            raise PlanError("tell needs 'sentence', a text, and nothing else.")
+            raise PlanError("tell takes exactly one argument: 'sentence', a string.")
         if len(sentence) > _LONGEST_SENTENCE:
-            raise PlanError(f'Say it in at most {_LONGEST_SENTENCE} letters.')
+            raise PlanError(f'Say it in at most {_LONGEST_SENTENCE} characters.')
         if self._planner.is_stop(sentence):
             return await self._stop()
         made = await self._link.plan(sentence)
@@ -253,8 +253,7 @@ class Calls:
             raise RobotError(_STOPPED)
         if self._busy:
             raise RobotError(
-                f'The robot is still doing what {self._busy}. Wait until that has ended, or call '
-                'stop.'
+                f'The robot is still doing what {self._busy}. Wait until it is done, or call stop.'
             )
         self._busy = f'{client.name} asked for: {words}'
         try:
@@ -282,17 +281,17 @@ class Calls:
         if isinstance(code, str):
             if self._codes.redeem(code, request):
                 return None
-            raise RobotError('This code is not right, or not any more, for exactly this call.')
+            raise RobotError('This code is wrong, has expired, or belongs to a different call.')
         agrees = await client.asks(f'Let the robot {words}?', request)
         if agrees:
             return None
         if agrees is not None:
-            raise RobotError('The person at the assistant does not agree.')
+            raise RobotError('The user of the assistant did not agree.')
         new = self._codes.ask(request)
         who = _on_a_line(client.name)
         self._log(f'{who} wants the robot to {words}. To agree, give it the code {new}')
         return Answer(
-            f'A person has to agree first: the robot is to {words}. The log of the robot shows a '
+            f'A person has to agree first: the robot would {words}. The log of the robot shows a '
             f'code; ask the person for it, and call again with the same arguments and '
             f"'{CONFIRMATION}'.",
             is_error=True,
@@ -309,7 +308,7 @@ class Calls:
             async with aclosing(self._link.execute(message, run)) as told:
                 async for news in told:
                     if client.gone is not None and client.gone.is_set():
-                        raise RobotError('The client has gone.')
+                        raise RobotError('The client has disconnected.')
                     if isinstance(news, PlanEnd):
                         end = news
                         continue

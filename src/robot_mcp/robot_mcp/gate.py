@@ -50,21 +50,21 @@ def refusal(headers: Iterable[tuple[bytes, bytes]], token: str, port: int) -> tu
     given: dict[bytes, bytes] = {}
     for name, value in headers:
         if name in given and name in _ONCE:
-            return 400, f'The header {name.decode("latin-1")} is there twice.'
+            return 400, f'The header {name.decode("latin-1")} appears more than once.'
         given[name] = value
     hosts = [f'{name}:{port}'.encode() for name in ('127.0.0.1', 'localhost', '[::1]')]
     if given.get(b'host', b'').lower() not in hosts:
-        return 421, f'This server is only known as 127.0.0.1:{port}.'
+        return 421, f'This server only answers requests to 127.0.0.1:{port}.'
     origin = given.get(b'origin')
     if origin is not None and origin.lower() not in [b'http://' + each for each in hosts]:
-        return 403, 'Pages of other sites may not speak to this server.'
+        return 403, 'Pages from other sites may not access this server.'
     if given.get(b'sec-fetch-site', b'none') not in (b'none', b'same-origin'):
-        return 403, 'Pages of other sites may not speak to this server.'
+        return 403, 'Pages from other sites may not access this server.'
     kind, _, brought = given.get(b'authorization', b'').partition(b' ')
     if kind.lower() != b'bearer' or not hmac.compare_digest(brought.strip(), token.encode()):
         return 401, (
             'The token is missing or wrong: send the header "Authorization: Bearer ..." with '
-            'that which the server printed when it started.'
+            'the one that the server printed when it started.'
         )
     length = given.get(b'content-length', b'0')
     if not length.isdigit() or int(length[:12]) > LONGEST_BODY:

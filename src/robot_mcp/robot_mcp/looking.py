@@ -71,11 +71,13 @@ class ReadOnlyTools:
             if not told:
                 if lack:
                     raise RobotError(lack)
-                return 'I remember no objects yet.', ()
+                return 'I do not remember any objects yet.', ()
         elif name == 'named_places':
             told = named_places(world)
             if not world.place_names:
-                raise RobotError('I know no places: start this server with places_file:=...')
+                raise RobotError(
+                    'I do not know any places: start this server with places_file:=...'
+                )
         else:
             x_y = world.robot[:2] if world.robot else None
             told = robot_state(

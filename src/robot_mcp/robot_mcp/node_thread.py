@@ -79,7 +79,7 @@ class NodeThread:
         deadline_s = time.monotonic() + _ANSWER_S
         while self._node.executor is None:
             if time.monotonic() > deadline_s:
-                raise RobotError('The node of this server does not run.')
+                raise RobotError('The node of this server is not running.')
             await asyncio.sleep(0.02)
         self._node.executor.create_task(call)
         try:
@@ -149,7 +149,7 @@ class NodeThread:
         try:
             return await in_time(came, _ANSWER_S)
         except asyncio.TimeoutError:
-            raise RobotError(f"Nothing comes on '{name}'.") from None
+            raise RobotError(f"No message received on '{name}'.") from None
         finally:
             executor = self._node.executor
             if executor is not None:

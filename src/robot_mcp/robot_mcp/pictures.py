@@ -99,7 +99,7 @@ def map_png(
         f'({origin_m[0]:.2f}, {origin_m[1]:.2f}) m. Black is occupied, white free, grey unknown.'
     )
     if robot is None:
-        return png_of(pixels[::-1]), f'{told} Where the robot is, is not known.'
+        return png_of(pixels[::-1]), f'{told} The position of the robot is unknown.'
     _draw_robot(pixels, pixel_m, origin_m, robot)
     x, y, yaw = robot
     return png_of(pixels[::-1]), (

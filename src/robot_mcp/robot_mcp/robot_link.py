@@ -30,7 +30,7 @@ _PLAN_S = 25.0
 _CHECK_S = 0.25
 _LOST_S = 3.0
 NO_EXECUTOR = 'I cannot do anything, as the skill executor is not running (llm_planner).'
-NO_PLANNER = 'I understand no sentences, as the task planner is not running (llm_planner).'
+NO_PLANNER = 'I cannot understand sentences, as the task planner is not running (llm_planner).'
 
 
 @dataclass
@@ -231,7 +231,7 @@ class RobotLink:
     def _send(self, plan: PlanMessage, run: PlanRun, tell: Callable[[Any], None]) -> None:
         """Send a plan unless it was canceled; runs in the thread of the node."""
         if run.is_canceled:
-            tell(RobotError('It was stopped before it began.'))
+            tell(RobotError('It was stopped before it started.'))
             return
         run.is_sent = True
 
@@ -246,7 +246,7 @@ class RobotLink:
         def take_acceptance(sent: Any) -> None:
             handle = sent.result()
             if not handle.accepted:
-                finish(RobotError('The skill executor has refused it.'))
+                finish(RobotError('The skill executor rejected it.'))
                 return
             tell(None)
             if run.is_canceled:

@@ -46,22 +46,24 @@ class McpParameters(KnowledgeParameters):
 
     transport: str = parameter(
         'stdio',
-        'How clients reach the server: stdio, for those that start it, or http on 127.0.0.1.',
+        'How clients connect: stdio, for those that start the server, or http on 127.0.0.1.',
         choices=('stdio', 'http'),
         read_only=True,
     )
     port: int = parameter(
-        8765, 'The port of HTTP; 0 for any.', at_least=0, at_most=65535, read_only=True
+        8765, 'The HTTP port; 0 for any free port.', at_least=0, at_most=65535, read_only=True
     )
     allow_motion: bool = parameter(
-        False, 'Whether assistants may make the robot do anything but stop.', read_only=True
+        False,
+        'Whether assistants may make the robot act; looking and stopping are always allowed.',
+        read_only=True,
     )
     confirm: bool = parameter(
-        False, 'Whether a person has to agree to each thing that the robot does.', read_only=True
+        False, 'Whether a person has to confirm each action of the robot.', read_only=True
     )
     audit_log: str = parameter(
         '',
-        'The file in which each call is noted; empty for robot_mcp/audit.jsonl in ROS_HOME or '
+        'The file in which each call is logged; empty for robot_mcp/audit.jsonl in ROS_HOME or '
         '~/.ros.',
         read_only=True,
     )
@@ -114,8 +116,8 @@ class RobotMcp(Node):
             os.write(wire, f'{self.url}\nAuthorization: Bearer {shown}\n'.encode())
         else:
             self._server = ServerThread(lambda: serve_stdio(server, 0, wire), self._end)
-        may = 'may move the robot' if told.allow_motion else 'may only look, and stop'
-        logger.info(f'Assistants {may}; what they do is noted in {path}')
+        may = 'may move the robot' if told.allow_motion else 'may only look and stop'
+        logger.info(f'Assistants {may}; their calls are logged in {path}')
 
     def destroy_node(self) -> None:
         """Stop the server, and cancel the plans of its clients."""
@@ -127,7 +129,7 @@ class RobotMcp(Node):
     def _end(self, error: BaseException | None) -> None:
         """Shut down when the server has ended, for example as its only client disconnects."""
         if error is not None:
-            self.get_logger().error(f'The server has failed: {type(error).__name__}: {error}')
+            self.get_logger().error(f'The server failed: {type(error).__name__}: {error}')
         deadline_s = time.monotonic() + _START_S
         while self.executor is None and time.monotonic() < deadline_s:  # still starting
             time.sleep(0.01)
@@ -142,8 +144,8 @@ def _token() -> str:
         return secrets.token_urlsafe(24)
     if len(token) < _SHORTEST_TOKEN or not token.isascii() or not token.isprintable():
         raise NodeStartError(
-            f'{TOKEN_VARIABLE} has to have at least {_SHORTEST_TOKEN} letters or digits. Leave it '
-            'out for a random token.'
+            f'{TOKEN_VARIABLE} must have at least {_SHORTEST_TOKEN} letters or digits. Unset it '
+            'for a random token.'
         )
     return token
 

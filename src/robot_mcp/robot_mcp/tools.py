@@ -40,11 +40,11 @@ _SOURCE = 'mcp'
 _LONGEST = 8000
 """No call of a skill needs more characters than this."""
 _NOTES = {
-    'object': 'An object: its class, and what else tells it from others.',
-    'objects': 'Objects: their class, and what else tells them from others.',
+    'object': 'An object: its class, and what distinguishes it from others.',
+    'objects': 'Objects: their class, and what distinguishes them from others.',
     'target': 'The name of a place or room, or the description of an object.',
     'place': 'The name of a place or room.',
-    'places': 'Names of places or rooms, in their order.',
+    'places': 'Names of places or rooms, in order.',
 }
 
 
@@ -84,10 +84,8 @@ def tools_of(skills: Skills, world: World, *, confirm: bool = False) -> list[Too
         Whether calls may need a confirmation code.
 
     """
-    more = (
-        {CONFIRMATION: _text('Only if you were asked for a code: that code.')} if confirm else {}
-    )
-    sentence = _object({'sentence': _text('What the robot is to do, as one would say it.')} | more)
+    more = {CONFIRMATION: _text('The confirmation code, if one was required.')} if confirm else {}
+    sentence = _object({'sentence': _text('What the robot should do, in plain English.')} | more)
     sentence['required'] = ['sentence']
     return [
         Tool(STOP, skills[STOP].summary if STOP in skills.skills else 'Stop.', _object({})),
@@ -131,18 +129,18 @@ def plan_of_call(name: str, arguments: Mapping[str, Any], skills: Skills, world:
         # A model may have written anything: no part may look like a <think> tag or another plan.
         told = json.dumps({'steps': [{'skill': name, 'arguments': dict(arguments)}]})
     except (TypeError, ValueError, RecursionError):
-        raise PlanError('The arguments are no JSON.') from None
+        raise PlanError('The arguments are not valid JSON.') from None
     if len(told) > _LONGEST:
-        raise PlanError(f'The arguments are too long: I take at most {_LONGEST} letters.')
+        raise PlanError(f'The arguments are too long: the limit is {_LONGEST} characters.')
     made = plan_from(name, told.replace('<', '\\u003c'), skills)
     if not isinstance(made, Plan):
-        raise PlanError('That is no plan.')
+        raise PlanError('That is not a plan.')
     steps = made.steps
     if skill.steps:
         given = steps[0].arguments
         for each in given:
             if each not in skill.arguments:
-                raise PlanError(f"{name} has no '{each[:80]}'.")
+                raise PlanError(f"{name} has no argument '{each[:80]}'.")
         reading = Reading(skills, world, Dialogue())
         reading.read(Clause(skill, Saying(Word(name), given), (), 0, 0), name)
         steps = tuple(reading.steps)

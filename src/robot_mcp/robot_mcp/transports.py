@@ -53,7 +53,7 @@ def listen(port: int) -> socket.socket:
         listener.close()
         raise NodeStartError(
             f'Port {port} cannot be used ({error.strerror}): choose another one with port:=..., '
-            'or 0 for any that is free.'
+            'or 0 for any free port.'
         ) from error
     return listener
 

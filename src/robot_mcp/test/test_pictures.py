@@ -36,4 +36,4 @@ def test_a_map_has_y_upwards() -> None:
     assert tuple(pixels[160, 320]) == (220, 30, 30) and tuple(pixels[100, 100]) == (255,) * 3
     assert 'red dot at (1.00, 1.00) m' in words
     _, words = map_png(cells, 0.1, (-1.0, 0.0), None)
-    assert 'is not known' in words
+    assert 'is unknown' in words

@@ -16,16 +16,16 @@ class PublisherParameters:
     """How often to publish, and what."""
 
     rate_hz: float = parameter(
-        1.0, 'How many readings are published a second.', at_least=0.01, at_most=1000.0
+        1.0, 'Number of readings published per second.', at_least=0.01, at_most=1000.0
     )
     min_celsius: float = parameter(20.0, 'The lowest reading.', at_least=_COLDEST, at_most=10000.0)
     max_celsius: float = parameter(
         30.0, 'The highest reading.', at_least=_COLDEST, at_most=10000.0
     )
-    frame_id: str = parameter('thermometer', 'The frame in which the thermometer sits.')
+    frame_id: str = parameter('thermometer', 'Frame of the thermometer.')
     seed: int = parameter(
         -1,
-        'Repeat the readings that belong to this number; -1 for new ones every time.',
+        'Seed of the random readings; -1 gives different readings on every run.',
         at_least=-1,
         at_most=2**31 - 1,
         read_only=True,
@@ -52,5 +52,5 @@ class AnalyzerParameters:
     """When it is hot."""
 
     threshold_celsius: float = parameter(
-        25.0, 'Warn of readings above this.', at_least=_COLDEST, at_most=10000.0
+        25.0, 'Warn about readings above this.', at_least=_COLDEST, at_most=10000.0
     )

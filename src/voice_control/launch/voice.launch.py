@@ -10,12 +10,16 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
 ARGUMENTS = (
-    ('microphone', '', 'A part of the name of the microphone; empty for the default one.'),
-    ('wav_file', '', 'A WAV file to hear instead of a microphone, with audio:=file.'),
-    ('speech_model_path', '', 'The model of Whisper on this machine: a folder, or a ggml file.'),
-    ('speech_base_url', '', 'Where the interface of a server of transcriptions begins.'),
-    ('speech_model', '', 'The model that such a server is to use.'),
-    ('wake_word', '', 'What commands have to begin with; empty if every command counts.'),
+    ('microphone', '', 'Part of the name of the microphone; empty for the default device.'),
+    ('wav_file', '', 'A WAV file to use instead of a microphone, with audio:=file.'),
+    ('speech_model_path', '', 'The Whisper model on this machine: a folder, or a ggml file.'),
+    ('speech_base_url', '', 'The base URL of a transcription server.'),
+    ('speech_model', '', 'The model that this server should use.'),
+    (
+        'wake_word',
+        '',
+        'The wake word that commands have to start with; empty to accept every command.',
+    ),
     ('namespace', '', 'The namespace of the robot.'),
     ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
 )
@@ -24,7 +28,7 @@ CHOICES = (
         'audio',
         'auto',
         ['auto', 'microphone', 'file', 'none'],
-        'Where sound comes from; auto is a microphone if there is one.',
+        'The audio source; auto is a microphone if there is one.',
     ),
     (
         'speech_backend',

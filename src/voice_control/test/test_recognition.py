@@ -125,4 +125,4 @@ def test_wake_word(text: str, is_stop: bool, expected: str | None) -> None:
     if expected is not None:
         assert recognition.text == expected
     else:
-        assert recognition.reason == 'It did not begin with "hey robot".'
+        assert recognition.reason == 'It did not start with "hey robot".'

@@ -163,7 +163,7 @@ def test_a_file_is_played(ros: RosSandbox, ear: Ear) -> None:
     [
         ({'source': 'file'}, 'set wav_file'),
         ({'source': 'file', 'wav_file': '/no/where.wav'}, 'No such file'),
-        ({'source': 'file', 'wav_file': __file__}, 'is no WAV file'),
+        ({'source': 'file', 'wav_file': __file__}, 'is not a WAV file'),
     ],
 )
 def test_a_file_that_cannot_be_played(
@@ -190,8 +190,8 @@ def test_no_microphone(
     ('parameters', 'reason'),
     [
         ({'backend': 'whisper'}, 'set model_path'),
-        ({'backend': 'whisper', 'model_path': '/no/where'}, 'There is no'),
-        ({'backend': 'openai'}, 'no address'),
+        ({'backend': 'whisper', 'model_path': '/no/where'}, 'not found'),
+        ({'backend': 'openai'}, 'not a valid server address'),
         ({'dictionary_file': '/no/where'}, 'cannot be read'),
     ],
 )

@@ -42,9 +42,7 @@ def test_missing_files_are_named(folder: Path, missing: str) -> None:
 
 
 @pytest.mark.parametrize('make', [FasterWhisper, WhisperCpp])
-@pytest.mark.parametrize(
-    ('path', 'reason'), [('', 'set model_path'), ('/no/where', 'There is no')]
-)
+@pytest.mark.parametrize(('path', 'reason'), [('', 'set model_path'), ('/no/where', 'not found')])
 def test_no_model(make: Callable[[str], Any], path: str, reason: str) -> None:
     """The message says what is needed."""
     with pytest.raises(RecognizerError, match=reason):
@@ -54,7 +52,7 @@ def test_no_model(make: Callable[[str], Any], path: str, reason: str) -> None:
 def test_a_file_that_is_no_model(tmp_path: Path) -> None:
     """The library of whisper.cpp would end the process."""
     (tmp_path / 'model.bin').write_bytes(b'GIF89a')
-    with pytest.raises(RecognizerError, match='is no model in the format ggml'):
+    with pytest.raises(RecognizerError, match='is not a model in the ggml format'):
         WhisperCpp(str(tmp_path / 'model.bin'))
 
 
@@ -200,10 +198,10 @@ def test_a_server_gets_a_file() -> None:
         ((401, b'{"error": "key"}'), 'status 401'),
         ((429, b''), 'status 429'),
         ((302, b''), 'status 302'),
-        ((200, b'<html>'), 'something else than a text'),
-        ((200, b'{"words": 1}'), 'something else than a text'),
-        ((200, b'[]'), 'something else than a text'),
-        ((200, b'\xff\xfe'), 'something else than a text'),
+        ((200, b'<html>'), 'did not answer with a text'),
+        ((200, b'{"words": 1}'), 'did not answer with a text'),
+        ((200, b'[]'), 'did not answer with a text'),
+        ((200, b'\xff\xfe'), 'did not answer with a text'),
     ],
 )
 def test_a_server_that_answers_badly(answer: Answer, reason: str) -> None:
@@ -234,5 +232,5 @@ def test_a_server_that_does_not_answer() -> None:
 @pytest.mark.parametrize('url', ['', 'localhost:8000', 'ftp://here'])
 def test_no_address(url: str) -> None:
     """The message says what one looks like."""
-    with pytest.raises(RecognizerError, match='no address of a server'):
+    with pytest.raises(RecognizerError, match='not a valid server address'):
         TranscriptionServer(url, 'any')

@@ -63,19 +63,19 @@ def test_the_commands_of_the_robot() -> None:
 @pytest.mark.parametrize(
     ('grammar', 'reason'),
     [
-        ('', 'begins with'),
-        ('nonsense', 'begins with'),
+        ('', 'has to start with'),
+        ('nonsense', 'has to start with'),
         (f'{HEAD}<a> = b;', 'no public rule'),
         (f'{HEAD}public <a> = (b;', 'is not closed'),
-        (f'{HEAD}public <a> = b);', 'nothing opens'),
+        (f'{HEAD}public <a> = b);', 'unmatched'),
         (f'{HEAD}public <a> = b | ;', 'is empty'),
         (f'{HEAD}public <a> = b', 'has no end'),
-        (f'{HEAD}public a = b;', 'is no rule'),
+        (f'{HEAD}public a = b;', 'is not a rule'),
         (f'{HEAD}public <a> = * b;', 'out of place'),
         (f'{HEAD}public <a> = <b>;', 'not defined'),
         (f'{HEAD}public <a> = b <c>; <c> = d [<a>];', 'refers to itself'),
-        (f'{HEAD}import <other.*>; public <a> = b;', 'is no rule'),
-        (f'{HEAD}public <a> = <VOID>;', 'Nothing can be said'),
+        (f'{HEAD}import <other.*>; public <a> = b;', 'is not a rule'),
+        (f'{HEAD}public <a> = <VOID>;', 'accepts no sentence'),
     ],
 )
 def test_what_is_no_grammar(grammar: str, reason: str) -> None:

@@ -100,8 +100,8 @@ def read_wav(path: Path) -> bytes:
         raise AudioError(f"'{path}' cannot be read: {error.strerror or error}.") from error
     except (wave.Error, EOFError) as error:
         raise AudioError(
-            f"'{path}' is no WAV file with integer samples ({error or 'it is cut off'}). Convert "
-            'it, for example with: sox INPUT -b 16 -r 16000 -c 1 OUTPUT.wav'
+            f"'{path}' is not a WAV file with integer samples ({error or 'it is cut off'}). "
+            'Convert it, for example with: sox INPUT -b 16 -r 16000 -c 1 OUTPUT.wav'
         ) from error
     samples = _as_floats(data[: len(data) - len(data) % (width * channels)], width)
     mono = samples.reshape(-1, channels).mean(axis=1)

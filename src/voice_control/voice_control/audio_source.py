@@ -35,20 +35,20 @@ class AudioSourceParameters:
 
     source: str = parameter(
         AUTO,
-        'Where sound comes from: a microphone, a WAV file, or nowhere; auto is a microphone if '
-        'there is one.',
+        'The audio source: a microphone, a WAV file, or none; auto is a microphone if there is '
+        'one.',
         choices=(AUTO, MICROPHONE, FILE, NONE),
         read_only=True,
     )
     device: str = parameter(
         '',
-        'The microphone: a part of its name, or its number; empty for the default one.',
+        'The microphone: part of its name, or its number; empty for the default device.',
         read_only=True,
     )
     wav_file: str = parameter('', 'The file to play, as a microphone would.', read_only=True)
-    loop: bool = parameter(False, 'Play the file again and again.', read_only=True)
+    loop: bool = parameter(False, 'Play the file in a loop.', read_only=True)
     chunk_s: float = parameter(
-        0.03, 'The length of the pieces (s).', at_least=0.01, at_most=1.0, read_only=True
+        0.03, 'The length of an audio chunk (s).', at_least=0.01, at_most=1.0, read_only=True
     )
 
 
@@ -127,7 +127,7 @@ class AudioSource(Node):
         if self._microphone is not None:
             if self._microphone.is_active:
                 return
-            self.get_logger().warning('The microphone is gone.')
+            self.get_logger().warning('The microphone was disconnected.')
             self._microphone.close()
             self._microphone = None
         try:
@@ -136,7 +136,7 @@ class AudioSource(Node):
             self._complain(str(error))
         else:
             self._complaint = ''
-            self.get_logger().info('The microphone records.')
+            self.get_logger().info('Recording from the microphone.')
 
     def _hand_over(self, sound: bytes) -> None:
         """Publish a chunk in the thread of the executor."""
@@ -150,9 +150,9 @@ class AudioSource(Node):
             return
         self._complaint = sentence
         if self._told.source == AUTO:
-            self.get_logger().info(f'{sentence} Commands can be typed.')
+            self.get_logger().info(f'{sentence} You can type commands instead.')
         else:
-            self.get_logger().warning(f'{sentence} It is tried again every {_RETRY_S:g} s.')
+            self.get_logger().warning(f'{sentence} Retrying every {_RETRY_S:g} s.')
 
     def _publish(self, sound: bytes) -> None:
         self._sound.publish(AudioData(data=array('B', sound)))

@@ -76,8 +76,8 @@ def read_dictionary(lines: Iterable[str]) -> dict[str, str]:
             continue
         if not _PHRASE_OF_PHONES.fullmatch(phones.strip()):
             raise RecognizerError(
-                f'Line {number} of the dictionary, {line.strip()!r}, has no word with phones '
-                'behind it, such as: kitchenette K IH CH AH N EH T'
+                f'Line {number} of the dictionary, {line.strip()!r}, is not a word followed '
+                'by its phones, such as: kitchenette K IH CH AH N EH T'
             )
         words[word.lower()] = phones.strip()
     return words

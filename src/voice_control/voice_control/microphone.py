@@ -46,9 +46,7 @@ class Microphone:
             self._stream.start()
         except (sounddevice.PortAudioError, ValueError) as error:
             name = f"'{device}'" if device else 'here'
-            raise AudioError(
-                f'There is no microphone {name} that can be used: {error}.'
-            ) from error
+            raise AudioError(f'There is no usable microphone {name}: {error}.') from error
 
     def close(self) -> None:
         """Stop recording."""

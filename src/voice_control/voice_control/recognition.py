@@ -247,5 +247,5 @@ class Listener:
             return recognition
         if words[:count] == self._wake_word:
             return replace(recognition, text=' '.join(words[count:]))
-        reason = recognition.reason or f'It did not begin with "{" ".join(self._wake_word)}".'
+        reason = recognition.reason or f'It did not start with "{" ".join(self._wake_word)}".'
         return replace(recognition, reason=reason)

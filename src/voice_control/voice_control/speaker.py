@@ -31,12 +31,13 @@ class SpeakerParameters:
 
     program: str = parameter(
         'espeak-ng',
-        'What speaks the text on its standard input, with the options of espeak-ng.',
+        'The program that speaks the text on its standard input; it takes the options of '
+        'espeak-ng.',
         read_only=True,
     )
     voice: str = parameter('en-us', 'The voice.', read_only=True)
     words_per_minute: int = parameter(
-        165, 'How fast it speaks.', at_least=80, at_most=450, read_only=True
+        165, 'The speaking rate (words per minute).', at_least=80, at_most=450, read_only=True
     )
 
 
@@ -62,7 +63,7 @@ class Speaker(Node):
         self._speaking.publish(Bool(data=False))
         if program is None:
             self.get_logger().info(
-                f"There is no program '{told.program}', so the robot does not speak aloud: its "
+                f"Program '{told.program}' not found: the robot does not speak aloud, but its "
                 'page shows what it says. To hear it: sudo apt install espeak-ng'
             )
             return

@@ -61,40 +61,44 @@ class RecognizerParameters:
         read_only=True,
     )
     model_path: str = parameter(
-        '', 'The folder or file of the model of Whisper on this machine.', read_only=True
+        '', 'The folder or file of the Whisper model on this machine.', read_only=True
     )
     base_url: str = parameter(
-        '', 'Where the interface of a server for openai begins.', read_only=True
+        '', 'The base URL of the server, for the backend openai.', read_only=True
     )
-    model: str = parameter('', 'The model that the server is to use.', read_only=True)
+    model: str = parameter('', 'The model that the server should use.', read_only=True)
     language: str = parameter(
-        'en', 'The language that Whisper or the server is to expect.', read_only=True
+        'en', 'The language that Whisper or the server should expect.', read_only=True
     )
     num_threads: int = parameter(
-        1, 'How many threads Whisper computes with.', at_least=1, at_most=64, read_only=True
+        1, 'The number of threads that Whisper uses.', at_least=1, at_most=64, read_only=True
     )
     threshold: float = parameter(
         THRESHOLD,
-        'The least log-likelihood ratio per frame with which pocketsphinx accepts a command.',
+        'The minimum log-likelihood ratio per frame for pocketsphinx to accept a command.',
         at_least=-100.0,
         at_most=100.0,
         read_only=True,
     )
     dictionary_file: str = parameter(
-        '', 'Words with their phones that pocketsphinx does not know.', read_only=True
+        '',
+        'A dictionary file: words that pocketsphinx does not know, each with its phones.',
+        read_only=True,
     )
     wake_word: str = parameter(
-        '', 'What commands have to begin with; empty if every command counts.', read_only=True
+        '',
+        'The wake word that commands have to start with; empty to accept every command.',
+        read_only=True,
     )
     vad_mode: int = parameter(
         0,
-        'How readily sound is taken for something else than speech.',
+        'How aggressively sound that is not speech is filtered out.',
         at_least=0,
         at_most=3,
         read_only=True,
     )
     max_utterance_s: float = parameter(
-        10.0, 'The longest utterance (s).', at_least=1.0, at_most=60.0, read_only=True
+        10.0, 'The maximum length of an utterance (s).', at_least=1.0, at_most=60.0, read_only=True
     )
 
 
@@ -183,7 +187,7 @@ class SpeechRecognizer(Node):
         self._queue: Queue[Work | None] = Queue(_LONGEST_QUEUE)
         self._worker = threading.Thread(target=self._work, name='recognizer', daemon=True)
         self._worker.start()
-        self.get_logger().info(f'Recognizes speech with {self._title}.')
+        self.get_logger().info(f'Recognizing speech with {self._title}.')
 
     def destroy_node(self) -> None:
         """Also end the worker thread."""
@@ -227,7 +231,7 @@ class SpeechRecognizer(Node):
         except Full:
             self._lost += 1
             self.get_logger().warning(
-                'Speech comes faster than it is recognized: some of it is lost.',
+                'Speech arrives faster than it can be recognized: some of it is lost.',
                 throttle_duration_sec=10.0,
             )
 
@@ -251,13 +255,13 @@ class SpeechRecognizer(Node):
         try:
             unknown = self._listener.set_grammar(jsgf)
         except RecognizerError as error:
-            self._report(f'{error} The one of before is used.')
+            self._report(f'{error} Still using the previous grammar.')
             return
         if unknown:
             words = ', '.join(f'"{word}"' for word in unknown)
             self._report(
-                f'How to pronounce {words} is not known, so that it is not understood: add it to '
-                'a file, and give that as dictionary_file.'
+                f'The pronunciation of {words} is unknown, so it cannot be recognized: add it to '
+                'a dictionary file, and set dictionary_file to its path.'
             )
 
     def _report(self, sentence: str) -> None:
@@ -292,9 +296,9 @@ class SpeechRecognizer(Node):
             'recogniser': self._title,
             'utterances': self._heard,
             'accepted': self._accepted,
-            'lost pieces of sound': self._lost,
+            'lost audio chunks': self._lost,
         }
-        words = 'No sound comes in' if is_silent else 'Listening'
+        words = 'No audio received' if is_silent else 'Listening'
         return [PartStatus('speech', words, values=values)]
 
 

@@ -34,7 +34,7 @@ _REPEATS = 2.4
 _MOST_TOKENS = 100
 """Maximum number of tokens of an utterance: no one says more in ten seconds."""
 _NO_SPEECH = 'Nothing was said.'
-_REPETITION = 'Whisper repeated itself, so that nothing can be made of it.'
+_REPETITION = 'Whisper repeated itself, so the result is unusable.'
 _PUNCTUATION = re.compile(r"[^\w\s'°%-]")
 
 
@@ -65,7 +65,7 @@ class FasterWhisper:
             missing.append(' or '.join(VOCABULARIES))
         if missing:
             raise RecognizerError(
-                f"'{path}' is no model for faster-whisper: it lacks {', '.join(missing)}."
+                f"'{path}' is not a faster-whisper model: it lacks {', '.join(missing)}."
             )
         os.environ['HF_HUB_OFFLINE'] = '1'  # else it tries for minutes to fetch missing files
         try:
@@ -150,12 +150,12 @@ class WhisperCpp:
     """
 
     def __init__(self, file: str, language: str = 'en', threads: int = 1) -> None:
-        path = _existing(file, 'whisper.cpp', 'a file in the format ggml')
+        path = _existing(file, 'whisper.cpp', 'a file in the ggml format')
         with path.open('rb') as content:
             magic = content.read(len(GGML_MAGIC))
         if magic != GGML_MAGIC:
             raise RecognizerError(
-                f"'{path}' is no model in the format ggml, as whisper.cpp needs."
+                f"'{path}' is not a model in the ggml format, which whisper.cpp needs."
             )
         try:
             from pywhispercpp.model import Model
@@ -225,7 +225,7 @@ class TranscriptionServer:
 
         if not base_url.startswith(('http://', 'https://')):
             raise RecognizerError(
-                f"'{base_url}' is no address of a server: set base_url, such as "
+                f"'{base_url}' is not a valid server address: set base_url, for example to "
                 'http://127.0.0.1:8000/v1.'
             )
         self._url = f'{base_url.rstrip("/")}/audio/transcriptions'
@@ -276,15 +276,14 @@ class TranscriptionServer:
             raise RecognizerError(f'The server at {self._url} does not answer: {why}.') from error
         if answer.status_code != httpx.codes.OK:
             raise RecognizerError(
-                f'The server at {self._url} refuses, with status {answer.status_code}: '
+                f'The server at {self._url} failed with status {answer.status_code}: '
                 f'{answer.text[:200]!r}.'
             )
         try:
             text = answer.json()['text']
         except (ValueError, KeyError, TypeError) as error:
             raise RecognizerError(
-                f'The server at {self._url} answers with something else than a text: '
-                f'{answer.text[:200]!r}.'
+                f'The server at {self._url} did not answer with a text: {answer.text[:200]!r}.'
             ) from error
         return _judged(str(text), math.nan, 0.0, 'openai')
 
@@ -294,7 +293,7 @@ def _existing(path: str, library: str, what: str) -> Path:
         raise RecognizerError(f'{library} needs {what}: set model_path.')
     found = Path(path).expanduser()
     if not found.exists():
-        raise RecognizerError(f"There is no '{found}': {library} needs {what}.")
+        raise RecognizerError(f"'{found}' not found: {library} needs {what}.")
     return found
 
 

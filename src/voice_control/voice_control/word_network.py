@@ -101,7 +101,7 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
     compiler = _Compiler(rules, is_known)
     network = compiler.network(public)
     if not network.finals:
-        raise RecognizerError('Nothing can be said by the grammar.')
+        raise RecognizerError('The grammar accepts no sentence.')
     found = WordNetwork(network.arcs, network.finals, tuple(compiler.unknown))
     documentation = ' '.join(_DOCUMENTATION.findall(jsgf))
     examples = [' '.join(each.split()) for each in _EXAMPLE.findall(documentation)]
@@ -113,7 +113,7 @@ def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
     text = _COMMENT.sub(' ', jsgf)
     header = _HEADER.match(text)
     if header is None:
-        raise RecognizerError('A grammar begins with "#JSGF V1.0; grammar NAME;", this one not.')
+        raise RecognizerError('A grammar has to start with "#JSGF V1.0; grammar NAME;".')
     tokens = _TOKEN.findall(text, header.end())
     rules: dict[str, list[str]] = {}
     public = ''
@@ -125,7 +125,9 @@ def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
         is_public = statement[:1] == ['public']
         name, equals, *body = [*statement[is_public:], '', ''][: len(statement) - is_public + 2]
         if equals != '=' or not name.startswith('<'):
-            raise RecognizerError(f'"{" ".join(statement)[:60]}" is no rule such as "<a> = b;".')
+            raise RecognizerError(
+                f'"{" ".join(statement)[:60]}" is not a rule such as "<a> = b;".'
+            )
         rules[name] = [each for each in body if each and each[0] not in '/{']
         public = public or (name if is_public else '')
         statement = []
@@ -151,14 +153,14 @@ class _Compiler:
         if rule not in self.rules:
             raise RecognizerError(f'The rule {rule} is used, but not defined.')
         if rule in self._open:
-            raise RecognizerError(f'The rule {rule} refers to itself; write * or + instead.')
+            raise RecognizerError(f'The rule {rule} refers to itself; use * or + instead.')
         if rule not in self._compiled:
             self._open.append(rule)
             automaton = _Automaton(self, rule)
             tokens = self.rules[rule]
             first, last, end = automaton.alternatives(tokens, 0)
             if end != len(tokens):
-                raise RecognizerError(f'The rule {rule} has a "{tokens[end]}" that nothing opens.')
+                raise RecognizerError(f'The rule {rule} has an unmatched "{tokens[end]}".')
             self._compiled[rule] = _minimal(*_deterministic(automaton.moves, first, last))
             self._open.pop()
         return self._compiled[rule]
@@ -224,7 +226,7 @@ class _Automaton:
             if token == '[':
                 self.moves[first].append(('', last))
         elif token in ('*', '+', '=', ')', ']'):
-            raise RecognizerError(f'In {self.rule} there is a "{token}" out of place.')
+            raise RecognizerError(f'A "{token}" in {self.rule} is out of place.')
         elif token.startswith('<'):
             first, last = self._reference(token)
         else:

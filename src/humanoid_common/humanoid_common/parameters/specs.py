@@ -12,7 +12,7 @@ _SCALARS = {
     bool: ('true or false', 'true and false values'),
     int: ('an integer', 'integers'),
     float: ('a number', 'numbers'),
-    str: ('a text', 'texts'),
+    str: ('a string', 'strings'),
 }
 
 

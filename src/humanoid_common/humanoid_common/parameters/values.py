@@ -107,7 +107,7 @@ def _refusal(
     sentences = [
         f"Parameter '{spec.name}' {verb} {value!r}, but {requirement}.",
         hint,
-        f'Its meaning: {spec.rules.description}',
+        f'Description: {spec.rules.description}',
     ]
     return ParameterError(' '.join(filter(None, sentences)), spec.name)
 

@@ -110,5 +110,5 @@ class ActionCaller:
         self._client.destroy()
 
     def _waited(self, future: Future[Any], patience_s: float) -> Any:
-        self._ros.wait_until(future.done, patience_s, f'an answer of {self._name}')
+        self._ros.wait_until(future.done, patience_s, f'a response from {self._name}')
         return future.result()

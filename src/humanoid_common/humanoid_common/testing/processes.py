@@ -96,7 +96,7 @@ class RunningProgram:
         wait_until(
             lambda: text in self.output,
             1.0,
-            lambda: f'{text!r} from {self._command}, which ended; it wrote: {self.output}',
+            lambda: f'{text!r} from {self._command}, which exited; it wrote: {self.output}',
         )
 
     def send(self, number: signal.Signals) -> None:
@@ -134,7 +134,7 @@ class RunningProgram:
         wait_until(
             lambda: self.has_ended,
             timeout_s,
-            lambda: f'the end of {self._command}; it wrote: {self.output}',
+            lambda: f'{self._command} to exit; it wrote: {self.output}',
         )
         self._stdout.join(timeout_s)
         self._stderr.join(timeout_s)
@@ -171,7 +171,7 @@ class RunningProgram:
         wait_until(
             lambda: not any(map(is_alive, started)),
             60.0,
-            lambda: f'the end of all that {self._command} started',
+            lambda: f'all processes of {self._command} to exit',
         )
 
 

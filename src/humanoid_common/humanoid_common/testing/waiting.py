@@ -40,5 +40,5 @@ def wait_until(
     deadline_s = time.monotonic() + timeout_s
     while not predicate():
         if time.monotonic() > deadline_s:
-            raise WaitedInVainError(f'Waited {timeout_s} s in vain for {message()}')
+            raise WaitedInVainError(f'Timed out after {timeout_s} s waiting for {message()}')
         pause()

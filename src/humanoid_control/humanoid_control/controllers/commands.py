@@ -66,7 +66,7 @@ class JointNames:
 
         """
         if not names:
-            raise CommandError('It names no joint. Name those that are to move.')
+            raise CommandError('It names no joints. Name those to move.')
         for name in names:
             if name not in self._index_of:
                 raise CommandError(self._unknown(name))
@@ -170,7 +170,7 @@ def checked_values(field: str, values: Sequence[float], names: Sequence[str]) ->
     if len(values) != len(names):
         raise CommandError(
             f"Its field '{field}' has length {len(values)}, but it names {len(names)} joints. "
-            'Give one value a joint.'
+            'Give one value per joint.'
         )
     array = np.array(values, dtype=np.float64)
     finite = np.isfinite(array)
@@ -183,8 +183,8 @@ def checked_values(field: str, values: Sequence[float], names: Sequence[str]) ->
     if sizes.max() > LARGEST:
         index = int(np.argmax(sizes))
         raise CommandError(
-            f"The {field} of '{names[index]}' is {array[index]:g}, beyond all that a joint can "
-            f'do. Give at most {LARGEST:g}.'
+            f"The {field} of '{names[index]}' is {array[index]:g}, beyond the limits of any "
+            f'joint. Give at most {LARGEST:g}.'
         )
     return array
 

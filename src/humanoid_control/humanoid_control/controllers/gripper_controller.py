@@ -18,7 +18,7 @@ STALL_M, STALL_S = 0.0005, 0.3
 """A finger that moves less than this distance in this time has stalled."""
 _BEYOND_M = 1e-3
 """A gap may be out of range by this amount, as when it was rounded or measured."""
-REACHED = 'The gap is reached.'
+REACHED = 'Gap reached.'
 STALLED = 'The fingers hold something, or are held.'
 GRIPPERS = {'left_gripper_controller': 'left_gripper', 'right_gripper_controller': 'right_gripper'}
 """Suffix of the joint name of each gripper controller."""
@@ -129,7 +129,7 @@ class GripperController(GoalController[Grip, GripResult]):
             )
         if not 0.0 <= most_n < math.inf:
             raise CommandError(
-                f'Its max_effort is {most_n:g} N. Give a force, or 0 for all that there is, '
+                f'Its max_effort is {most_n:g} N. Give a force, or 0 for the maximum, '
                 f'{self._strongest_n:g} N.'
             )
         force_n = min(most_n or self._strongest_n, self._strongest_n)

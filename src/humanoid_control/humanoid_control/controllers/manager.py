@@ -342,8 +342,8 @@ class ControllerManager:
         sound = np.isfinite(wished.positions_rad + wished.velocities_rad_s + wished.efforts_nm)
         index = int(np.argmin(sound))
         self._say(
-            f"'{self._name_of(self._owners[index])}' asks for a target of "
-            f"'{self.joints[index]}' that is not finite: the joint is held."
+            f"'{self._name_of(self._owners[index])}' commands '{self.joints[index]}' "
+            'to a target that is not finite: the joint is held.'
         )
         rest = JointTargets(held.positions_rad, *np.zeros((2, len(self.joints))))
         return _merged(rest, wished, sound)
@@ -354,7 +354,7 @@ class ControllerManager:
     def _kept(self, joint: str) -> str:
         """Build the message about a joint that the mode keeps for itself."""
         ways = [mode.name for mode in self._modes.values() if joint in mode.claimable]
-        leaves = 'only other joints' if self._mode.claimable else 'no joint'
+        leaves = 'only other joints' if self._mode.claimable else 'no joints'
         out = f"Leave it out, or set the mode to '{ways[0]}'." if ways else 'Leave it out.'
         return (
             f"'{joint}' is claimed by the mode '{self.mode}', which leaves {leaves} to "

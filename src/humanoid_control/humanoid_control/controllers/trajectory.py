@@ -102,15 +102,15 @@ def _checked_times(points: Sequence[TrajectoryPoint]) -> Array:
     """Collect the times of the points; they must start at 0 s or later, and increase."""
     times_s = np.array([point.time_s for point in points])
     if times_s[0] < 0.0:
-        raise CommandError(f'Its first point is at {times_s[0]:g} s. Begin at 0 s or later.')
+        raise CommandError(f'Its first point is at {times_s[0]:g} s. Start at 0 s or later.')
     if len(times_s) == 1 and times_s[0] == 0.0:
-        raise CommandError('Its only point is at 0 s, which is a jump. Give it some time.')
+        raise CommandError('Its only point is at 0 s, which is a jump. Give it a later time.')
     backwards = np.flatnonzero(np.diff(times_s) <= 0.0)
     if len(backwards):
         first = int(backwards[0])
         raise CommandError(
-            f'Point {first + 2} is at {times_s[first + 1]:g} s, not after the one before it, '
-            f'at {times_s[first]:g} s. Let the times grow.'
+            f'Point {first + 2} is at {times_s[first + 1]:g} s, not after the previous one, '
+            f'at {times_s[first]:g} s. Times must increase.'
         )
     return times_s
 
@@ -136,8 +136,8 @@ def _check_range(
     if outside is not None:
         point, joint = outside
         raise CommandError(
-            f"Point {point + 1} has '{names[joint]}' at {positions_rad[outside]:g} rad, which it "
-            f'does not reach: its range is {lower[joint]:g} to {upper[joint]:g} rad.'
+            f"Point {point + 1} has '{names[joint]}' at {positions_rad[outside]:g} rad, out of "
+            f'its range of {lower[joint]:g} to {upper[joint]:g} rad.'
         )
 
 
@@ -155,7 +155,7 @@ def _check_speed(
     if too_fast is not None:
         point, joint = too_fast
         raise CommandError(
-            f"'{names[joint]}' would have to turn at {speeds_rad_s[too_fast]:.3g} rad/s to be at "
+            f"'{names[joint]}' would have to move at {speeds_rad_s[too_fast]:.3g} rad/s to be at "
             f'point {point + 2} in time, but can do {fastest_rad_s[joint]:.3g} rad/s. '
             'Give it more time.'
         )
@@ -168,8 +168,8 @@ def _check_velocities(velocities_rad_s: Array, most_rad_s: Array, names: Sequenc
         if too_fast.any():
             joint = int(np.argmax(too_fast))
             raise CommandError(
-                f"Point {number} lets '{names[joint]}' turn at {speed_rad_s[joint]:.3g} rad/s, "
-                f'but it can do {most_rad_s[joint]:.3g} rad/s. Give less, or leave velocities out.'
+                f"Point {number} moves '{names[joint]}' at {speed_rad_s[joint]:.3g} rad/s, "
+                f'but it can do {most_rad_s[joint]:.3g} rad/s. Give less, or leave out velocities.'
             )
 
 

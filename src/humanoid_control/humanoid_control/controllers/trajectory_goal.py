@@ -94,12 +94,12 @@ def _check_joints(
     foreign = [joint for joint in given if joint not in own]
     if foreign:
         raise CommandError(
-            f"'{foreign[0]}' is no joint of '{controller}', which has: {', '.join(own)}."
+            f"'{foreign[0]}' is not a joint of '{controller}', which has: {', '.join(own)}."
         )
     missing = [joint for joint in own if joint not in given]
     if missing:
         raise CommandError(
-            f"It leaves out '{missing[0]}'. A goal of '{controller}' names all of its joints: "
+            f"It leaves out '{missing[0]}'. A goal of '{controller}' must name all its joints: "
             f'{", ".join(own)}.'
         )
 
@@ -112,7 +112,7 @@ def _check_end(trajectory: Trajectory, joints: Sequence[str]) -> None:
     if moving.any():
         joint = int(np.argmax(moving))
         raise CommandError(
-            f"Its last point lets '{joints[joint]}' move on at "
+            f"Its last point leaves '{joints[joint]}' moving at "
             f'{trajectory.velocities_rad_s[-1, joint]:.3g} rad/s. End at rest.'
         )
 
@@ -135,8 +135,8 @@ def _shifted(trajectory: Trajectory, start_in_s: float) -> Trajectory:
     times_s = trajectory.times_s + start_in_s
     if start_in_s and times_s[-1] <= 0.0:
         raise CommandError(
-            f'By the stamp of its header it ended {-times_s[-1]:.3g} s ago. Give the time at '
-            'which it is to start, or zero for now.'
+            f'By its header stamp, it ended {-times_s[-1]:.3g} s ago. Set the stamp to the start '
+            'time, or to zero to start now.'
         )
     return replace(trajectory, times_s=times_s)
 
@@ -145,8 +145,8 @@ def _checked_time(goal_time_s: float) -> float:
     """Validate the goal time tolerance; 0 becomes infinity."""
     if not math.isfinite(goal_time_s) or goal_time_s < 0.0:
         raise CommandError(
-            f'Its goal time tolerance is {goal_time_s:g} s. Give a time from zero on; zero is any '
-            'time.'
+            f'Its goal time tolerance is {goal_time_s:g} s. Give zero or more; zero means no '
+            'limit.'
         )
     return goal_time_s or math.inf
 
@@ -230,7 +230,7 @@ def _index(joint: str, joints: Sequence[str]) -> int:
     """Look up the index of a joint; reject a joint of another controller."""
     if joint not in joints:
         raise CommandError(
-            f"It has a tolerance of '{shortened(joint)}', which is no joint of this controller. "
+            f"It has a tolerance of '{shortened(joint)}', which this controller does not have. "
             f'{did_you_mean(joint, joints)} It has: {", ".join(joints)}.'
         )
     return list(joints).index(joint)
@@ -245,6 +245,6 @@ def _limit(kind: str, joint: str, value: float, default: float) -> float:
     if not (math.isfinite(value) and value > 0.0):
         raise CommandError(
             f"The tolerance of the {kind} of '{joint}' is {value:g}. Give a number above zero, 0 "
-            'for what the controller has by default, or -1 for none.'
+            'for the default of the controller, or -1 for no limit.'
         )
     return value

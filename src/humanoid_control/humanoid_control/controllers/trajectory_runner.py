@@ -29,7 +29,7 @@ class TrajectoryRunner:
 
     """
 
-    way_out = 'wait until its end'
+    way_out = 'wait until it ends'
 
     def __init__(self, joints: Sequence[str], name: str = 'joint_trajectory') -> None:
         self.name = name

@@ -202,4 +202,4 @@ def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
     # The sum of squares is finite only if all values are: much faster than checking each.
     if not math.isfinite(flat @ flat):
         bad = int(np.argmax(~(np.abs(flat) < 1e100)))
-        raise DynamicsError(f'{name} holds {flat[bad]} at place {bad}: give finite numbers.')
+        raise DynamicsError(f'{name} holds {flat[bad]} at index {bad}: give finite numbers.')

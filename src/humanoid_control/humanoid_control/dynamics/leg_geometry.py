@@ -87,7 +87,7 @@ class LegGeometry:
 def _sole(robot: Robot, side: str) -> str:
     """Return the name of the sole link of a leg."""
     if side not in _SOLES:
-        raise DynamicsError(f"The sides of a robot are {' and '.join(SIDES)}, not '{side}'.")
+        raise DynamicsError(f"A side must be {' or '.join(SIDES)}, not '{side}'.")
     sole = robot.prefix + _SOLES[side]
     if sole not in robot.link:
         raise DynamicsError(
@@ -103,13 +103,13 @@ def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[A
     found = [joint.name for joint in joints]
     if found != needed:
         raise DynamicsError(
-            f'The {side} leg has the joints {", ".join(found) or "(none)"}; needed are '
+            f'The {side} leg has the joints {", ".join(found) or "(none)"}, but needs '
             f'{", ".join(needed)}, in this order from the hip to the foot.'
         )
     for joint, pose, letter in zip(joints, at_zero, AXES.values()):
         if not np.allclose(pose[:3, :3] @ joint.axis, _unit(letter), atol=_TOLERANCE):
             raise DynamicsError(
-                f'{named(joint)} must turn about {letter} of the root while the leg is at zero.'
+                f'{named(joint)} must rotate about {letter} of the root link at the zero pose.'
             )
     _check_places([pose[:3, 3] for pose in at_zero], side)
 
@@ -127,8 +127,9 @@ def _check_places(points: Sequence[Array], side: str) -> None:
     )
     if not (straight and meet):
         raise DynamicsError(
-            f'The {side} leg is of another build: the three axes of its hip must meet in one '
-            'point, the two of its ankle in another, with the knee straight between them.'
+            f'The kinematics of the {side} leg are not supported: the three hip axes must '
+            'intersect in one point, the two ankle axes in another, with the knee straight '
+            'between them.'
         )
 
 

@@ -77,7 +77,7 @@ def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
     wanted_m = math.sqrt(x * x + y * y + z * z)
     if not math.isfinite(wanted_m):
         raise DynamicsError(
-            f'The sole should be at {sole.position_m}, turned by {sole.rotation.tolist()}: '
+            f'The target of the sole is {sole.position_m}, turned by {sole.rotation.tolist()}: '
             'give finite numbers.'
         )
     distance_m, give = _reached(leg, wanted_m)

@@ -105,11 +105,11 @@ def _check(robot: Robot, joints: tuple[str, ...]) -> None:
     """Validate that the robot has one root and mass, and that its joints can be modelled."""
     if len(robot.roots) != 1:
         raise DynamicsError(
-            f"Robot '{robot.name}' has {len(robot.roots)} links that hang from no joint "
+            f"Robot '{robot.name}' has {len(robot.roots)} links without a parent "
             f'({", ".join(robot.roots)}), but needs exactly one root.'
         )
     if not robot.mass_kg > 0.0:
-        raise DynamicsError(f"Robot '{robot.name}' weighs nothing: its links need <inertial>.")
+        raise DynamicsError(f"Robot '{robot.name}' has no mass: its links need <inertial>.")
     if double := repeated(joints):
         raise DynamicsError(f"Joint '{double[0]}' is named twice. Name each joint once.")
     for name in joints:
@@ -123,13 +123,13 @@ def _check_joint(joint: Joint) -> None:
     """Reject a joint that is neither revolute nor continuous, or that mimics another."""
     if joint.kind not in TURNING:
         raise DynamicsError(
-            f'{named(joint)} is {joint.kind}, but only joints that turn can be computed with. '
-            'Leave it out, and it is taken as fixed at zero.'
+            f'{named(joint)} is {joint.kind}, but only rotating joints are supported. '
+            'Leave it out to treat it as fixed at zero.'
         )
     if joint.mimics is not None:
         raise DynamicsError(
-            f"{named(joint)} mimics '{joint.mimics.joint}' and has no motion of its own. "
-            'Leave it out, and it is taken as fixed at zero.'
+            f"{named(joint)} mimics '{joint.mimics.joint}' and does not move independently. "
+            'Leave it out to treat it as fixed at zero.'
         )
 
 

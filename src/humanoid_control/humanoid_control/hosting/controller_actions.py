@@ -179,7 +179,7 @@ def _request(goal: FollowJointTrajectory.Goal, now_s: float) -> TrajectoryReques
         )
     if goal.component_path_tolerance or goal.component_goal_tolerance:
         raise CommandError(
-            'It has tolerances of components, which belong to joints of several degrees of '
+            'It has component tolerances, which are for joints with several degrees of '
             'freedom. Give path_tolerance and goal_tolerance instead.'
         )
     start_s = seconds(goal.trajectory.header.stamp)

@@ -279,7 +279,7 @@ def switch(
 
     """
     if strictness not in (0, *Strictness):
-        return False, f'{strictness} is no strictness. Give BEST_EFFORT (1) or STRICT (2).'
+        return False, f'Unknown strictness {strictness}. Give BEST_EFFORT (1) or STRICT (2).'
     is_strict = strictness not in (0, Strictness.BEST_EFFORT)
     restarted = set(activate) & set(deactivate)
     faults = {
@@ -319,11 +319,11 @@ def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> s
         keeps = (
             f'accepts no commands now: {reason}'
             if reason
-            else 'leaves its joints to no controller'
+            else 'lets no controller claim its joints'
         )
         return f"'{name}' cannot be active: the mode '{control.manager.mode}' {keeps}."
     if is_strict and controller.is_active == active:
-        return f"'{name}' is {ACTIVE if active else INACTIVE} already."
+        return f"'{name}' is already {ACTIVE if active else INACTIVE}."
     return ''
 
 
@@ -336,6 +336,6 @@ def _not_switched(control: RobotControl, name: str) -> str:
         )
     known = [each.name for each in controllers_of(control)]
     if name in known:
-        return f"'{name}' is always there, for whoever publishes on its topic."
-    advice = did_you_mean(name, known) or f'There are: {", ".join(known)}.'
+        return f"'{name}' is always active and listens to its topic."
+    advice = did_you_mean(name, known) or f'The controllers are: {", ".join(known)}.'
     return f"There is no controller '{shortened(name)}'. {advice}"

@@ -88,8 +88,8 @@ def points_of(message: JointTrajectory) -> list[TrajectoryPoint]:
     count = len(message.points)
     if count > MOST_POINTS:
         raise CommandError(
-            f'It has {count} points. Give at most {MOST_POINTS}, one after the other if need be: '
-            'what is between points is smooth.'
+            f'It has {count} points. Give at most {MOST_POINTS}, or split it into several goals: '
+            'the motion between points is smooth.'
         )
     return [_point_of(point) for point in message.points]
 

@@ -62,7 +62,7 @@ class HostDiagnostics:
         if complaint and not self._has_complained:
             self._has_complained = True
             self._logger.warning(
-                f'{complaint[:1].upper()}{complaint[1:]}, so that the world goes slower.'
+                f'{complaint[:1].upper()}{complaint[1:]}, so simulated time runs slower.'
             )
         values = {
             'ticks': f'{load.ticks}',
@@ -94,7 +94,7 @@ def _verdict(health: RobotHealth) -> tuple[Level, str]:
     if health.holds_because:
         return Level.WARN, f'holds still: {health.holds_because}'
     if health.is_blocked:
-        return Level.WARN, 'something is in the way, and it goes no further that way'
+        return Level.WARN, 'blocked: something is in the way'
     return Level.OK, health.mode
 
 
@@ -180,7 +180,7 @@ def _duplicates_message(topics: Sequence[str]) -> str:
     """Build the warning about topics that have more than one publisher, given their names."""
     names = ', '.join(f"'{topic}'" for topic in topics)
     return (
-        f'Another node publishes {names}, too: who listens gets a mixture. Perhaps a second robot '
-        'or simulator runs. End one of them, or give it a namespace (a mock robot) or a '
-        'ROS_DOMAIN_ID (a simulator) of its own. One that was killed is seen for some 20 s more.'
+        f'Another node also publishes {names}, so subscribers receive a mixture. Perhaps a second '
+        'robot or simulator is running. Stop one of them, or give it its own namespace (a mock '
+        'robot) or ROS_DOMAIN_ID (a simulator). A killed one stays visible for some 20 s.'
     )

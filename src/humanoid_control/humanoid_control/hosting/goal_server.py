@@ -120,7 +120,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
     def _start(self, handle: ServerGoalHandle) -> None:
         """Pass the goal that was just checked to the controller."""
         if self._checked is None:
-            raise RuntimeError('A goal was accepted that was not checked.')
+            raise RuntimeError('A goal was accepted without a check.')
         end = self._ends[bytes(handle.goal_id.uuid)] = Future(executor=self._node.executor)
         self._goals.accept(self._checked, end.set_result)
         self._checked, self.current = None, handle

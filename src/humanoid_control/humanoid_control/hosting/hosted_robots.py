@@ -230,7 +230,7 @@ class RobotInputs:
         try:
             command()
         except (CommandError, WalkingError) as error:
-            self._refusals.add(f"Refused a message on '{self._place}{name}'. {error}")
+            self._refusals.add(f"Rejected a message on '{self._place}{name}'. {error}")
 
 
 class RobotOutputs:

@@ -20,14 +20,14 @@ class HostParameters:
 
     robots: tuple[str, ...] = parameter(
         ('',),
-        'The namespaces of the robots; an empty text is one robot in the namespace of the node.',
+        'The namespaces of the robots; an empty string is one robot in the namespace of the node.',
         read_only=True,
     )
     scale: float = parameter(
-        1.0, 'The size of the robots, as in the model.', at_least=0.5, at_most=1.3, read_only=True
+        1.0, 'Scale of the robots, as in the model.', at_least=0.5, at_most=1.3, read_only=True
     )
     prefix: str = parameter(
-        '', 'What the names of all links and joints begin with, as in the model.', read_only=True
+        '', 'Prefix of the names of all links and joints, as in the model.', read_only=True
     )
     hands: bool = parameter(
         False, 'Whether the arms have wrists and grippers, as in the model.', read_only=True
@@ -35,35 +35,35 @@ class HostParameters:
     walk: WalkParameters = WalkParameters()
     control_rate_hz: float = parameter(
         100.0,
-        'How often the controllers decide in a second of the robot.',
+        'Rate of the control loop, in the time of the robot.',
         at_least=50.0,
         at_most=500.0,
         read_only=True,
     )
     mode: str = parameter(
         WALKING,
-        'What the robots do, and which joints controllers may claim meanwhile: with walking those '
-        'above the legs, with follow all, with hold none.',
+        'What the robots do, and which joints controllers may claim: those above the legs with '
+        'walking, all with follow, none with hold.',
         choices=MODES,
     )
     joint_states_rate_hz: float = parameter(
-        50.0, 'How often joint_states is published; 0 is never.', at_least=0.0, at_most=500.0
+        50.0, 'Rate of joint_states; 0 turns it off.', at_least=0.0, at_most=500.0
     )
     imu_rate_hz: float = parameter(
-        100.0, 'How often imu/data is published; 0 is never.', at_least=0.0, at_most=500.0
+        100.0, 'Rate of imu/data; 0 turns it off.', at_least=0.0, at_most=500.0
     )
     odometry_rate_hz: float = parameter(
-        50.0, 'How often odom and tf are published; 0 is never.', at_least=0.0, at_most=500.0
+        50.0, 'Rate of odom and tf; 0 turns them off.', at_least=0.0, at_most=500.0
     )
     debug_rate_hz: float = parameter(
         10.0,
-        'How often footsteps, walking/dcm and walking/zmp are published; 0 is never.',
+        'Rate of footsteps, walking/dcm and walking/zmp; 0 turns them off.',
         at_least=0.0,
         at_most=500.0,
     )
     heartbeat_timeout_s: float = parameter(
         1.0,
-        'How long the console that is in control may be silent before the robots hold still.',
+        'How long the console in control may be silent before the robots hold still.',
         at_least=0.2,
         at_most=10.0,
     )
@@ -73,9 +73,9 @@ class HostParameters:
         for name in self.robots:
             if not (name == '' and len(self.robots) == 1) and not _NAMESPACE.fullmatch(name):
                 raise ParameterError(
-                    f"Parameter 'robots' contains '{name}', which is no namespace. Give names of "
-                    'at most 60 letters, digits and underscores, which begin with a letter; a '
-                    'robot alone may have an empty one.',
+                    f"Parameter 'robots' contains '{name}', which is not a valid namespace. Give "
+                    'names of up to 60 letters, digits and underscores that start with a letter; '
+                    'a single robot may have an empty one.',
                     'robots',
                 )
             if self.robots.count(name) > 1:

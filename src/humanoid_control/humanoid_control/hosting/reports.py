@@ -9,11 +9,11 @@ import time
 from typing import Protocol
 
 FALLEN = (
-    'has fallen, and its joints give way until it is put onto its feet. '
-    "In a simulation, call the service 'stand_up'."
+    'has fallen, and its joints are limp until it is stood up again. '
+    "In simulation, call the service 'stand_up'."
 )
 BLOCKED = (
-    'Something is in the way. It steps back and goes no further in that direction: turn it, walk '
+    'Something is in the way. It steps back and does not walk in that direction: turn it, walk '
     'another way, or let go for half a second to try again.'
 )
 QUIET_S = 5.0
@@ -178,4 +178,4 @@ class Refusals:
         if self._count <= MOST_MESSAGES:
             self._say(sentence)
         if self._count == MOST_MESSAGES:
-            self._say(f'That is much to refuse: for {QUIET_S:g} s, no more of it is said.')
+            self._say(f'Too many rejections: further ones are not logged for {QUIET_S:g} s.')

@@ -252,7 +252,7 @@ class RobotControl:
 
         """
         if self._walk is None:
-            raise CommandError('This robot does not walk: nothing in it takes a velocity.')
+            raise CommandError('This robot cannot walk: it accepts no velocity commands.')
         if not self.must_hold:
             self._velocity = velocity
             self._silence.heard()
@@ -277,7 +277,7 @@ class RobotControl:
 
         """
         if self._hold_body is None:
-            raise CommandError('This robot does not bend: nothing in it takes a pose of the body.')
+            raise CommandError('This robot cannot bend: it accepts no body pose commands.')
         if not self.must_hold:
             self._hold_body(pose)
 
@@ -341,7 +341,7 @@ class RobotControl:
             elif controller.has_goal and not self.manager.owns(controller, controller.indices):
                 owners = {self.manager.owner(joint) for joint in controller.own}
                 others = ', '.join(f"'{name}'" for name in sorted(owners - {controller.name}))
-                controller.abort(f'Its joints were taken by {others}.')
+                controller.abort(f'Its joints were claimed by {others}.')
 
     def _forget(self) -> None:
         """Drop all commands."""

@@ -22,7 +22,7 @@ from humanoid_description.robot import Robot
 CLAIMABLE = ('head_', 'waist_', 'shoulder', 'elbow', 'wrist', 'gripper')
 """A joint whose name contains one of these is not needed to walk."""
 MOVING = ('walk', 'stop', 'stand_up')
-DOWN = 'the robot has fallen, and is not on its feet again'
+DOWN = 'the robot has fallen and is not back on its feet yet'
 Able = Callable[[VelocityCommand], VelocityCommand]
 """Maps a commanded velocity to what the robot can do, before the limits of the gait."""
 

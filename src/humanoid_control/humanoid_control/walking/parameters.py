@@ -80,15 +80,15 @@ class TimingParameters:
 class FootstepParameters:
     """Limits of footsteps, preview, and tracking of the reference path."""
 
-    width_m: float = _length(0.18, 'Lateral distance of the feet.')
-    least_width_m: float = _length(0.14, 'Least lateral distance of the feet.')
-    most_width_m: float = _length(0.42, 'Greatest lateral distance of the feet.')
+    width_m: float = _length(0.18, 'Lateral distance between the feet.')
+    least_width_m: float = _length(0.14, 'Minimum lateral distance between the feet.')
+    most_width_m: float = _length(0.42, 'Maximum lateral distance between the feet.')
     most_length_m: float = _length(
-        0.32, 'How far a foot may land ahead of or behind the other one to catch the robot.'
+        0.32, 'How far a foot may land ahead of or behind the other to catch the robot.'
     )
     preview_steps: int = parameter(
         4,
-        'How many steps the plan looks ahead, the present one among them.',
+        'Number of steps in the preview, including the current one.',
         at_least=2,
         at_most=10,
         read_only=True,
@@ -97,10 +97,10 @@ class FootstepParameters:
         0.5, 'Share of the deviation from the reference path that is corrected in a step.'
     )
     path_distance_m: float = _length(
-        0.06, 'Greatest deviation from the reference path; the path is moved by what is more.'
+        0.06, 'Maximum deviation from the reference path; the path is shifted by any excess.'
     )
     path_turn_rad: float = _fixed(
-        0.15, 'Greatest deviation in heading from the reference path; it is turned by the rest.'
+        0.15, 'Maximum heading error to the reference path; the path is turned by any excess.'
     )
     parallel_length_m: float = _length(
         0.025, 'How far one foot may be ahead of the other when the robot stops.'
@@ -117,16 +117,16 @@ class FootstepParameters:
 class VelocityParameters:
     """Limits of the velocity and the acceleration of the gait."""
 
-    forward_limit_m_s: float = _speed(0.5, 'Greatest forward velocity.')
-    backward_limit_m_s: float = _speed(0.3, 'Greatest backward velocity.')
-    left_limit_m_s: float = _speed(0.2, 'Greatest lateral velocity.')
-    turn_limit_rad_s: float = _rate(1.0, 'Greatest yaw rate.')
+    forward_limit_m_s: float = _speed(0.5, 'Maximum forward velocity.')
+    backward_limit_m_s: float = _speed(0.3, 'Maximum backward velocity.')
+    left_limit_m_s: float = _speed(0.2, 'Maximum lateral velocity.')
+    turn_limit_rad_s: float = _rate(1.0, 'Maximum yaw rate.')
     sum_of_shares: float = _fixed(
-        1.5, 'Greatest sum of the three components, each as a share of its limit.'
+        1.5, 'Maximum sum of the three components, each as a share of its limit.'
     )
-    forward_acceleration_m_s2: float = _fixed(0.4, 'Greatest acceleration along x.')
-    left_acceleration_m_s2: float = _fixed(0.2, 'Greatest acceleration along y.')
-    turn_acceleration_rad_s2: float = _growing(-1.0, 0.8, 'Greatest yaw acceleration.')
+    forward_acceleration_m_s2: float = _fixed(0.4, 'Maximum acceleration along x.')
+    left_acceleration_m_s2: float = _fixed(0.2, 'Maximum acceleration along y.')
+    turn_acceleration_rad_s2: float = _growing(-1.0, 0.8, 'Maximum yaw acceleration.')
 
     @property
     def limits(self) -> VelocityLimits:
@@ -170,10 +170,10 @@ class PostureParameters:
         0.97, 'Share of its length to which a stance leg is stretched before the pelvis sinks.'
     )
     zmp_forward_m: float = _length(
-        0.015, 'How far ahead of the frame of the sole the load of a foot is planned.'
+        0.015, 'How far ahead of the sole frame the ZMP of a foot is planned.'
     )
     zmp_inward_m: float = _length(
-        0.005, 'How far to the inner side of the sole the load of a foot is planned.'
+        0.005, 'How far to the inner side of the sole frame the ZMP of a foot is planned.'
     )
     margin_length_m: float = _length(
         0.01, 'Distance that the centre of pressure keeps from toe and heel.'
@@ -200,11 +200,11 @@ class PostureParameters:
 class BodyPoseParameters:
     """Limits and rates of the commanded body pose of a standing robot."""
 
-    bend_rad: float = _fixed(0.5, 'Greatest forward pitch.')
-    bend_back_rad: float = _fixed(0.1, 'Greatest backward pitch.')
-    bend_rad_s: float = _rate(0.4, 'Greatest pitch rate.')
-    lower_m: float = _length(0.12, 'How far the centre of mass is lowered at most.')
-    lower_m_s: float = _speed(0.1, 'Greatest velocity at which it is lowered.')
+    bend_rad: float = _fixed(0.5, 'Maximum forward pitch.')
+    bend_back_rad: float = _fixed(0.1, 'Maximum backward pitch.')
+    bend_rad_s: float = _rate(0.4, 'Maximum pitch rate.')
+    lower_m: float = _length(0.12, 'Maximum lowering of the centre of mass.')
+    lower_m_s: float = _speed(0.1, 'Maximum velocity of that lowering.')
     upright_pitch_rad: float = _fixed(0.03, 'Pitch below which the robot may step.')
     upright_height_m: float = _length(
         0.01, 'Lowering of the centre of mass below which the robot may step.'
@@ -215,25 +215,21 @@ class BodyPoseParameters:
 class BalanceParameters:
     """Feedback control of the divergent component of motion (DCM) and of the attitude."""
 
-    dcm_gain: float = _fixed(
-        1.6, 'How far the zero-moment point moves, in multiples of the error of the DCM.'
-    )
+    dcm_gain: float = _fixed(1.6, 'How far the ZMP moves, as a multiple of the DCM error.')
     observer_rate_1_s: float = _rate(60.0, 'Bandwidth of the estimate of the centre of mass.')
     reference_leak_1_s: float = _rate(
         8.0, 'Rate at which the reference of the centre of mass returns to the estimate.'
     )
     reference_distance_m: float = _length(
-        0.04, 'Greatest distance along each axis of that reference from the estimate.'
+        0.04, 'Maximum distance along each axis of that reference from the estimate.'
     )
     attitude_stiffness_nm_rad: float = _growing(
         4.0, 400.0, 'Stiffness of the attitude of the trunk.'
     )
     attitude_damping_nms_rad: float = _growing(4.5, 25.0, 'Damping of the attitude of the trunk.')
-    ground_turn_nm: float = _growing(
-        4.0, 15.0, 'Greatest torque about the vertical of the feet on the ground.'
-    )
+    ground_turn_nm: float = _growing(4.0, 15.0, 'Maximum yaw torque of the feet on the ground.')
     heading_share: float = _share(
-        0.5, 'Share of stiffness and damping that acts on errors of the heading.'
+        0.5, 'Share of stiffness and damping that acts on heading errors.'
     )
     push_forward_m: float = _length(
         0.065, 'Distance of the DCM ahead of the middle at which a standing robot steps.'
@@ -241,36 +237,36 @@ class BalanceParameters:
     push_left_m: float = _length(
         0.085, 'Distance of the DCM beside the middle at which a standing robot steps.'
     )
-    stop_error_m: float = _length(0.04, 'Error of the DCM below which the robot may stop.')
+    stop_error_m: float = _length(0.04, 'DCM error below which the robot may stop.')
 
 
 @dataclass(frozen=True)
 class StepAdjustmentParameters:
     """Adjustment of the position and the timing of a landing to catch the robot."""
 
-    until_s: float = _time(0.06, 'Time before a landing from which on its place is kept.')
-    dead_band_m: float = _length(0.005, 'Adjustment below which the place is kept.')
-    hurry_error_m: float = _length(0.06, 'Error of the DCM from which on a step may be hurried.')
+    until_s: float = _time(0.06, 'Time before a landing from which its position is fixed.')
+    dead_band_m: float = _length(0.005, 'Adjustment below which the position is kept.')
+    hurry_error_m: float = _length(0.06, 'DCM error above which a step may be sped up.')
     hurry_rates: tuple[float, ...] = parameter(
         (1.0, 1.3, 1.6, 2.0),
-        'How many times as fast a step may be, slowest first.',
+        'Speed-up factors of a step, slowest first.',
         at_least=1.0,
         at_most=3.0,
         read_only=True,
     )
     unreachable_length_m: float = _length(
-        0.02, 'By how much the length of a step may be cut before the step is hurried instead.'
+        0.02, 'How much of the length of a step may be cut before it is sped up instead.'
     )
     unreachable_width_m: float = _length(
-        0.03, 'By how much the width of a step may be cut before the step is hurried instead.'
+        0.03, 'How much of the width of a step may be cut before it is sped up instead.'
     )
 
     def __post_init__(self) -> None:
         """Check the rates."""
         if self.hurry_rates[0] != 1.0 or sorted(set(self.hurry_rates)) != [*self.hurry_rates]:
             raise ParameterError(
-                f"Parameter 'hurry_rates' is {[*self.hurry_rates]}, but must begin with 1.0 and "
-                'grow from each rate to the next.',
+                f"Parameter 'hurry_rates' is {[*self.hurry_rates]}, but must start with 1.0 and "
+                'increase from each rate to the next.',
                 'hurry_rates',
             )
 
@@ -283,17 +279,17 @@ class SwingParameters:
     early_arrival: float = _share(
         0.94, 'Share of the swing at which the foot is above its landing.'
     )
-    reach_down_m_s: float = _speed(0.2, 'Velocity downwards when the ground comes late.')
-    deepest_m: float = _length(0.06, 'How far below the expected ground the foot goes.')
+    reach_down_m_s: float = _speed(0.2, 'Downward velocity when touchdown is late.')
+    deepest_m: float = _length(0.06, 'How far below the expected ground the foot reaches.')
     longest_tick_s: float = _time(
         0.04,
-        'Gap between two control periods after which the swing goes on from where the foot is.',
+        'Gap between two control periods after which the swing continues from the actual foot.',
     )
     touchdown_phase: float = _share(
-        0.5, 'Share of the swing from which on a foot that meets something stays there.'
+        0.5, 'Share of the swing after which a foot that meets something stays there.'
     )
     touchdown_load: float = _share(
-        0.12, 'Share of the weight that the foot has to carry to stay there.'
+        0.12, 'Share of the weight that the foot must carry to stay there.'
     )
     touch_load: float = _share(
         0.06, 'Share of the weight that is enough for that near the end of the swing.'
@@ -302,19 +298,19 @@ class SwingParameters:
         0.03, 'Share of the weight below which a landed foot has lost the ground.'
     )
     lost_s: float = _time(
-        0.025, 'Time for which the load has to be so small until the foot swings on.'
+        0.025, 'Time for which the load must be that small before the foot swings on.'
     )
     least_s: float = _time(
         0.08, 'Time left in the swing below which such a foot goes straight down.'
     )
     gentle_phase: float = _share(
-        0.75, 'Share of the swing from which on the smaller load is enough.'
+        0.75, 'Share of the swing after which the smaller load is enough.'
     )
     landing_phase: float = _share(
-        0.85, 'Share of the swing from which on a landed foot may take the weight.'
+        0.85, 'Share of the swing after which a landed foot may take the weight.'
     )
     late_touchdown_s: float = _time(
-        0.16, 'How late a landing may be until the step ends without it.'
+        0.16, 'How late a landing may be before the step ends without it.'
     )
 
 
@@ -347,10 +343,10 @@ class TerrainParameters:
         8.0, 'Rate at which its reference returns to the measured height.'
     )
     level_distance_m: float = _length(
-        0.04, 'Greatest distance of that reference from the measured height.'
+        0.04, 'Maximum distance of that reference from the measured height.'
     )
     level_tolerance_m: float = _length(
-        0.005, 'Difference in height below which footholds are one level floor for odometry.'
+        0.005, 'Difference in height below which footholds count as one level floor for odometry.'
     )
 
 
@@ -358,17 +354,17 @@ class TerrainParameters:
 class FallParameters:
     """Fall detection, compliant fall, and standing up."""
 
-    tilt_rad: float = _fixed(0.6, 'Tilt beyond which the robot falls.')
-    foresight_s: float = _time(0.2, 'Time within which a tilt that is reached counts already.')
+    tilt_rad: float = _fixed(0.6, 'Tilt beyond which the robot counts as falling.')
+    foresight_s: float = _time(0.2, 'How far ahead the tilt is predicted, to detect a fall.')
     height: float = _share(
-        0.7, 'Share of its height when it stands below which the base of a robot falls.'
+        0.7, 'Share of its standing height below which the base counts as falling.'
     )
     upright_tilt_rad: float = _fixed(
-        0.3, 'Tilt below which a robot, its legs below it, is being held and can stand up.'
+        0.3, 'Tilt below which a robot above its legs counts as held and can stand up.'
     )
     collapse_s: float = _time(1.5, 'Time for which joints stay compliant before they are limp.')
     collapse_stiffness: float = _share(0.15, 'Share of the stiffness of the joints meanwhile.')
-    stand_up_s: float = _time(1.5, 'Time in which the joints reach the posture of standing.')
+    stand_up_s: float = _time(1.5, 'Time in which the joints reach the standing posture.')
     standing_load: float = _share(
         0.6, 'Share of the weight on the soles at which the robot walks again.'
     )
@@ -380,21 +376,21 @@ class ObstacleParameters:
 
     force_rate_1_s: float = _rate(8.0, 'Bandwidth of the estimate of external forces.')
     bump_ns: float = _growing(
-        3.5, 12.0, 'Impulse against the motion at which the way counts as blocked.'
+        3.5, 12.0, 'Impulse against the motion above which the way counts as blocked.'
     )
     bump_memory_s: float = _time(0.8, 'Time constant with which impulses are forgotten.')
     turn_back_m_s: float = _speed(
-        0.8, 'Velocity at which the swing foot moves to where it lands instead.'
+        0.8, 'Velocity at which the swing foot moves to its new landing.'
     )
     keep_off_m: float = _length(
         0.01, 'Distance that the feet keep from where a foot has met something.'
     )
     keep_off_slope: float = _share(
-        0.15, 'By how much that distance shrinks per distance aside: its direction is uncertain.'
+        0.15, 'How much that distance shrinks per lateral distance: its direction is uncertain.'
     )
-    touch_rate_1_s: float = _rate(16.0, 'Bandwidth of the estimate of what limbs touch.')
+    touch_rate_1_s: float = _rate(16.0, 'Bandwidth of the contact estimate of the limbs.')
     touch_load_rate_1_s: float = _rate(
-        1.5, 'Rate at which what a standing robot feels in an arm becomes its payload.'
+        1.5, 'Rate at which the load on an arm of a standing robot becomes its payload.'
     )
     touch_gap_s: float = _time(
         0.025, 'Gap between two observations beyond which touch is not estimated.'
@@ -406,17 +402,17 @@ class ObstacleParameters:
     )
     leg_touch_aside_nm: float = _growing(4.0, 10.0, 'The same along y, where a step needs less.')
     leg_touch_from_phase: float = _share(
-        0.1, 'Share of the swing from which on the leg can meet something.'
+        0.1, 'Share of the swing after which the leg can meet something.'
     )
     arm_touch_nm: float = _growing(4.0, 4.0, 'Shoulder moment at which an arm has met something.')
     retreat_m_s: float = _speed(0.12, 'Velocity at which the robot steps back.')
     retreat_m: float = _length(0.12, 'How far it steps back.')
-    retreat_s: float = _time(4.0, 'Time for which it steps back at most.')
+    retreat_s: float = _time(4.0, 'Maximum time for which it steps back.')
     lean_m: float = _length(
         0.03, 'Offset of the DCM towards the obstacle beyond which it does not step back yet.'
     )
     let_go_s: float = _time(
-        0.5, 'Time for which nobody must command the way until it may be tried again.'
+        0.5, 'Time without a command in that direction before it may be tried again.'
     )
     forget_m: float = _length(0.5, 'Distance beyond which an obstacle is forgotten.')
 
@@ -425,8 +421,8 @@ class ObstacleParameters:
 class JointParameters:
     """Limits of the joint velocities and accelerations that the walk commands."""
 
-    velocity_limit_rad_s: float = _rate(12.0, 'Greatest velocity of a joint.')
-    acceleration_limit_rad_s2: float = _growing(-1.0, 250.0, 'Greatest acceleration of a joint.')
+    velocity_limit_rad_s: float = _rate(12.0, 'Maximum joint velocity.')
+    acceleration_limit_rad_s2: float = _growing(-1.0, 250.0, 'Maximum joint acceleration.')
 
 
 @dataclass(frozen=True)

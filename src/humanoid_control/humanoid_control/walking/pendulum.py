@@ -141,7 +141,7 @@ class DcmPlan:
 
     def __init__(self, segments: Sequence[ZmpSegment], rate_1_s: float) -> None:
         if not segments:
-            raise WalkingError('A plan of the zero-moment point needs at least one segment.')
+            raise WalkingError('A ZMP trajectory needs at least one segment.')
         self._rate_1_s = rate_1_s
         self._segments = tuple(segments)
         self._dcm_at_end = [self._segments[-1].end_m]

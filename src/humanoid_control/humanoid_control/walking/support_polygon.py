@@ -36,7 +36,7 @@ class SupportPolygon:
         hull = convex_hull(np.array([(point.real, point.imag) for point in points]))
         self._corners = [complex(x, y) for x, y in hull]
         if len(self._corners) < 3:
-            raise WalkingError(f'{len(points)} points on a line are no area to stand on.')
+            raise WalkingError(f'{len(points)} points on a line are not a support polygon.')
         self._edges = [
             (start, end - start)
             for start, end in zip(self._corners, self._corners[1:] + self._corners[:1])
@@ -131,8 +131,8 @@ class FootShape:
                     break
                 return cls._within(corners.min(axis=0), corners.max(axis=0), parameters)
         raise WalkingError(
-            f"'{sole}' has no foot with a collision shape that is no mesh: nobody can tell where "
-            'it may stand.'
+            f"'{sole}' has no foot with a collision shape other than a mesh, so its support "
+            'polygon is unknown.'
         )
 
     @classmethod

@@ -23,8 +23,8 @@ class VelocityCommand:
         if not all(map(math.isfinite, astuple(self))):
             raise WalkingError(
                 f'The velocity (forward {self.forward_m_s:g} m/s, left {self.left_m_s:g} m/s, '
-                f'turn {self.turn_rad_s:g} rad/s) is not finite. It is refused; the last '
-                'velocity goes on.'
+                f'turn {self.turn_rad_s:g} rad/s) is not finite. It is rejected; the last '
+                'velocity continues.'
             )
 
     @property

@@ -109,7 +109,7 @@ class WalkingRobot:
         undriven = [name for name in joints if name not in drives]
         if undriven:
             raise WalkingError(
-                f'There is no drive for {", ".join(undriven)}: config/joints.yaml lacks it.'
+                f'There is no drive for {", ".join(undriven)}. Add it to config/joints.yaml.'
             )
         own = [joint for joint in joints if not any(part in joint for part in HAND_JOINTS)]
         body = BodyModel.of(robot, own, [drives[joint].armature for joint in own])

@@ -44,7 +44,7 @@ def _obstacle(robot: Robot, group: Iterable[Check], before: list[Outcome]) -> st
     if group in (NAMES, SHAPE) and robot.name != NAME:
         return f"the robot '{robot.name}' is not the humanoid"
     if any(outcome.defects for outcome in before):
-        return 'the defects come first'
+        return 'fix the defects first'
     return ''
 
 

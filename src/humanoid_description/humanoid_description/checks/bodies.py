@@ -30,7 +30,7 @@ def look_at_masses(robot: Robot) -> tuple[str, Iterable[str]]:
     """
     defects = [
         f'{named(link)} has a mass of {link.body.mass_kg:g} kg. Give it a positive one, or '
-        'leave out <inertial> if it is a mere frame.'
+        'leave out <inertial> if it is only a frame.'
         for link in robot.links
         if link.body and not link.body.mass_kg > 0
     ]
@@ -70,8 +70,8 @@ def _wrong_moments(link: Link, body: Body) -> Iterator[str]:
         )
     elif high > (low + middle) * (1 + ROUNDING):
         yield (
-            f'{named(link)} has the inertia of no real body: the largest principal moment, '
-            f'{high:g} kg m2, is more than the sum of the two others, {low:g} and {middle:g}.'
+            f'{named(link)} has a physically impossible inertia: the largest principal moment, '
+            f'{high:g} kg m2, exceeds the sum of the other two, {low:g} and {middle:g}.'
         )
 
 
@@ -92,8 +92,8 @@ def look_at_moving_links(robot: Robot) -> tuple[str, Iterable[str]]:
     """
     moved = [joint for joint in robot.joints if joint.is_driven]
     return count(len(moved), 'moving link'), [
-        f"{named(robot.link[joint.child])} is moved by joint '{joint.name}', but has no mass, nor "
-        'has what is fixed to it. Simulators refuse this: add <inertial>.'
+        f"{named(robot.link[joint.child])} is moved by joint '{joint.name}', but neither it nor "
+        'anything fixed to it has mass. Simulators reject this: add <inertial>.'
         for joint in moved
         if not _has_mass(robot, joint.child)
     ]

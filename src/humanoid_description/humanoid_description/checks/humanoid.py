@@ -44,7 +44,7 @@ def look_at_frames(robot: Robot) -> tuple[str, Iterable[str]]:
     wanted = [robot.prefix + name for name in build_of(robot).frames]
     missing = [name for name in wanted if name not in robot.link]
     return f'{len(wanted) - len(missing)} of {len(wanted)}', [
-        f"The frame '{name}' is missing, which REP 120 names. "
+        f"The frame '{name}' of REP 120 is missing. "
         + did_you_mean(name, set(robot.link) - set(wanted))
         for name in missing
     ]
@@ -94,7 +94,7 @@ def look_at_ground_contact(robot: Robot) -> tuple[str, Iterable[str]]:
     """
     corners = len(ground_contact(robot))
     defect = (
-        'There is nothing flat to stand on: add a <collision> that is no mesh to the links of '
+        'There is no flat surface to stand on: add a <collision> other than a mesh to '
         f'{", ".join(build_of(robot).stands_on)}.'
     )
     return f'{corners} corners', () if corners > 2 else (defect,)
@@ -118,7 +118,7 @@ def look_at_height(robot: Robot) -> tuple[str, Iterable[str]]:
     height, rules = height_m(robot), load_scaling()
     low, high = (build_of(robot).height_m * scale for scale in (rules.smallest, rules.largest))
     defect = (
-        f'The robot is {height:.2f} m tall, but its build is made for {low:.2f} to {high:.2f} m.'
+        f'The robot is {height:.2f} m tall; this build is designed for {low:.2f} to {high:.2f} m.'
     )
     is_right = low * (1 - TOLERANCE) <= height <= high * (1 + TOLERANCE)
     return f'{height:.3f} m', () if is_right else (defect,)
@@ -172,7 +172,7 @@ def look_at_stand(robot: Robot) -> tuple[str, Iterable[str]]:
         return f'centre of mass {margin_mm:.0f} mm inside', ()
     return f'centre of mass {-margin_mm:.0f} mm outside', (
         f'The centre of mass, at x {centre[0]:.3f} y {centre[1]:.3f}, is {-margin_mm:.0f} mm '
-        'outside of the area that the robot stands on: with all joints at zero it tips over.',
+        'outside the support polygon: with all joints at zero, the robot tips over.',
     )
 
 

@@ -38,9 +38,9 @@ def _wrong_kind(joint: Joint) -> Iterator[str]:
     if joint.kind not in KINDS:
         hint = did_you_mean(joint.kind, KINDS) or f'The types are {", ".join(KINDS)}.'
         where = named(joint)
-        yield f"{where} is of the unknown type '{joint.kind}'. {hint}"
+        yield f"{where} has the unknown type '{joint.kind}'. {hint}"
     if joint.is_driven and not np.linalg.norm(joint.axis) > 0:
-        yield f"{line_of(joint)}The axis of joint '{joint.name}' is 0 0 0, which points nowhere."
+        yield f"{line_of(joint)}The axis of joint '{joint.name}' is 0 0 0, which has no direction."
 
 
 def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
@@ -67,7 +67,7 @@ def _wrong_limits(joint: Joint) -> Iterator[str]:
     limits, where = joint.limits, named(joint)
     if limits is None:
         yield (
-            f'{where} is {joint.kind}, but no <limit> says how far it moves. '
+            f'{where} is {joint.kind}, but has no <limit> with its range. '
             'Give lower, upper, effort and velocity.'
         )
         return
@@ -79,8 +79,8 @@ def _wrong_limits(joint: Joint) -> Iterator[str]:
     for name, value in (('effort', limits.effort), ('velocity', limits.velocity)):
         if not (value or 0) > 0:
             yield (
-                f'{where} has {_shown(value)} {name} limit, with which nothing '
-                'moves it. Give a positive one.'
+                f'{where} has {_shown(value)} {name} limit, so it cannot move. '
+                'Give a positive one.'
             )
 
 
@@ -114,7 +114,7 @@ def _wrong_leader(robot: Robot, name: str, leader: str) -> Iterator[str]:
     what = f"{named(robot.joint[name])} mimics '{leader}', which"
     if leader not in robot.joint:
         hint = did_you_mean(leader, robot.joint.keys() - {name}) or 'Correct the name.'
-        yield f'{what} is no joint. {hint}'
+        yield f'{what} does not exist. {hint}'
     elif not robot.joint[leader].is_driven:
         yield f'{what} has no position: it is {robot.joint[leader].kind}.'
 
@@ -126,8 +126,7 @@ def _circles(robot: Robot, mimics: Mapping[str, str]) -> Iterator[str]:
         names = ', '.join(f"'{name}'" for name in circling)
         where = line_of(robot.joint[circling[0]])
         yield (
-            f'{where}These joints mimic each other in a circle, so that nothing moves them: '
-            f'{names}.'
+            f'{where}These joints mimic each other in a loop, so nothing can move them: {names}.'
         )
 
 

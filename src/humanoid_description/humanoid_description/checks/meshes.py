@@ -30,7 +30,7 @@ def look_at_meshes(robot: Robot) -> tuple[str, Iterable[str]]:
     """
     files = {shape.file for link in robot.links for shape in _meshes(link)}
     remote = sum(_is_remote(file) for file in files)
-    found = count(len(files), 'file') + (f', {remote} not looked for' if remote else '')
+    found = count(len(files), 'file') + (f', {remote} remote not checked' if remote else '')
     return found, [defect for link in robot.links for defect in _missing(link, robot.folder)]
 
 
@@ -46,10 +46,10 @@ def _missing(link: Link, folder: Path) -> Iterator[str]:
         try:
             path = None if _is_remote(file) else _path(file, folder)
         except DescriptionError as error:
-            yield f'{where} is not there: {error}'
+            yield f'{where} was not found: {error}'
             continue
         if path is not None and not path.is_file():
-            yield f'{where} is not there: {_reason(path)}'
+            yield f'{where} was not found: {_reason(path)}'
 
 
 def _is_remote(file: str) -> bool:

@@ -64,7 +64,7 @@ def _alone(robot: Robot, names: set[str], kind: str) -> Iterator[str]:
     for name in sorted(names):
         other = counterpart(name, robot.prefix)
         if other and other not in names:
-            yield f"There is the {kind} '{name}', but no '{other}' on the other side."
+            yield f"The {kind} '{name}' has no counterpart '{other}' on the other side."
 
 
 def _pairs(robot: Robot, names: set[str]) -> Iterator[tuple[str, str]]:
@@ -89,9 +89,11 @@ def _unlike_joints(left: Joint, right: Joint) -> Iterator[str]:
     if left.kind != right.kind:
         yield f'{both} are of different types, {left.kind} and {right.kind}.'
     if not _is_mirrored(left.pose, right.pose):
-        yield (f'{both} are not at mirrored places: {_point(left.pose)} and {_point(right.pose)}.')
+        yield (
+            f'{both} are not at mirrored positions: {_point(left.pose)} and {_point(right.pose)}.'
+        )
     if left.is_driven and right.is_driven and not _move_alike(left, right):
-        yield f'{both} have no mirrored ranges and strengths: {_range(left)} and {_range(right)}.'
+        yield f'{both} do not have mirrored limits: {_range(left)} and {_range(right)}.'
 
 
 def _move_alike(left: Joint, right: Joint) -> bool:
@@ -122,11 +124,11 @@ def _unlike_links(left: Link, right: Link) -> Iterator[str]:
         yield f'{both} have different masses, {ours.mass_kg:g} and {theirs.mass_kg:g} kg.'
     if not _is_mirrored(_centre(ours), _centre(theirs)):
         yield (
-            f'{both} have no mirrored centres of mass: {_point(ours.pose)} and '
+            f'{both} do not have mirrored centres of mass: {_point(ours.pose)} and '
             f'{_point(theirs.pose)}.'
         )
     if not _is_mirrored(_inertia(ours), _inertia(theirs)):
-        yield f'{both} have no mirrored inertia.'
+        yield f'{both} do not have mirrored inertias.'
 
 
 def _centre(body: Body) -> Array:

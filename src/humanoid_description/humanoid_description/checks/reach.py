@@ -52,11 +52,11 @@ def _too_short(side: str, reach: HandReach) -> Iterator[str]:
     if reach.forward_m < FORWARD * reach.arm_m:
         yield (
             f'The {side} hand reaches only {reach.forward_m:.2f} m forward of the shoulder, with '
-            f'an arm of {reach.arm_m:.2f} m. Look at the limits of the shoulder and the elbow.'
+            f'an arm of {reach.arm_m:.2f} m. Check the limits of the shoulder and the elbow.'
         )
     if reach.to_middle_m > 0:
         yield (
-            f'The {side} hand stays {reach.to_middle_m:.2f} m beside the middle of the body: '
+            f'The {side} hand stays {reach.to_middle_m:.2f} m from the midline of the body: '
             'the hands cannot meet in front of it.'
         )
 

@@ -34,7 +34,7 @@ def _repeated_names(robot: Robot) -> Iterator[str]:
     for kind, parts in (('link', robot.links), ('joint', robot.joints)):
         for name in repeated(part.name for part in parts):
             last = [part for part in parts if part.name == name][-1]
-            sentence = f"Several {kind}s are named '{name}'. Give each a name of its own."
+            sentence = f"Several {kind}s are named '{name}'. Give each a unique name."
             yield line_of(last) + sentence
 
 
@@ -45,7 +45,7 @@ def _unknown_links(robot: Robot) -> Iterator[str]:
             if link not in robot.link:
                 hint = did_you_mean(link, robot.link) or 'Add the link or correct the name.'
                 where = f"{line_of(joint)}The {role} of joint '{joint.name}'"
-                yield f"{where} is '{link}', which is no link. {hint}"
+                yield f"{where} is '{link}', which does not exist. {hint}"
 
 
 def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
@@ -68,14 +68,14 @@ def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
         return roots[0], ()
     if not roots:
         return 'none', (
-            'There is no root: every link hangs from a joint. Break the loop.'
+            'There is no root: every link has a parent. Break the loop.'
             if robot.links
             else 'There are no links: the robot is empty.',
         )
     names = ', '.join(f"'{root}'" for root in roots)
     return f'{len(roots)} roots', (
         f'{line_of(robot.link[roots[1]])}There are {len(roots)} roots: {names}. Connect them by '
-        'joints: only one link may hang from none.',
+        'joints: only one link may have no parent.',
     )
 
 
@@ -107,7 +107,7 @@ def _several_parents(robot: Robot) -> Iterator[str]:
         holding = [joint for joint in robot.joints if joint.child == link]
         names = ', '.join(f"'{joint.name}'" for joint in holding)
         where = f"{line_of(holding[1])}Link '{link}'"
-        yield f'{where} hangs from several joints: {names}. Leave one of them.'
+        yield f'{where} is the child of several joints: {names}. Keep one of them.'
 
 
 def _loops(robot: Robot) -> Iterator[str]:
@@ -116,7 +116,7 @@ def _loops(robot: Robot) -> Iterator[str]:
     if names:
         links = ', '.join(f"'{name}'" for name in names)
         where = line_of(robot.joint_above[names[0]])
-        yield f'{where}The joints above these links lead in a loop, and to no root: {links}.'
+        yield f'{where}The parents of these links lead into a loop, not to a root: {links}.'
 
 
 def _depth(robot: Robot, link: str) -> int | None:

@@ -137,7 +137,7 @@ class Entities:
 
         """
         check_bounds(state)
-        at = named('entity that can be moved', name, self._floating)
+        at = named('movable entity', name, self._floating)
         qpos, qvel = self._data.qpos, self._data.qvel
         orientation = state.orientation.copy()
         mujoco.mju_normalize4(orientation)
@@ -198,7 +198,7 @@ class Names:
 
         """
         entity = entity or ALONE
-        named('entity that can be moved', entity, self.floating)
+        named('movable entity', entity, self.floating)
         if entity == ALONE and '' in self._robots:
             return link or self._base
         if entity in self._robots:

@@ -95,8 +95,8 @@ class Wrenches:
         """
         if len(self._acting) >= MOST and not always:
             raise SimulationError(
-                f'{MOST} wrenches act already, which is all that can be. Wait for their end, or '
-                'reset the simulation.'
+                f'{MOST} wrenches are already active, which is the maximum. Wait until they end, '
+                'or reset the simulation.'
             )
         self._acting.append((wrench, wrench.duration_s))
 

@@ -106,8 +106,8 @@ def _mount(model: Any, body: int, base: int) -> Array:
     while body != base:
         if body == 0 or model.body_jntnum[body]:
             raise SimulationError(
-                'The inertial measurement unit must be fixed to the base, but '
-                f"'{model.body(body).name}' lies between them."
+                f"The IMU must be fixed to the base, but '{model.body(body).name}' lies between "
+                'them.'
             )
         outer = mount.copy()
         mujoco.mju_mulQuat(mount, model.body_quat[body], outer)

@@ -270,7 +270,7 @@ def _ignore(message: str) -> None:
 def _unstable(time_s: float) -> SimulationError:
     """Return the error of a physics that has diverged."""
     return SimulationError(
-        f'The physics has become unstable at {time_s:.3f} s: velocities are beyond all bounds. '
-        'Reset the simulation. If it happens again, look for huge forces, for bodies that are put '
-        'into each other, and for a physics period that is too long.'
+        f'The physics became unstable at {time_s:.3f} s: velocities have diverged. Reset the '
+        'simulation. If it happens again, look for excessive forces, for bodies that penetrate '
+        'each other, and for a physics period that is too long.'
     )

@@ -35,7 +35,7 @@ class SensorNoise:
             value = getattr(self, each.name)
             if not (math.isfinite(value) and value >= 0.0):
                 raise SimulationError(
-                    f'The noise {each.name} cannot be {value:g}. Give a number from zero on.'
+                    f'The noise {each.name} cannot be {value:g}. Give zero or more.'
                 )
 
     def imu(self, period_s: float) -> ImuNoise:

@@ -118,13 +118,14 @@ def check_targets(robot: str, joints: tuple[str, ...], targets: JointTargets) ->
         if array.shape != (len(joints),):
             raise SimulationError(
                 f"The targets of robot '{robot}' have {kind} of shape {array.shape}, but it has "
-                f'{len(joints)} joints. The targets before are kept.'
+                f'{len(joints)} joints. The previous targets are kept.'
             )
         if not np.isfinite(array.sum()):
             bad = [joint for joint, value in zip(joints, array) if not np.isfinite(value)]
             raise SimulationError(
                 f"The targets of robot '{robot}' have {kind} that are not finite, of "
-                f'{", ".join(bad)}. The targets before are kept; look at what computes them.'
+                f'{", ".join(bad)}. The previous targets are kept; check the node that computes '
+                'them.'
             )
 
 

@@ -37,7 +37,7 @@ class BackendSettings:
             )
         if not 0.0 <= self.extrapolation_s <= 1.0:
             raise SimulationError(
-                f'Targets cannot go on for {self.extrapolation_s:g} s. Give 0 to 1.'
+                f'Targets cannot be extrapolated for {self.extrapolation_s:g} s. Give 0 to 1.'
             )
 
     @property

@@ -54,8 +54,9 @@ class EntityState:
                 )
         if abs(self.orientation @ self.orientation - 1.0) > 0.01:
             raise SimulationError(
-                f'The orientation {self.orientation} of an entity is no rotation: the squares of '
-                'its four numbers must add up to 1. No rotation is w = 1 and the others 0.'
+                f'The orientation {self.orientation} of an entity is not a rotation: the squares '
+                'of its four numbers must add up to 1. For no rotation, give w = 1 and the others '
+                '0.'
             )
 
 
@@ -81,8 +82,8 @@ def check_bounds(state: EntityState) -> None:
     ):
         if np.abs(array).max() > most:
             raise SimulationError(
-                f'The {kind} {array} of an entity is too large to be computed with. Give numbers '
-                f'from {-most:g} to {most:g}.'
+                f'The {kind} {array} of an entity is out of range. Give numbers from {-most:g} to '
+                f'{most:g}.'
             )
 
 

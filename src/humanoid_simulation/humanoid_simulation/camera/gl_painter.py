@@ -128,7 +128,7 @@ def _offscreen_context(model: mujoco.MjModel) -> mujoco.MjrContext:
     context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_50)
     mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, context)
     if context.currentBuffer != mujoco.mjtFramebuffer.mjFB_OFFSCREEN:
-        raise SimulationError('it cannot draw without a window.')
+        raise SimulationError('it cannot render without a window.')
     context.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
     return context
 

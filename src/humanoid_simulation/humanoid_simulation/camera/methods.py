@@ -20,8 +20,8 @@ _OWN = {
 }
 _TITLES = {EGL: 'EGL', OSMESA: 'OSMesa', RAYS: 'rays'}
 _WAY_OUT = (
-    'To have OpenGL, on Debian or Ubuntu: `apt install libegl1 libegl-mesa0 libgl1-mesa-dri`, '
-    'or `apt install libosmesa6`; then start the simulator again.'
+    'To install OpenGL on Debian or Ubuntu: `apt install libegl1 libegl-mesa0 libgl1-mesa-dri`, '
+    'or `apt install libosmesa6`; then restart the simulator.'
 )
 _MOST_DEATHS = 3
 
@@ -82,12 +82,12 @@ def success_sentence(method: str, failures: Mapping[str, str]) -> str:
     """
     reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
     if method != RAYS:
-        return f'The cameras are drawn by OpenGL with {title_of(method)}. {reasons}'.rstrip()
+        return f'The cameras are rendered by OpenGL with {title_of(method)}. {reasons}'.rstrip()
     if not failures:
-        return 'The cameras are drawn by casting rays, in flat colours.'
+        return 'The cameras are rendered by ray casting, in flat colours.'
     return (
-        'The cameras are drawn by casting rays, which is slow and in flat colours, because there '
-        f'is no OpenGL. {reasons} {_WAY_OUT}'
+        'The cameras are rendered by ray casting, which is slow and in flat colours, because '
+        f'there is no OpenGL. {reasons} {_WAY_OUT}'
     )
 
 
@@ -102,7 +102,7 @@ def give_up_sentence(failures: Mapping[str, str]) -> str:
 
     """
     reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
-    return f'The cameras are off, the simulation goes on. {reasons} {_WAY_OUT}'
+    return f'The cameras are off; the simulation continues. {reasons} {_WAY_OUT}'
 
 
 class Ladder:

@@ -34,8 +34,8 @@ class Pinhole:
         """Check the image size and the field of view."""
         if self.width_px < 1 or self.height_px < 1:
             raise SimulationError(
-                f'A picture of {self.width_px} x {self.height_px} pixels has nothing to show. '
-                'Give the camera at least one pixel in each direction.'
+                f'An image of {self.width_px} x {self.height_px} pixels is empty. Give the camera '
+                'at least one pixel in each direction.'
             )
         if not 0.0 < self.fovy_rad < math.pi:
             raise SimulationError(

@@ -150,7 +150,7 @@ class RenderProcess:
         size = os.fstat(self._noise).st_size
         text = os.pread(self._noise, _LAST_WORDS, max(0, size - _LAST_WORDS))
         lines = text.decode(errors='replace').strip().splitlines()
-        return f' It wrote: {lines[-1].strip()}' if lines else ''
+        return f' Last output: {lines[-1].strip()}' if lines else ''
 
 
 def _start(assignment: Assignment, noise: int) -> subprocess.Popen[bytes]:

@@ -287,8 +287,8 @@ class ProcessKeeper:
         if self._ladder.note_end(reason):
             self._next_start_s = now_s + self._patience.retry_s
             self._log.warning(
-                f'The cameras are interrupted: {reason} The simulation goes on, and the process '
-                'that draws is started again.'
+                f'The cameras are interrupted: {reason} The simulation continues, and the render '
+                'process is restarted.'
             )
         elif not self._ladder.method:
             self._log.warning(give_up_sentence(self._ladder.failures))

@@ -103,8 +103,8 @@ def _check(backend: MujocoBackend, watch: FallWatch) -> None:
     w, x, y, z = base.orientation.tolist()
     if not watch.stands(float(base.position_m[2]), tilt_rad(x, y, z, w)):
         raise SimulationError(
-            f'The robot fell after {backend.time_s:.2f} s, so that there is no gait to show. '
-            'Let it walk slower.'
+            f'The robot fell after {backend.time_s:.2f} s, so there is no gait to plot. Reduce '
+            'the speed.'
         )
 
 

@@ -45,8 +45,8 @@ class SimulatorWatch:
         """Raise ExampleError if no message has arrived since the last check."""
         if not self._heard:
             raise ExampleError(
-                f'Nothing comes on {self._topics} (namespace {self._node.get_namespace()}): '
-                'either no simulator runs there, or it is paused. Start one with '
-                "'ros2 launch humanoid_simulation simulation.launch.py'."
+                f'No messages on {self._topics} (namespace {self._node.get_namespace()}): either '
+                "no simulator is running there, or it is paused. Start one with 'ros2 launch "
+                "humanoid_simulation simulation.launch.py'."
             )
         self._heard = False

@@ -111,9 +111,9 @@ class PushSeries:
             return NextAction.PUSH
         if time_s - self._waits_since_s > self._plan.give_up_s:
             raise NeverStoodError(
-                f'The robot has not stood for {self._plan.settle_s:g} s within '
+                f'The robot has not stood still for {self._plan.settle_s:g} s within '
                 f'{self._plan.give_up_s:g} s, so it cannot be pushed. Reset the simulation and '
-                'see that its controller runs.'
+                'check that its controller is running.'
             )
         return NextAction.WAIT
 

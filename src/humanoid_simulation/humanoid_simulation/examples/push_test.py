@@ -40,23 +40,25 @@ class PushTestParameters:
     """Parameters of `push_test`: impulses and duration of the pushes."""
 
     first_ns: float = parameter(
-        5.0, 'The gentlest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
+        5.0, 'The weakest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
     )
     step_ns: float = parameter(
         5.0,
-        'How much harder the next one is, in N s.',
+        'By how much each impulse exceeds the one before, in N s.',
         at_least=0.1,
         at_most=1000.0,
         read_only=True,
     )
     most_ns: float = parameter(
-        30.0, 'The hardest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
+        30.0, 'The strongest impulse, in N s.', at_least=0.1, at_most=1000.0, read_only=True
     )
     duration_s: float = parameter(
-        0.1, 'How long a push lasts.', at_least=0.002, at_most=0.9, read_only=True
+        0.1, 'Duration of a push.', at_least=0.002, at_most=0.9, read_only=True
     )
     simulator: str = parameter(
-        '/simulator', 'The full name of the simulator, whose services are used.', read_only=True
+        '/simulator',
+        'The full name of the simulator node, whose services are used.',
+        read_only=True,
     )
 
     def __post_init__(self) -> None:
@@ -127,8 +129,8 @@ class PushTest(Node):
         """Send a request; nothing else is done until its response arrives."""
         if not client.service_is_ready():
             raise ExampleError(
-                f"Nobody offers '{client.srv_name}'. If the simulator has another name, say so: "
-                '--ros-args -p simulator:=/its/name'
+                f"There is no service '{client.srv_name}'. If the simulator has another name, "
+                'pass it: --ros-args -p simulator:=/its/name'
             )
         self._waits = True
         client.call_async(request).add_done_callback(ending(self, self._take_answer))
@@ -137,13 +139,13 @@ class PushTest(Node):
         """Continue, or raise ExampleError if the request was rejected."""
         reason = refusal(future.result())
         if reason:
-            raise ExampleError(f'The simulator refused: {reason}')
+            raise ExampleError(f'The simulator rejected the request: {reason}')
         self._waits = False
 
     def _report(self) -> None:
         """Log the strongest push that the robot withstood in each direction, and shut down."""
         for direction, impulse_ns in self._series.stood_ns.items():
-            self.get_logger().info(f'Stood, pushed {direction}: {impulse_ns:g} N s')
+            self.get_logger().info(f'Strongest push withstood, {direction}: {impulse_ns:g} N s')
         rclpy.try_shutdown(context=self.context)
 
 

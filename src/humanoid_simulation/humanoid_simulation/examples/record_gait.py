@@ -51,8 +51,9 @@ def _parser() -> argparse.ArgumentParser:
     """Build the argument parser."""
     parser = argparse.ArgumentParser(
         prog='record_gait',
-        description='Let the simulated robot stand, walk and stop, without ROS and as fast as it '
-        'can be computed, and draw its centre of mass, zero-moment point, feet and torques.',
+        description='Simulate the robot standing, walking and stopping, without ROS and as fast '
+        'as possible, and plot its centre of mass, zero-moment point, feet and '
+        'torques.',
     )
     for name, default, unit in (
         ('--forward', 0.25, 'm/s'),
@@ -69,9 +70,9 @@ def _parser() -> argparse.ArgumentParser:
         )
     parser.add_argument('--scene', default='flat', help='its name or YAML file (default: flat)')
     parser.add_argument(
-        '--output', type=Path, default=Path('gait.png'), help='the picture (default: gait.png)'
+        '--output', type=Path, default=Path('gait.png'), help='the plot (default: gait.png)'
     )
-    parser.add_argument('--csv', type=Path, help='a file for a table of all values')
+    parser.add_argument('--csv', type=Path, help='a CSV file for a table of all values')
     return parser
 
 

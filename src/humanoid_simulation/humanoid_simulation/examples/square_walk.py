@@ -90,8 +90,8 @@ class SquareWalk:
             return self._rest(time_s, odometry, truth)
         if time_s > self._give_up_s:
             raise NotRoundError(
-                f'The robot has not come round in {_PATIENCE:g} times the planned time. Does '
-                'anything else send cmd_vel, or is the robot stopped or hindered?'
+                f'The robot has not completed the square in {_PATIENCE:g} times the planned time. '
+                'Is another node publishing cmd_vel, or is the robot stopped or blocked?'
             )
         command, corner = self._drive.update(odometry)
         if self._drive.is_done:
@@ -105,7 +105,10 @@ class SquareWalk:
             return WalkUpdate(STANDING)
         by_odometry = _closing_error(self._odometry, odometry)
         by_truth = _closing_error(self._truth, truth)
-        news = f'Round. Closing error: {by_truth} on ground truth, {by_odometry} by odometry'
+        news = (
+            f'Square completed. Closing error: {by_truth} on ground truth, {by_odometry} by '
+            'odometry'
+        )
         return WalkUpdate(STANDING, news, is_done=True)
 
 
@@ -114,7 +117,7 @@ def _arrival(corner: Corner) -> str:
     place = corner.actual.position_m
     return (
         f'Corner {corner.number} of {CORNERS}: ({place.real:.2f}, {place.imag:.2f}) m, '
-        f'{100 * corner.error_m:.0f} cm from where it is'
+        f'{100 * corner.error_m:.0f} cm off'
     )
 
 

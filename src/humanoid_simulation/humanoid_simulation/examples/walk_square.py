@@ -97,7 +97,7 @@ class WalkSquare(Node):
         """Update the walk, which starts with the first message."""
         where = seconds(message.header.stamp), planar_pose(message), planar_pose(truth)
         if self._walk is None:
-            self.get_logger().info(f'Walking round a square of {self._plan.side_m:g} m')
+            self.get_logger().info(f'Walking around a square of {self._plan.side_m:g} m')
             self._walk = SquareWalk(self._plan, *where)
         stands = self._fall_watch.stands(*height_and_tilt(truth))
         return self._walk.update(*where, stands)

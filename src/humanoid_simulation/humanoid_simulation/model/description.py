@@ -39,17 +39,16 @@ class Physics:
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        named('kind of self-collision', self.self_collision, SELF_COLLISIONS)
+        named('self-collision mode', self.self_collision, SELF_COLLISIONS)
         if not 1e-4 <= self.period_s <= 0.01:
             raise SimulationError(
-                f'The physics cannot have a period of {self.period_s:g} s. '
-                'Give one from 0.0001 to 0.01 s; 0.002 s is well tried.'
+                f'A physics period of {self.period_s:g} s is not possible. Give 0.0001 to 0.01 s; '
+                '0.002 s is a good default.'
             )
         for link, factor in self.mass_factors.items():
             if not 0.01 <= factor <= 100.0:
                 raise SimulationError(
-                    f"The mass of link '{link}' cannot be multiplied by {factor:g}. "
-                    'Give a factor from 0.01 to 100.'
+                    f"The mass factor of link '{link}' cannot be {factor:g}. Give 0.01 to 100."
                 )
 
 
@@ -144,16 +143,20 @@ def check_placements(placements: Sequence[Placement]) -> None:
 
     """
     if not placements:
-        raise SimulationError('There is no robot to simulate. Name one at least.')
+        raise SimulationError('There is no robot to simulate. Name at least one.')
     names = [placement.robot for placement in placements]
     for name in names:
         if names.count(name) > 1:
-            raise SimulationError(f"Two robots are called '{name}'. Give each a name of its own.")
+            raise SimulationError(f"Two robots are named '{name}'. Give each robot a unique name.")
         if name == '' and len(names) > 1:
-            raise SimulationError('A robot among several needs a name, which is its namespace.')
+            raise SimulationError(
+                'With several robots, each robot needs a name, which is its namespace.'
+            )
     for place in placements:
         if not all(map(math.isfinite, (place.x_m, place.y_m, place.z_m, place.yaw_rad))):
-            raise SimulationError(f"The place of robot '{place.robot}' is not finite: {place}.")
+            raise SimulationError(
+                f"The initial pose of robot '{place.robot}' is not finite: {place}."
+            )
 
 
 def in_world(robot: str, name: str) -> str:

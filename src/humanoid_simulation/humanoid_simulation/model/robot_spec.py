@@ -142,7 +142,7 @@ def _change_masses(spec: Any, physics: Physics) -> None:
     for link, factor in physics.mass_factors.items():
         body = _body(spec, link)
         if not body.mass > 0.0:
-            raise SimulationError(f"Link '{link}' has no mass that could be multiplied.")
+            raise SimulationError(f"Link '{link}' has no mass to scale.")
         body.mass *= factor
         body.inertia = body.inertia * factor
         body.fullinertia = body.fullinertia * factor
@@ -171,7 +171,9 @@ def spec_of(urdf: str) -> Any:
     try:
         robot = ElementTree.fromstring(urdf)
     except ElementTree.ParseError as error:
-        raise SimulationError(f'The robot cannot be simulated: its URDF is no XML: {error}.')
+        raise SimulationError(
+            f'The robot cannot be simulated: its URDF is not valid XML: {error}.'
+        )
     for old in robot.findall('mujoco'):
         robot.remove(old)
     ElementTree.SubElement(ElementTree.SubElement(robot, 'mujoco'), 'compiler', _KEEP)
@@ -179,6 +181,6 @@ def spec_of(urdf: str) -> Any:
         return mujoco.MjSpec.from_string(ElementTree.tostring(robot, encoding='unicode'))
     except ValueError as error:
         raise SimulationError(
-            f'The robot cannot be simulated: MuJoCo refuses its URDF: {error}. '
-            'check_model says more about a URDF.'
+            f'The robot cannot be simulated: MuJoCo rejects its URDF: {error}. Run check_model '
+            'for details.'
         ) from error

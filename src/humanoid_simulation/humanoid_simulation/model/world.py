@@ -80,7 +80,9 @@ def build_world(
     check_placements(placements)
     _check_names(scene, placements)
     if len(placements) > MOST_ROBOTS:
-        raise SimulationError(f'A world has room for {MOST_ROBOTS} robots, not {len(placements)}.')
+        raise SimulationError(
+            f'A world holds at most {MOST_ROBOTS} robots, not {len(placements)}.'
+        )
     world = _empty_world(physics)
     if description.hands:
         world.option.impratio = _GRIP_IMPRATIO
@@ -95,7 +97,7 @@ def build_world(
     try:
         return world.compile()
     except ValueError as error:
-        raise SimulationError(f'MuJoCo cannot make a world of this: {error}.') from error
+        raise SimulationError(f'MuJoCo cannot build the world: {error}.') from error
 
 
 def _check_names(scene: Scene, placements: Sequence[Placement]) -> None:
@@ -104,8 +106,8 @@ def _check_names(scene: Scene, placements: Sequence[Placement]) -> None:
     for thing in scene.things:
         if thing.name in robots:
             raise SimulationError(
-                f"Scene '{scene.name}' has a thing called '{thing.name}', as a robot is. Give the "
-                'thing or the robot another name.'
+                f"Scene '{scene.name}' has an object named '{thing.name}', which is also the name "
+                'of a robot. Rename one of them.'
             )
 
 

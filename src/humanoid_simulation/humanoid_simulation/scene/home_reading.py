@@ -149,8 +149,8 @@ def _object(table: Table, surfaces: Mapping[str, Surface]) -> Thing:
         yaw_rad, height_m = yaw_rad + direction_rad, surface.height_m
         if not surface.contains(*at):
             raise table.at('at').error(
-                f"'{table.text('name')}' would stand beside '{surface.name}'. Give a point from "
-                'the middle of the surface, x to its front, that is on it.'
+                f"'{table.text('name')}' would not stand on '{surface.name}'. Give a point on the "
+                'surface, relative to its centre, with x towards its front.'
             )
     bottom = (*at, height_m + _GAP_M)
     graspable = ObjectInstance(table.text('name'), kind, name, rgb, bottom, yaw_rad, size)
@@ -171,7 +171,7 @@ def _place(table: Table, home: Home) -> Place:
     room = room_at(home.rooms, x_m, y_m)
     if home.rooms and room is None:
         raise table.at('stand').error(
-            f"place '{table.text('name')}' is in none of the rooms: [{x_m:g}, {y_m:g}]."
+            f"place '{table.text('name')}' is not in any room: [{x_m:g}, {y_m:g}]."
         )
     yaw_rad = math.radians(table.number('facing_deg', 0.0))
     return Place(table.text('name'), room.name if room else '', x_m, y_m, yaw_rad, surface)
@@ -181,8 +181,8 @@ def _surface(table: Table, key: str, surfaces: Mapping[str, Surface]) -> Surface
     """Look up the surface that the value of a key names."""
     name = table.text(key)
     if name not in surfaces:
-        known = ', '.join(surfaces) or 'none so far'
-        hint = did_you_mean(name, surfaces) or f'Furniture above that has one: {known}.'
+        known = ', '.join(surfaces) or 'none yet'
+        hint = did_you_mean(name, surfaces) or f'Surfaces of the furniture above: {known}.'
         raise table.at(key).error(f"there is no surface '{name}'. {hint}")
     return surfaces[name]
 
@@ -221,5 +221,7 @@ def colour_in(table: Table, key: str, default: Vector | None) -> tuple[str, Vect
         return name, COLOURS[name]
     rgb = table.vector(key, 3, default)
     if not all(0.0 <= part <= 1.0 for part in rgb):
-        raise table.at(key).error(f'{table.at(key).key} must have parts from 0 to 1, not {rgb}.')
+        raise table.at(key).error(
+            f'{table.at(key).key} must have components from 0 to 1, not {rgb}.'
+        )
     return next((name for name, known in COLOURS.items() if known == rgb), ''), rgb

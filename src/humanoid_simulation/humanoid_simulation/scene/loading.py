@@ -82,8 +82,8 @@ def _refuse_names_twice(table: Table) -> None:
             name = each.text('name')
             if name in lines:
                 raise each.at('name').error(
-                    f"'{name}' is the name of the thing on line {lines[name]} already. Give each "
-                    'a name of its own.'
+                    f"the name '{name}' is already used on line {lines[name]}. Give each object a "
+                    'unique name.'
                 )
             lines[name] = each.at('name').line
 

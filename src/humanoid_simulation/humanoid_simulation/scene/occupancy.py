@@ -46,7 +46,7 @@ class Layer:
         if not (math.isfinite(self.low_m) and self.low_m <= self.high_m < 100.0):
             raise SimulationError(
                 f'There is nothing between {self.low_m:g} and {self.high_m:g} m. Give the lower '
-                'height first; both may be the same, for the map of one height.'
+                'height first; give the same height twice to map a single one.'
             )
 
 
@@ -115,10 +115,11 @@ def occupancy_of(
 
     """
     if not 0.005 <= resolution_m <= 1.0:
-        raise SimulationError(f'Cells cannot have edges of {resolution_m:g} m. Give 0.005 to 1 m.')
+        raise SimulationError(f'The cell size cannot be {resolution_m:g} m. Give 0.005 to 1 m.')
     if not margin_m >= resolution_m:
         raise SimulationError(
-            f'A margin of {margin_m:g} m is too small. Give at least {resolution_m:g} m, a cell.'
+            f'A margin of {margin_m:g} m is too small. Give at least {resolution_m:g} m, the '
+            'size of a cell.'
         )
     sections = [
         section
@@ -135,7 +136,7 @@ def occupancy_of(
     row, column = int(start[1]), int(start[0])
     if cells[row, column] == OCCUPIED:
         raise SimulationError(
-            f'The mapper cannot begin at {start_m[0]:g}, {start_m[1]:g}: something solid is there.'
+            f'The mapper cannot start at {start_m[0]:g}, {start_m[1]:g}: something solid is there.'
         )
     _flood(cells, row, column)
     return OccupancyMap(cells, resolution_m, (float(origin_m[0]), float(origin_m[1])))
@@ -244,9 +245,7 @@ def _empty(
     high = np.ceil((points.max(axis=0) + margin_m) / resolution_m - 1e-6)
     columns, rows = (int(count) for count in high - low)
     if rows * columns > _MOST_CELLS:
-        raise SimulationError(
-            f'The map would have {rows} times {columns} cells. Give larger cells.'
-        )
+        raise SimulationError(f'The map would have {rows} by {columns} cells. Give larger cells.')
     return np.full((rows, columns), UNKNOWN, dtype=np.int8), low * resolution_m
 
 

@@ -58,7 +58,7 @@ class Finish:
         """Validate the pattern and its period."""
         if self.pattern not in PATTERNS or not 0.01 <= self.tile_m <= 100.0:
             raise SimulationError(
-                f'A surface cannot have {self.pattern} of {self.tile_m:g} m. Give one of '
+                f'A surface pattern cannot be {self.pattern} of {self.tile_m:g} m. Give one of '
                 f'{", ".join(PATTERNS)}, which repeats after 0.01 to 100 m.'
             )
 
@@ -99,14 +99,14 @@ class Part:
         """Validate the shape, its size, its numbers and its mesh."""
         count = 3 if self.shape == MESH else len(SIZES.get(self.shape, ()))
         if not count or len(self.size_m) != count:
-            raise SimulationError(f'There is no {self.shape} with a size {self.size_m}.')
+            raise SimulationError(f'A {self.shape} cannot have the size {self.size_m}.')
         numbers = (*self.size_m, *self.position_m, *self.orientation_rpy_rad, *self.colour_rgba)
         if not all(map(math.isfinite, numbers)):
-            raise SimulationError(f'A {self.shape} has a number that is not finite: {numbers}.')
+            raise SimulationError(f'A {self.shape} has a value that is not finite: {numbers}.')
         if min(self.size_m) <= 0.0:
             raise SimulationError(f'A {self.shape} needs a size above zero, not {self.size_m}.')
         if (self.shape == MESH) != bool(self.mesh) or (self.mesh and self.collides):
-            raise SimulationError('A mesh needs a name, and does not collide.')
+            raise SimulationError('A mesh needs a name, and cannot collide.')
 
     @property
     def box_m(self) -> Vector:

@@ -158,7 +158,7 @@ def thing_from(uri: str, text: str, name: str) -> Thing:
 
 def _known_things() -> str:
     """Describe the classes of objects, for an error message."""
-    return f"a class of things ({', '.join(CLASSES)}), perhaps with a colour as in 'red mug'"
+    return f"an object class ({', '.join(CLASSES)}), optionally with a colour as in 'red mug'"
 
 
 def _of_class(name: str, kind: str, colour: str = '') -> Thing:
@@ -194,8 +194,8 @@ def _rigid(urdf: str, source: str, name: str) -> Thing:
     if moving:
         raise ResourceError(
             'UNSUPPORTED_FORMAT',
-            f"{source} has the joint '{moving[0]}', which moves. Only rigid things can be made "
-            'here; robots come with the parameter robots of the simulator.',
+            f"{source} has the movable joint '{moving[0]}'. Only rigid objects can be spawned; "
+            "robots are set by the parameter 'robots' of the simulator.",
         )
     link_poses = poses(robot)
     solid = [(link, shape) for link in robot.links for shape in link.collisions]
@@ -206,9 +206,7 @@ def _rigid(urdf: str, source: str, name: str) -> Thing:
         for link, shape in shapes
     ]
     if not parts:
-        raise ResourceError(
-            'RESOURCE_PARSE_ERROR', f'{source} describes nothing that has a shape.'
-        )
+        raise ResourceError('RESOURCE_PARSE_ERROR', f'{source} has no geometry.')
     mass_kg = sum(link.body.mass_kg for link in robot.links if link.body is not None)
     reach_m = [np.abs(part.position_m) + part.extent_m for part in parts]
     size_m = np.max(reach_m, axis=0) * 2.0
@@ -224,7 +222,7 @@ def _part(shape: Shape, pose: Array, source: str, collides: bool, is_shown: bool
     if shape.kind == MESH:
         raise ResourceError(
             'UNSUPPORTED_ASSETS',
-            f'{source} has a mesh. Make it of boxes, cylinders and spheres.',
+            f'{source} has a mesh, which is not supported. Use boxes, cylinders and spheres.',
         )
     x_m, y_m, z_m = pose[:3, 3].tolist()
     return _parsed(
@@ -296,10 +294,10 @@ def _file(uri: str, suffixes: tuple[str, ...], known: str) -> Path:
     if path.suffix not in suffixes:
         raise ResourceError(
             'UNSUPPORTED_FORMAT',
-            f"'{uri}' cannot be read here. Give a file that ends with {', '.join(suffixes)}.",
+            f"'{uri}' is not a supported file. Give a file that ends with {', '.join(suffixes)}.",
         )
     if not path.is_file():
-        raise ResourceError('NO_RESOURCE', f'There is no file {path}. Correct the uri.')
+        raise ResourceError('NO_RESOURCE', f'File {path} not found. Correct the uri.')
     return path
 
 
@@ -313,13 +311,13 @@ def _path_of(uri: str) -> Path:
             share = get_package_share_directory(parts.netloc)
         except (PackageNotFoundError, ValueError) as error:
             raise ResourceError(
-                'NO_RESOURCE', f"There is no package '{parts.netloc}', which '{uri}' names."
+                'NO_RESOURCE', f"Package '{parts.netloc}' of '{uri}' not found."
             ) from error
         return Path(share) / unquote(parts.path).lstrip('/')
     if parts.scheme == 'file':
         return Path(unquote(parts.path))
     if parts.scheme:
         raise ResourceError(
-            'UNSUPPORTED_FORMAT', f"'{uri}' cannot be read here. Give a file or package URI."
+            'UNSUPPORTED_FORMAT', f"'{uri}' has an unsupported scheme. Give a file or package URI."
         )
     return Path(uri)

@@ -65,10 +65,12 @@ class Thing:
         else:
             sound = self.shape in SIZES and len(self.size_m) == len(SIZES[self.shape])
         if not sound:
-            raise SimulationError(f"'{self.name}' is no {self.shape} with a size {self.size_m}.")
+            raise SimulationError(
+                f"'{self.name}' is invalid: a {self.shape} cannot have the size {self.size_m}."
+            )
         numbers = (*self.size_m, *self.position_m, *self.orientation_rpy_rad, *self.colour_rgba)
         if not all(map(math.isfinite, (*numbers, self.mass_kg, self.friction))):
-            raise SimulationError(f"'{self.name}' has a number that is not finite: {self}.")
+            raise SimulationError(f"'{self.name}' has a value that is not finite: {self}.")
         if min(self.size_m) <= 0.0 or self.mass_kg < 0.0 or self.friction < 0.0:
             raise SimulationError(
                 f"'{self.name}' needs a size above zero, and no negative mass or friction: {self}."
@@ -131,8 +133,8 @@ class Room:
         """Validate the name and the outline."""
         if not self.name or len(self.outline_m) < 3 or area_m2(self.outline_m) < 1e-3:
             raise SimulationError(
-                f"Room '{self.name}' needs a name, and an outline of three or more corners in "
-                'order, which do not lie on one line.'
+                f"Room '{self.name}' needs a name, and an outline of at least three corners, in "
+                'order and not all on one line.'
             )
 
     def contains(self, x_m: float, y_m: float) -> bool:
@@ -234,11 +236,12 @@ class Scene:
         for name in names:
             if not name or names.count(name) > 1 or '/' in name:
                 raise SimulationError(
-                    f"Scene '{self.name}' cannot call a thing '{name}'. Every thing needs a name "
-                    f"of its own, without a '/'; '{FLOOR}' is the floor, '{WORLD}' is all of it."
+                    f"Scene '{self.name}' cannot name an object '{name}'. Object names must be "
+                    f"unique and without '/'; '{FLOOR}' is the floor, '{WORLD}' is the whole "
+                    'scene.'
                 )
         for kind, those in (('rooms', self.rooms), ('places', self.places)):
-            _refuse_twice(f"Scene '{self.name}' has two {kind} called", those)
+            _refuse_twice(f"Scene '{self.name}' has two {kind} named", those)
 
     @property
     def objects(self) -> tuple[Thing, ...]:
@@ -336,4 +339,4 @@ def _refuse_twice(sentence: str, those: Sequence[N]) -> None:
     names = [each.name for each in those]
     for name in names:
         if names.count(name) > 1:
-            raise SimulationError(f"{sentence} '{name}'. Give each a name of its own.")
+            raise SimulationError(f"{sentence} '{name}'. Give each a unique name.")

@@ -118,13 +118,15 @@ class Plates:
         """Validate the dimensions and the number of plates."""
         if not (min(self.edge_m) > 0.0 and self.height_m > 0.0 and 0.0 < self.cover <= 1.0):
             raise SimulationError(
-                f"Plates '{self.name}' need edges and a height above zero, and a cover up to 1."
+                f"Plates '{self.name}' need edges and a height above zero, and a cover of at "
+                'most 1.'
             )
         rows, columns = self.counts
         if not (rows > 0 and columns > 0 and rows * columns <= _MOST_PLATES):
             raise SimulationError(
-                f"Plates '{self.name}' would be {rows} times {columns}. Give corners of which the "
-                f'second has the larger coordinates, and room for 1 to {_MOST_PLATES} plates.'
+                f"Plates '{self.name}' would form a grid of {rows} by {columns}. Give corners of "
+                f'which the second has the larger coordinates, and room for 1 to {_MOST_PLATES} '
+                'plates.'
             )
 
     @property

@@ -61,7 +61,7 @@ class Wall:
             if start_m < end_m - 1e-9 or door.at_m + door.width_m / 2.0 > self.length_m + 1e-9:
                 raise SimulationError(
                     f"Wall '{self.name}' has no room for the door at {door.at_m:g} m: doors must "
-                    f'lie within its {self.length_m:g} m, in order, beside each other.'
+                    f'lie within its {self.length_m:g} m, in order, without overlap.'
                 )
             end_m = door.at_m + door.width_m / 2.0
 

@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 MAX_NESTED = 64
 _PATH = 'current_launch_file_path'
 _FOLDER = 'current_launch_file_directory'
+_RELATIVE = (
+    "A relative path is looked up from the current folder, '{folder}'. Beside this launch file "
+    'is $(dirname)/..., or ThisLaunchFileDir() in Python; in a package it is '
+    '$(find-pkg-share PACKAGE)/..., or FindPackageShare().'
+)
 
 
 class OpenFile(NamedTuple):
@@ -60,6 +65,27 @@ def open_file(context: LaunchContext, path: str, call_site: Optional[CallSite]) 
     if len(before) >= MAX_NESTED or any(_same_state(each, file) for each in before):
         raise CircularIncludeError(_circle(context.run.include_stack, file))
     return file
+
+
+def missing_launch_file(context: LaunchContext, path: str) -> FileNotFoundError:
+    """
+    Create the error about an included launch file that does not exist.
+
+    Parameters
+    ----------
+    context
+        The launch context; the launch files being read are not suggested instead.
+    path
+        The path of the file, as requested; for a relative one the error states where it is looked
+        up.
+
+    """
+    from ros_environment.missing_file import explain_missing_file
+
+    reading = {each.path for each in context.run.include_stack}
+    text = explain_missing_file('launch file', path, reading)
+    relative = '' if os.path.isabs(path) else _RELATIVE.format(folder=os.getcwd())
+    return FileNotFoundError('\n'.join(filter(None, [text, relative])))
 
 
 def _same_state(one: OpenFile, other: OpenFile) -> bool:

@@ -82,10 +82,9 @@ class LaunchDescriptionSource:
     def _require_file(self, location: str, context: LaunchContext) -> None:
         """Raise an error if the location must be a file, but is not."""
         if self._loads_file and not os.path.isfile(location):
-            from launch._checks.missing_include import explain_missing_include
+            from launch._include_stack import missing_launch_file
 
-            reading = {each.path for each in context.run.include_stack}
-            raise FileNotFoundError(explain_missing_include(location, reading))
+            raise missing_launch_file(context, location)
 
     def expand_location(self, context: LaunchContext) -> str:
         """

@@ -160,7 +160,7 @@ class CommandedRobot(RobotModel):
             _with_default,
             topic_properties('sensor_msgs/msg/JointState', 'joint_commands', path=COMMANDS),
         ),
-        Flag(OWN_COLOR, True, 'Show it in one colour, and not in those of the description.'),
+        Flag(OWN_COLOR, True, 'Show it in one colour instead of those of the description.'),
         ColorOf('Color', (77, 171, 247), 'The colour of the ghost.'),
         *map(_with_default, RobotModel.PROPERTIES),
     )
@@ -262,7 +262,7 @@ class CommandedRobot(RobotModel):
             level = Level.ERROR if self._refusal else Level.WARN
             self.say('Command', f'{self._without_command()} The ghost is hidden.', level)
             return
-        self.say('Command', 'The ghost stands as commanded.', Level.OK)
+        self.say('Command', 'The ghost shows the commanded pose.', Level.OK)
         self.say('Joints', _not_known(joints.unknown))
         super().say_reasons(model, root, unknown)
 
@@ -285,7 +285,7 @@ class CommandedRobot(RobotModel):
             try:
                 joints.take(message.name, message.position, time_s)
             except ValueError as error:
-                self.say('Message', f'A command is left out: {error}')
+                self.say('Message', f'A command was ignored: {error}')
             else:
                 self.status.forget('Message')
 
@@ -296,8 +296,8 @@ class CommandedRobot(RobotModel):
         node = self.context.node
         topic = node.resolve_topic_name(self.topic_of(COMMANDS))
         if node.count_publishers(topic):
-            return f'No positions have come on {topic} for a second.'
-        return f'Nobody publishes {topic}.'
+            return f'No positions received on {topic} for a second.'
+        return f'No publisher on {topic}.'
 
 
 def _not_known(names: Sequence[str]) -> str:

@@ -85,7 +85,7 @@ class Session:
         do = message.get('do') if isinstance(message, dict) else None
         action = self.actions.get(do) if isinstance(do, str) else None
         if action is None:
-            raise ValueError(f'A page cannot do this here: {str(message)[:50]}')
+            raise ValueError(f'A page cannot request this here: {str(message)[:50]}')
         now_s = time.monotonic()
         self.silent_s, self._heard_s = now_s - self._heard_s, now_s
         action(message)

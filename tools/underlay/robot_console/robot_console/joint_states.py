@@ -109,7 +109,7 @@ def _complaint(names: Sequence[str], lists: Mapping[str, Numbers]) -> str:
     for what, numbers in lists.items():
         if len(numbers) not in (0, len(names)):
             return (
-                f'A message has {len(names)} names but {len(numbers)} {what}, which are left out.'
+                f'A message has {len(names)} names but {len(numbers)} {what}, which are ignored.'
             )
     return ''
 
@@ -161,7 +161,7 @@ class TopicWatch:
         self._count(now_s)
         if not self.is_late(now_s):
             count = len(self._states.states)
-            return f'{self.topic}: {count} joints, {self._rate_hz:.0f} messages a second'
+            return f'{self.topic}: {count} joints, {self._rate_hz:.0f} messages per second'
         last_s = self._states.last_s
         return _missing(self.topic, None if last_s is None else now_s - last_s, publishers)
 
@@ -189,8 +189,8 @@ def _missing(topic: str, for_s: float | None, publishers: int) -> str:
         The number of its publishers.
 
     """
-    what = 'Nothing has come yet' if for_s is None else f'Nothing for {for_s:.0f} s'
+    what = 'Nothing received yet' if for_s is None else f'Nothing for {for_s:.0f} s'
     if not publishers:
-        return f'{topic}: {what}; nobody publishes it.'
+        return f'{topic}: {what}; it has no publisher.'
     who = 'its publisher is' if publishers == 1 else f'its {publishers} publishers are'
     return f'{topic}: {what}; {who} silent.'

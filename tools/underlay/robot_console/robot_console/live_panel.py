@@ -191,7 +191,7 @@ class Channel:
             async for text in connection:
                 message = _parsed(text, self._actions)
                 if message is None:
-                    await connection.close(REFUSED, 'This cannot be asked for here.')
+                    await connection.close(REFUSED, 'This request is not supported here.')
                     break
                 self._post(viewer, message)
         except ConnectionClosed:

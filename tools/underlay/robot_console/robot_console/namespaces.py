@@ -48,7 +48,7 @@ class Namespace(Text):
         return text.strip('/')
 
 
-NAMESPACE = Namespace('Namespace', '', 'The robot; it is put before the names of topics.')
+NAMESPACE = Namespace('Namespace', '', 'Namespace of the robot; prefix of the topic names.')
 
 
 def below(namespace: str, topic: str) -> str:

@@ -79,7 +79,7 @@ def typed_value(kind: str, text: str, limits: Limits | None = None) -> Any:
     if item:
         return [_checked(READERS[item](each), limits) for each in _items(text)]
     if kind not in READERS:
-        raise ValueError(f'Parameters of the type {kind} cannot be changed here.')
+        raise ValueError(f'Parameters of type {kind} cannot be changed here.')
     value = READERS[kind](text.strip() if kind != STRING else text)
     return _checked(value, limits)
 
@@ -223,7 +223,7 @@ def parameter_value(
 
     """
     if descriptor.read_only:
-        raise ValueError('It can only be set when the node is started.')
+        raise ValueError('It can only be set when the node starts.')
     kind = type_name(current.type)
     if kind == NOT_SET or descriptor.dynamic_typing:
         return _any_value(text)

@@ -97,14 +97,14 @@ class ServiceCalls:
             error = future.exception()
             return (None, f"'{name}' failed: {error}") if error else (future.result(), '')
         if future is not None and not call.client.service_is_ready():
-            return None, f"'{name}' has gone away before it answered."
+            return None, f"'{name}' disappeared before it responded."
         if time.monotonic() < call.end_s:
             return None
         if future is not None:
-            return None, f"'{name}' has not answered within {call.timeout_s:g} s."
+            return None, f"'{name}' did not respond within {call.timeout_s:g} s."
         if not self._node.count_services(name):
-            return None, f"Nobody offers '{name}'."
+            return None, f"No server for '{name}'."
         return None, (
-            f"'{name}' does not connect within {call.timeout_s:g} s: its process may be stopped, "
-            'or just be ending, or the service has another type.'
+            f"'{name}' does not connect within {call.timeout_s:g} s: its process may be stopped "
+            'or shutting down, or the service has another type.'
         )

@@ -91,7 +91,7 @@ class SmallPage:
             )
         except ValueError:
             raise ValueError(
-                'There is such a panel for this robot already. Remove one of both from the file, '
+                'There is already such a panel for this robot. Remove one of them from the file, '
                 "or give it another 'Namespace'."
             ) from None
         self._frame = context.gui.add_markdown(_frame_text(self._path, name), order=order)

@@ -165,10 +165,10 @@ def decoded(raw: bytes, kind: Any) -> str:
     most = MOST_BYTES_NESTED if has_lists_of_messages(kind) else MOST_BYTES_FLAT
     if len(raw) > most:
         size, limit = human_bytes(len(raw)), human_bytes(most)
-        return f'A message of {size} is not shown as text: that of more than {limit} takes long.'
+        return f'A message of {size} is not shown as text: the limit is {limit}.'
     text = to_yaml(deserialize_message(raw, kind), SHORT)
     if len(text) > LONGEST_TEXT:
-        return f'{text[:LONGEST_TEXT]}\n... ({len(text) - LONGEST_TEXT} letters more)'
+        return f'{text[:LONGEST_TEXT]}\n... ({len(text) - LONGEST_TEXT} characters more)'
     return text
 
 

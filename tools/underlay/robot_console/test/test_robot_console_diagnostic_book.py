@@ -42,7 +42,7 @@ def test_details() -> None:
 def test_level_that_does_not_exist(level: int) -> None:
     """A level that does not exist is an error that says so."""
     said = condition(level, 'hm', '', [])
-    assert said.level == ERROR and f'level {level}, which does not exist' in said.message
+    assert said.level == ERROR and f'invalid level {level}' in said.message
 
 
 def test_huge_messages() -> None:

@@ -59,7 +59,7 @@ def test_log(world: LiveWorld, tab: Any) -> None:
     tab.get_by_role('button', name='Pause').click()
     world.robot.get_logger().info('later')
     shows(world, tab, '#what', 'Paused; 1 newer')
-    tab.get_by_role('button', name='Go on').click()
+    tab.get_by_role('button', name='Continue').click()
     shows(world, tab, '.text', 'later')
     tab.get_by_role('button', name='Clear').click()
     assert tab.locator('.line').count() == 0
@@ -68,7 +68,7 @@ def test_log(world: LiveWorld, tab: Any) -> None:
 def test_diagnostics(world: LiveWorld, tab: Any) -> None:
     """A click on a part shows what is known of it."""
     show(world, tab, 'diagnostics')
-    shows(world, tab, '#list', 'Nobody publishes /diagnostics')
+    shows(world, tab, '#list', 'No publisher on /diagnostics')
     publisher = world.robot.create_publisher(DiagnosticArray, '/diagnostics', 10)
     world.wait_until(lambda: publisher.get_subscription_count() > 0, 'no subscription')
     status = DiagnosticStatus(name=EVIL, level=b'\x02', message='hot', hardware_id='m3')

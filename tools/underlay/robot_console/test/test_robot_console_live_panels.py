@@ -102,7 +102,7 @@ def test_command(world: LiveWorld) -> None:
     assert not Command.is_wanted(world.robot)
     page = world.visit('command', Namespace='robot1')
     page.ask('tell', text='go to the kitchen')
-    page.wait_for('refusal', lambda refusal: 'Nobody takes commands' in refusal)
+    page.wait_for('refusal', lambda refusal: 'No one receives commands' in refusal)
     told: list[str] = []
     world.robot.create_subscription(
         String, 'user_command', lambda message: told.append(message.data), 50
@@ -138,7 +138,7 @@ def test_push_to_talk(world: LiveWorld) -> None:
     page = world.visit('command', Namespace='robot1')
     sound = base64.b64encode(bytes(range(200))).decode()
     page.ask('hear', sound=sound)
-    page.wait_for('refusal', lambda refusal: 'Nobody listens' in refusal)
+    page.wait_for('refusal', lambda refusal: 'No one is listening' in refusal)
     heard: list[bytes] = []
     world.robot.create_subscription(
         AudioData, 'audio', lambda message: heard.append(message.data.tobytes()), 50
@@ -274,7 +274,7 @@ def test_parameters(world: LiveWorld) -> None:
     for text, reason in (
         ('fast', 'must be a number'),
         ('10', 'from 0 to 9'),
-        ('3', 'Refused: three is too much'),
+        ('3', 'Rejected: three is too much'),
     ):
         page.ask('set', node='/robot1/robot', name='speed', text=text)
         page.wait_for('refused', lambda refused, reason=reason: reason in refused)  # type: ignore
@@ -283,7 +283,7 @@ def test_parameters(world: LiveWorld) -> None:
     page.wait_for('changed', lambda changed: changed['speed']['text'] == '2.0')
     assert world.robot.get_parameter('speed').value == 2.0
     page.ask('set', node='/robot1/robot', name='sped', text='2')
-    page.wait_for('refused', lambda refused: 'not there' in refused)
+    page.wait_for('refused', lambda refused: 'no longer exists' in refused)
 
 
 def test_parameter_of_others(world: LiveWorld) -> None:
@@ -302,7 +302,7 @@ def test_parameter_of_others(world: LiveWorld) -> None:
     world.robot.declare_parameter('later', 'x')
     page.wait_for('parameters', lambda told: 'later' in told)
     page.ask('choose', node='/nobody')
-    page.wait_for('problem', lambda problem: "no node '/nobody'" in problem)
+    page.wait_for('problem', lambda problem: "no longer a node '/nobody'" in problem)
 
 
 def test_services(world: LiveWorld) -> None:
@@ -324,12 +324,12 @@ def test_services(world: LiveWorld) -> None:
     page.ask('call', service='/robot1/switch', text='dat: true', number=2)
     assert "'dat'" in page.wait_for('number', lambda n: n == 2)['failed']
     page.ask('call', service='/robot1/nothing', text='', number=3)
-    assert 'not there' in page.wait_for('number', lambda n: n == 3)['failed']
+    assert 'no longer exists' in page.wait_for('number', lambda n: n == 3)['failed']
     client = world.node.create_client(SetBool, '/robot1/silent')
     page.wait_for('rows', lambda rows: ['/robot1/silent', 'std_srvs/srv/SetBool', False] in rows)
     page.ask('call', service='/robot1/silent', text='', number=4)
     failed = page.wait_for('number', lambda n: n == 4)['failed']
-    assert failed == "Nobody offers '/robot1/silent'."
+    assert failed == "No server for '/robot1/silent'."
     world.node.destroy_client(client)
     world.robot.destroy_service(service)
 
@@ -344,7 +344,7 @@ def test_service_that_does_not_answer(world: LiveWorld) -> None:
     page.wait_for('rows', lambda rows: any(row[0] == '/stuck' for row in rows))
     page.ask('call', service='/stuck', text='', number=1)
     failed = page.wait_for('number', lambda n: n == 1)['failed']
-    assert failed == "'/stuck' has not answered within 1 s."
+    assert failed == "'/stuck' did not respond within 1 s."
     dead.destroy_node()
     other.try_shutdown()
 

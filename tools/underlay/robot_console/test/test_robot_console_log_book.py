@@ -36,7 +36,7 @@ def test_odd_lines() -> None:
     book = LogBook()
     assert [book.add(line(level=level)).level for level in (0, 25, 77, 255)] == [10, 20, 50, 50]
     kept = book.add(line('a' * 5000))
-    assert kept.text.endswith('a ... (3000 letters more)') and len(kept.text) < 2100
+    assert kept.text.endswith('a ... (3000 characters more)') and len(kept.text) < 2100
 
 
 def test_interruptions() -> None:

@@ -79,7 +79,7 @@ def test_limits() -> None:
 
 def test_read_only() -> None:
     """What can only be set at the start is not sent at all."""
-    with pytest.raises(ValueError, match='when the node is started'):
+    with pytest.raises(ValueError, match='when the node starts'):
         parameter_value(
             '1', ParameterValue(type=ParameterType.PARAMETER_INTEGER), _about(read_only=True)
         )

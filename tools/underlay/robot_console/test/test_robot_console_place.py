@@ -85,7 +85,7 @@ def test_topic_that_is_no_name(context: Context, panel: str) -> None:
         panels.update()
         panels.close()
     [sentence] = [call.args[0] for call in said.call_args_list]
-    assert sentence.startswith("✖ '32FC1' is no name of a topic")
+    assert sentence.startswith("✖ '32FC1' is not a valid topic name")
     assert not context.page.routes.find(f'/{panel.lower()}')
 
 

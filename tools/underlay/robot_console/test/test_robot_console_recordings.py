@@ -50,7 +50,7 @@ def test_name_outside(tmp_path: Path, name: str) -> None:
 def test_name_taken(tmp_path: Path) -> None:
     """A name that is taken is refused before anything starts."""
     (tmp_path / 'walk').mkdir()
-    with pytest.raises(ValueError, match="a recording 'walk' already"):
+    with pytest.raises(ValueError, match="already a recording 'walk'"):
         bag_folder(str(tmp_path), 'walk', NOW)
 
 

@@ -199,11 +199,11 @@ def test_record_refused(world: World) -> None:
     (world.folder / 'walk').mkdir(parents=True)
     world.record._name.value = 'walk'
     world.record._press()
-    assert "There is a recording 'walk' already" in world.record._text.content
+    assert "There is already a recording 'walk'" in world.record._text.content
     world.record._name.value = ''
     world.record._all.value = False
     world.record._press()
-    assert 'No topic is chosen' in world.record._text.content
+    assert 'No topic selected' in world.record._text.content
     assert world.record.path == ''
 
 
@@ -223,7 +223,7 @@ def test_what_is_recorded_is_a_topic(world: World, text: str) -> None:
     world.record._all.value = False
     world.record._topics.value = text
     world.record._press()
-    assert world.record.path == '' and 'is no name of a topic' in world.record._text.content
+    assert world.record.path == '' and 'is not a valid topic name' in world.record._text.content
 
 
 def test_memory(world: World) -> None:
@@ -248,7 +248,7 @@ def test_play(world: World) -> None:
     world.listen('/replayed')
     world.listen('/cmd_vel')
     world.run(lambda: world.play.chooser.bag, 'the recording is not listed')
-    assert 'Left out, since a robot would obey: /cmd\\_vel' in world.play._text.content
+    assert 'Left out, as they command a robot: /cmd\\_vel' in world.play._text.content
     world.play._press('Play')
     world.run(lambda: len(world.heard) > 2, 'nothing is played')
     assert world.heard[:3] == ['0', '1', '2'] and world.buffer.clears == 1
@@ -368,7 +368,7 @@ def test_scene_too_large() -> None:
     """A file that would be too large is refused, with both sizes."""
     with Page('test', PageSettings(token=NO_TOKEN)) as page:
         tape = SceneTape(page.viser, 30.0, 10**6)
-        with pytest.raises(TooLarge, match=r'would have \d+\.\d MiB, and no more than 0.5'):
+        with pytest.raises(TooLarge, match=r'would have \d+\.\d MiB, but no more than 0.5'):
             tape.page('test', 512 * 1024)
 
 

@@ -123,7 +123,7 @@ def test_a_file_that_is_missing(start, tmp_path: Path) -> None:
     with browser.open(program.url()) as answer:
         assert answer.status == 200
     assert '[WARN]' in program.said
-    assert f'{path}: There is no such file. Looked for {path}. RViz opens' in program.said
+    assert f'{path}: File not found. Looked for {path}. RViz opens' in program.said
     assert program.end(signal.SIGINT) == 0
 
 
@@ -185,7 +185,7 @@ def test_a_broken_file_is_named_with_the_line(environment: dict[str, str], tmp_p
     path.write_text('Panels: ~\nPanels: ~\n')
     ended = run(environment, '--display-config', str(path))
     assert ended.returncode == 1
-    assert ended.stderr.startswith(f"{path}:2: 'Panels' stands here and in line 1 already")
+    assert ended.stderr.startswith(f"{path}:2: 'Panels' is already in line 1")
     assert len(ended.stderr.splitlines()) == 1
 
 

@@ -57,7 +57,7 @@ class Display:
         self.context = context
         self.root = root
         self.name = self._first_name = name_of(given, self.CLASS)
-        enabled = Flag('Enabled', True, 'Whether it is shown.')
+        enabled = Flag('Enabled', True, 'Whether to show the display.')
         self.values = Values((enabled, *self.PROPERTIES), given)
         self.status = Statuses()
         for refusal in self.values.refusals:

@@ -55,7 +55,7 @@ class GuardedNode(Node):
             The subscription.
 
         """
-        guarded = self._guarded(_with_info(callback), f"A message of '{topic}'")
+        guarded = self._guarded(_with_info(callback), f"The callback of '{topic}'")
         return super().create_subscription(msg_type, topic, guarded, *args, **more)
 
     def create_timer(
@@ -79,7 +79,7 @@ class GuardedNode(Node):
             The timer.
 
         """
-        guarded = self._guarded(callback, 'What is to be done regularly')
+        guarded = self._guarded(callback, 'A timer callback')
         return super().create_timer(timer_period_sec, guarded, *args, **more)
 
     def _guarded(self, callback: Callable[..., Any], subject: str) -> Callable[..., Any]:

@@ -216,9 +216,7 @@ class HistoryDisplay(TopicDisplay):
                 self._leave(self._kept.popleft().place)
         self._keep_last(self.MOST if decay_ns else self.keep())
         if decay_ns and len(self._kept) == self.MOST:
-            self.status.say(
-                'Decay', Level.WARN, f'No more than the last {self.MOST} messages are shown.'
-            )
+            self.status.say('Decay', Level.WARN, f'Only the last {self.MOST} messages are shown.')
         else:
             self.status.forget('Decay')
 

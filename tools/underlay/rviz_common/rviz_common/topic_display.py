@@ -37,10 +37,10 @@ class TopicDisplay(Display):
         self._is_silent = False
         topic = self.values['Topic/Value']
         if not topic:
-            self.status.say('Topic', Level.WARN, 'No topic is chosen.')
+            self.status.say('Topic', Level.WARN, 'No topic selected.')
         elif self.subscribe(self.message_type(topic), topic, self._count):
             self._is_silent = True
-            self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet.')
+            self.status.say('Topic', Level.WARN, f'No message received on {topic} yet.')
 
     def update(self) -> None:
         """Report why no message arrives, until the first one does."""
@@ -49,7 +49,7 @@ class TopicDisplay(Display):
             return
         kind, qos = self.message_type(topic), qos_of(self.values)
         reason = reason_of_silence(self.context.node, kind, topic, qos)
-        self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet{reason}')
+        self.status.say('Topic', Level.WARN, f'No message received on {topic} yet{reason}')
 
     def stop(self) -> None:
         """Unsubscribe, and remove everything that was drawn."""
@@ -146,7 +146,7 @@ class TopicDisplay(Display):
         """Report in the status that a message has been shown."""
         topic = self.values['Topic/Value']
         self.status.forget('Message')
-        self.status.say('Topic', Level.OK, f'{self.received} messages have come on {topic}.')
+        self.status.say('Topic', Level.OK, f'{self.received} messages received on {topic}.')
 
     def say_left_out(self, reason: object) -> None:
         """
@@ -159,7 +159,7 @@ class TopicDisplay(Display):
 
         """
         topic = self.values['Topic/Value']
-        self.status.say('Message', Level.ERROR, f'A message of {topic} is left out: {reason}')
+        self.status.say('Message', Level.ERROR, f'A message of {topic} was ignored: {reason}')
 
     def _count(self, message: Any) -> None:
         self.received += 1

@@ -41,7 +41,7 @@ def full_topic_name(node: Node, name: str) -> str:
         shown = name if len(name) <= LONGEST_SHOWN else f'{name[:LONGEST_SHOWN]}...'
         found = REASON.match(str(error))
         reason = found['reason'] if found else error
-        raise ValueError(f"'{shown}' is no name of a topic: {reason}.") from error
+        raise ValueError(f"'{shown}' is not a valid topic name: {reason}.") from error
     return full
 
 
@@ -79,12 +79,12 @@ def reason_of_silence(node: Node, kind: Any, topic: str, qos: QoSProfile) -> str
     except Exception:  # rclpy has no single exception for invalid names or a lost graph
         return '.'
     if not publishers:
-        return ': nobody publishes there.'
+        return ': it has no publisher.'
     reasons = [_reason(each, _type_name(kind), qos) for each in publishers]
     return next((reason for reason in reasons if reason == _WAITS), reasons[0])
 
 
-_WAITS = ', though somebody publishes there: it may be sent rarely.'
+_WAITS = ', but it has a publisher: messages may be rare.'
 
 
 def _reason(publisher: Any, type_name: str, qos: QoSProfile) -> str:
@@ -94,11 +94,11 @@ def _reason(publisher: Any, type_name: str, qos: QoSProfile) -> str:
     who = f'{publisher.node_namespace.rstrip("/")}/{publisher.node_name}'
     offered = publisher.qos_profile
     if publisher.topic_type != type_name:
-        return f': {who} publishes {publisher.topic_type} there, and not {type_name}.'
+        return f': {who} publishes {publisher.topic_type} there, not {type_name}.'
     keeps = DurabilityPolicy.TRANSIENT_LOCAL
     if qos.durability == keeps and offered.durability == DurabilityPolicy.VOLATILE:
         return (
-            f': {who} publishes there with the durability volatile, which does not fit. Set '
+            f': {who} publishes there with incompatible durability: volatile. Set '
             "'Durability Policy' to Volatile."
         )
     if (
@@ -106,12 +106,12 @@ def _reason(publisher: Any, type_name: str, qos: QoSProfile) -> str:
         and offered.reliability == ReliabilityPolicy.BEST_EFFORT
     ):
         return (
-            f': {who} publishes there with the reliability best effort, which does not fit. Set '
+            f': {who} publishes there with incompatible reliability: best effort. Set '
             "'Reliability Policy' to Best Effort."
         )
     if qos.durability == DurabilityPolicy.VOLATILE and offered.durability == keeps:
         return (
-            f". {who} keeps what it has published for those who come later: set 'Durability "
+            f". {who} keeps its messages for late subscribers: set 'Durability "
             "Policy' to Transient Local to get it."
         )
     return _WAITS

@@ -26,7 +26,7 @@ Point = tuple[float, float, float]
 
 COMMON: tuple[Property, ...] = (
     Frame('Target Frame', FIXED_FRAME, 'The frame that the camera follows.'),
-    Number('Near Clip Distance', 0.01, 'What is nearer, in metres, is not drawn.', 0.001, 1000.0),
+    Number('Near Clip Distance', 0.01, 'Anything nearer is not drawn, in metres.', 0.001, 1000.0),
 )
 
 STEEPEST = math.pi / 2 - 0.001
@@ -100,8 +100,8 @@ class Orbit(ViewKind):
     NAME = 'Orbit'
     PROPERTIES = (
         *COMMON,
-        Number('Distance', 10.0, 'From the point, in metres.', 0.01, 1e6),
-        Vector('Focal Point', (0.0, 0.0, 0.0), 'The point, from the target frame on.'),
+        Number('Distance', 10.0, 'Distance from the focal point, in metres.', 0.01, 1e6),
+        Vector('Focal Point', (0.0, 0.0, 0.0), 'The focal point, in the target frame.'),
         Number('Yaw', 0.785, 'The angle about the vertical axis.'),
         Number('Pitch', 0.785, 'The angle above the ground.'),
     )
@@ -242,7 +242,7 @@ class Fps(ViewKind):
     NAME = 'FPS'
     PROPERTIES = (
         *COMMON,
-        Vector('Position', (5.0, 5.0, 10.0), 'The point, from the target frame on.'),
+        Vector('Position', (5.0, 5.0, 10.0), 'The camera position, in the target frame.'),
         Number('Yaw', 0.0, 'The angle about the vertical axis.'),
         Number('Pitch', 0.0, 'The angle below the horizon.'),
     )
@@ -294,10 +294,10 @@ class TopDown(ViewKind):
     NAME = 'TopDownOrtho'
     PROPERTIES = (
         *COMMON,
-        Number('Scale', 10.0, 'Pixels a metre.', 0.01, 1e5),
-        Number('Angle', 0.0, 'How far the map is turned.'),
-        Number('X', 0.0, 'The middle, from the target frame on.'),
-        Number('Y', 0.0, 'The middle, from the target frame on.'),
+        Number('Scale', 10.0, 'Pixels per metre.', 0.01, 1e5),
+        Number('Angle', 0.0, 'Rotation of the map.'),
+        Number('X', 0.0, 'The centre, in the target frame.'),
+        Number('Y', 0.0, 'The centre, in the target frame.'),
     )
 
     def camera(self, values: Values) -> CameraPose:

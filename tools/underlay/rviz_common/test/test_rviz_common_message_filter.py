@@ -70,11 +70,11 @@ def test_what_pages_send() -> None:
         ({**CAMERA, 'wxyz': [1, 0, 0]}, 'length 4'),
         ({**CAMERA, 'fov': 'wide'}, 'float'),
         ({**CAMERA, 'near': float('nan')}, 'not finite'),
-        ({**CAMERA, 'more': 1}, 'too much'),
+        ({**CAMERA, 'more': 1}, 'unknown fields'),
         ({'type': 'ViewerCameraMessage'}, 'missing'),
         ({**UPDATE, 'updates': {'value': [{'a': float('inf')}]}}, 'not finite'),
-        ({**UPDATE, 'updates': {'value': 1, 'update_cb': []}}, 'other properties'),
-        ({**UPDATE, 'updates': {}}, 'other properties'),
+        ({**UPDATE, 'updates': {'value': 1, 'update_cb': []}}, 'properties of a widget other'),
+        ({**UPDATE, 'updates': {}}, 'properties of a widget other'),
     ],
 )
 def test_what_pages_do_not_send(message: Any, reason: str) -> None:

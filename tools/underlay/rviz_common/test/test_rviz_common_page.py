@@ -134,7 +134,7 @@ def test_no_token_when_asked_for() -> None:
         assert page.url == f'http://127.0.0.1:{page.port}/'
         assert ask(page).status == 200
         assert ask(page, Host='evil.example').status == 403
-    with pytest.raises(ValueError, match='everybody there could drive the robot'):
+    with pytest.raises(ValueError, match='anyone there could drive the robot'):
         PageSettings(host='0.0.0.0', token=NO_TOKEN)
 
 
@@ -221,7 +221,7 @@ def test_route(page: Page) -> None:
         assert client.recv(timeout=100) == 'hello'
     with pytest.raises(InvalidStatus):
         connect(url, origin=Origin('http://evil.example'))
-    with pytest.raises(ValueError, match="something at '/echo' already"):
+    with pytest.raises(ValueError, match="path '/echo' is already in use"):
         page.routes.add('/echo', Route(''))
     page.routes.remove('/echo')
     page.routes.add('/echo', Route('anew'))

@@ -134,9 +134,9 @@ def test_the_head_names_the_worst_first(show: Show) -> None:
     """The top of the page has the fixed frame, and the displays with something to say."""
     shown = show(GROUP)
     assert shown.head._summary().splitlines()[::2] == [
-        '⚠ **Fixed Frame**: Nobody publishes to /tf or /tf\\_static: only what is in '
-        "'map' itself can be shown. Start robot\\_state\\_publisher, or whatever knows where the "
-        'robot is.',
+        '⚠ **Fixed Frame**: No publisher on /tf or /tf\\_static: only data in '
+        "'map' itself can be shown. Start robot\\_state\\_publisher, or another publisher of "
+        'the robot pose.',
         '⚠ Inner, Outer: see Displays',
     ]
 
@@ -179,7 +179,7 @@ def test_a_panel_with_a_value_that_cannot_be_used(show: Show, capfd: Any) -> Non
     show("Panels:\n  - Class: rviz_common/Time\n    Sync Source: ''\n")
     show("Panels:\n  - {Class: robot_console/Log, Name: What nodes say, Namespace: '1x'}\n")
     said = capfd.readouterr().err
-    assert said.count('Of the panel') == 1
+    assert said.count('In the panel') == 1
     assert "'What nodes say' (robot_console/Log), 'Namespace' must be like 'robot1'" in said
 
 

@@ -77,11 +77,11 @@ def test_a_file_passes(uploads: Uploads, refused: list[str]) -> None:
 @pytest.mark.parametrize(
     ('size', 'parts', 'reason'),
     [
-        (LARGEST_UPLOAD_BYTES + 1, 1, 'The file has 10.0 MB, and the largest'),
+        (LARGEST_UPLOAD_BYTES + 1, 1, 'The file has 10.0 MB, but the limit'),
         (10**12, 2, 'The file has 1000000.0 MB'),
-        (-1, 1, 'makes no sense'),
-        (10, -1, 'makes no sense'),
-        (10, MOST_PARTS + 1, 'makes no sense'),
+        (-1, 1, 'is not valid'),
+        (10, -1, 'is not valid'),
+        (10, MOST_PARTS + 1, 'is not valid'),
     ],
 )
 def test_what_is_refused(
@@ -109,7 +109,7 @@ def test_few_at_a_time(uploads: Uploads, refused: list[str]) -> None:
         assert uploads.admits(start(str(id(owner)), 5, 1), owner)
         assert not uploads.admits(start('second', 5, 1), owner)
     assert not uploads.admits(start('late', 5, 1), OWNER)
-    assert 'Another file' in refused[0] and 'Try again' in refused[-1]
+    assert 'already uploading a file' in refused[0] and 'Try again' in refused[-1]
     assert not uploads.admits(part(str(id(owners[0])), 0, b'a'), owners[1])
     uploads.leave(owners[0])
     assert uploads.admits(start('late', 5, 1), OWNER)

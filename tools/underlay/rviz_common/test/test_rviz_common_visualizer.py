@@ -145,7 +145,7 @@ def test_what_cannot_be_made_is_kept_for_the_file(show: Show) -> None:
     shown = show(text_of({'Class': 'a/B', 'X': 1}, {'Class': 'test/Broken', 'Name': 'n'}))
     unknown, broken = shown.displays.children
     assert isinstance(unknown, UnknownEntry) and isinstance(broken, UnknownEntry)
-    assert "No package offers displays of the class 'a/B'" in unknown.status.items()[0][2]
+    assert "No package provides displays of the class 'a/B'" in unknown.status.items()[0][2]
     assert 'no way' in broken.status.items()[0][2]
     assert shown.displays.to_file()['Displays'] == [
         {'Class': 'a/B', 'X': 1},
@@ -168,7 +168,7 @@ def test_what_cannot_be_imported_is_said(
     said = capfd.readouterr().err
     assert said.count("'test/Absent' cannot be used: No module named 'absent_module'") == 3
     assert "'absent_module': 'test/Absent' (test.rviz:5) left out." in said
-    assert 'No package offers' not in said
+    assert 'No package provides' not in said
 
 
 def test_what_is_unknown_is_said_once(show: Show, node: Node, capfd: Any) -> None:
@@ -272,17 +272,17 @@ def test_what_is_missing_is_said(show: Show, node: Node, spin_until: Any) -> Non
     def sentence() -> str:
         return str(shown.status.items()[0][2])
 
-    assert 'Nobody publishes to /tf or /tf_static' in sentence()
+    assert 'No publisher on /tf or /tf_static' in sentence()
     dynamic = TransformBroadcaster(node)
-    spin_until(lambda: 'no transform has come yet' in sentence(), 'the publisher')
+    spin_until(lambda: 'no transform received yet' in sentence(), 'the publisher')
     dynamic.sendTransform(transform('odom', 'base_link'))
     spin_until(lambda: "Did you mean 'base_link'?" in sentence(), 'the frame')
     assert shown.status.level is Level.ERROR
     shown.set_option('Fixed Frame', '/base_link')
-    assert sentence() == '2 frames are known.'
+    assert sentence() == '2 frames are connected.'
     StaticTransformBroadcaster(node).sendTransform(transform('world', 'table'))
     spin_until(lambda: "to 'world' and the 1 below it" in sentence(), 'the other tree')
-    assert "nobody publishes between 'odom' and 'world'" in sentence()
+    assert "nothing connects 'odom' and 'world'" in sentence()
 
 
 def test_the_world_moves_when_the_camera_follows(

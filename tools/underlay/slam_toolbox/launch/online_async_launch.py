@@ -78,17 +78,17 @@ def generate_launch_description():
             DeclareLaunchArgument(
                 'use_lifecycle_manager',
                 default_value='false',
-                description='Leave that to a lifecycle manager.',
+                description='Leave configuration to a lifecycle manager.',
             ),
             DeclareLaunchArgument(
-                'use_sim_time', default_value='true', description='Follow simulated time.'
+                'use_sim_time', default_value='true', description='Use simulated time.'
             ),
             DeclareLaunchArgument(
                 'slam_params_file',
                 default_value=PathJoinSubstitution(
                     [FindPackageShare('slam_toolbox'), 'config', 'mapper_params_online_async.yaml']
                 ),
-                description='The file with the parameters.',
+                description='The parameter file.',
             ),
             DeclareLaunchArgument(
                 'namespace', default_value='', description='The namespace of the node.'

@@ -106,7 +106,7 @@ def _corrected(mapper: Mapper, edge: Edge) -> Iterator[str]:
     shift = mapper.graph.poses[: len(before), :2] - before[:, :2]
     mapper.follow_graph()
     most = float(np.hypot(*shift.T).max())
-    yield f'Closed a loop; the map moved by up to {most:.2f} m.' if most > _NOTABLE_M else ''
+    yield f'Loop closed; the map moved by up to {most:.2f} m.' if most > _NOTABLE_M else ''
 
 
 def _match(mapper: Mapper, node: int, chain: list[int]) -> Edge | None:

@@ -88,7 +88,7 @@ class SlamToolbox(LifecycleNode):
         self.told = self.parameters.declare(SlamParameters)
         told = self.told.current
         if told.enable_interactive_mode:
-            self.get_logger().warning('Keyframes cannot be moved by hand: no interactive mode.')
+            self.get_logger().warning('No interactive mode: keyframes cannot be moved by hand.')
         self.session = Session(_session_settings(told), self.get_logger().info)
         self.told.on_change = lambda new: self.session.change(_session_settings(new))
         self.is_paused, self._count, self._stamp = False, 0, None
@@ -163,7 +163,7 @@ class SlamToolbox(LifecycleNode):
             return None
         if len(given) != 3:
             raise ConfigurationError(
-                "The parameter 'map_start_pose' has to be [x, y, yaw] in m and rad, and is "
+                "The parameter 'map_start_pose' must be [x, y, yaw] in m and rad, but is "
                 f'{list(given)}.'
             )
         return np.array(given, dtype=float)
@@ -211,7 +211,7 @@ class SlamToolbox(LifecycleNode):
         stamp = self._stamp = timed.message.header.stamp
         if timed.tilt_rad > _LEVEL_RAD:
             self.get_logger().warning(
-                f'Scans are left out: the scanner leans by {math.degrees(timed.tilt_rad):.0f} '
+                f'Scans are ignored: the scanner is tilted by {math.degrees(timed.tilt_rad):.0f} '
                 f'degrees; the limit is {math.degrees(_LEVEL_RAD):.0f}. Has the robot fallen?',
                 throttle_duration_sec=_QUIET_S,
             )
@@ -314,7 +314,7 @@ class LocalizationSlamToolbox(SlamToolbox):
                 f"The initial pose is in '{frame}'. Give it in '{self.told.current.map_frame}'."
             )
         elif self.session.localizer is None:
-            self.get_logger().error('There is no map yet, so the initial pose is of no use.')
+            self.get_logger().error('There is no map yet, so the initial pose is ignored.')
         else:
             position = pose.position
             self.session.localizer.start_at(

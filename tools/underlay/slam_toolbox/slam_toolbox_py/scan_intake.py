@@ -151,9 +151,9 @@ class ScanIntake:
     def _drop(self, index: int, stamp_s: float, error: Exception) -> None:
         del self._waiting[index]
         self._warn(
-            f"The scan of {stamp_s:.2f} s was dropped: it is not known where '{self._base}' or "
-            f"the scanner was in '{self._odom}' then. {error} Does odometry come as a transform, "
-            'and do scans have the time of the same clock?'
+            f"The scan of {stamp_s:.2f} s was dropped: no transform of '{self._base}' or the "
+            f"scanner in '{self._odom}' at that time. {error} Is odometry published as a "
+            'transform, and are scans stamped by the same clock?'
         )
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ['SlamServices']
 
-_BY_HAND = 'Keyframes cannot be moved by hand here'
+_BY_HAND = 'Interactive mode is not supported'
 
 
 class SlamServices:
@@ -79,15 +79,15 @@ class SlamServices:
         grid = self._node.session.grid()
         if grid is None:
             self._log.warning(
-                'The map cannot be saved: there is none yet. '
-                f"Do scans come on '{self._node.told.current.scan_topic}'?"
+                'Cannot save the map: there is none yet. '
+                f"Are scans published on '{self._node.told.current.scan_topic}'?"
             )
             response.result = SaveMap.Response.RESULT_NO_MAP_RECEIEVD
             return response
         try:
             self._log.info(f"Saved the map to '{save_map(grid, request.name.data)}'.")
         except OSError as error:
-            self._log.error(f'The map cannot be saved: {_reason(error)}')
+            self._log.error(f'Cannot save the map: {_reason(error)}')
             response.result = SaveMap.Response.RESULT_UNDEFINED_FAILURE
         return response
 
@@ -100,7 +100,7 @@ class SlamServices:
             path = self._node.session.save(request.filename)
             self._log.info(f"Serialized the map to '{path}'.")
         except OSError as error:
-            self._log.error(f'The map cannot be serialized: {_reason(error)}')
+            self._log.error(f'Cannot serialize the map: {_reason(error)}')
             response.result = SerializePoseGraph.Response.RESULT_FAILED_TO_WRITE_FILE
         return response
 
@@ -120,7 +120,7 @@ class SlamServices:
             return response
         if request.match_type == kind.LOCALIZE_AT_POSE and not self._node.only_localizes:
             self._log.error(
-                'No map was loaded: this node makes maps. Give match_type 2, or localize with '
+                'No map was loaded: this node builds maps. Give match_type 2, or localize with '
                 'localization_slam_toolbox_node.'
             )
             return response
@@ -140,9 +140,9 @@ class SlamServices:
     def _pause(self, _: Pause.Request, response: Pause.Response) -> Pause.Response:
         self._node.is_paused = not self._node.is_paused
         self._log.info(
-            'New measurements are left out from now on.'
+            'Paused: new measurements are ignored.'
             if self._node.is_paused
-            else 'New measurements are taken again.'
+            else 'Resumed: new measurements are processed again.'
         )
         response.status = True
         return response
@@ -151,14 +151,14 @@ class SlamServices:
         self._node.session.reset()
         self._node.is_paused = bool(request.pause_new_measurements)
         self._node.restart()
-        self._log.info('The map was forgotten; a new one begins where the robot is.')
+        self._log.info('The map was cleared; a new one starts where the robot is.')
         response.result = Reset.Response.RESULT_SUCCESS
         return response
 
     def _clear_queue(
         self, _: ClearQueue.Request, response: ClearQueue.Response
     ) -> ClearQueue.Response:
-        self._log.info(f'Dropped {self._node.clear_queue()} scans that waited.')
+        self._log.info(f'Dropped {self._node.clear_queue()} queued scans.')
         response.status = True
         return response
 
@@ -169,13 +169,13 @@ class SlamServices:
     def _close_loops(
         self, _: LoopClosure.Request, response: LoopClosure.Response
     ) -> LoopClosure.Response:
-        self._log.warning(f'{_BY_HAND}: loops are closed as the robot comes back to a place.')
+        self._log.warning(f'{_BY_HAND}: loops are closed when the robot returns to a place.')
         return response
 
     def _toggle(
         self, _: ToggleInteractive.Request, response: ToggleInteractive.Response
     ) -> ToggleInteractive.Response:
-        self._log.warning(f'{_BY_HAND}: there is no interactive mode.')
+        self._log.warning(f'{_BY_HAND}: keyframes cannot be moved by hand.')
         return response
 
 

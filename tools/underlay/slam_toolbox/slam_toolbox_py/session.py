@@ -254,15 +254,15 @@ class Session:
         elapsed_s = stamp_s - before_s
         if elapsed_s < -_BACK_S:
             self._log(
-                f'Time has jumped back by {-elapsed_s:.1f} s. The map stays; the robot is looked '
-                'for where odometry tells, as at the beginning. Call reset for a new map.'
+                f'Time jumped back by {-elapsed_s:.1f} s. The map is kept; the robot is searched '
+                'for at its odometry pose, as at the start. Call reset for a new map.'
             )
             self._processed_s = min(self._processed_s, stamp_s - 1e6)
             self._start_at(compose(self._began, odometry))
         elif np.hypot(*(odometry - before)[:2]) > _JUMP_M + _FASTEST_M_S * max(elapsed_s, 0.0):
             self._log(
-                'Odometry has jumped. The robot is looked for where it was in the map, and where '
-                'odometry tells that it is. Call reset for a new map.'
+                'Odometry jumped. The robot is searched for at its last pose in the map, and at '
+                'its odometry pose. Call reset for a new map.'
             )
             self._processed_s = min(self._processed_s, stamp_s - 1e6)
             now = self.map_to_odom

@@ -216,14 +216,14 @@ def load_pose_graph(name: str, settings: MapperSettings) -> Mapper:
             arrays = {key: file[key] for key in file.files}
     except FileNotFoundError:
         raise PoseGraphFileError(
-            f"There is no '{path}'. Give the name without extension, with its folder."
+            f"File '{path}' not found. Give the name without extension, with its folder."
         ) from None
     except OSError as error:
         raise PoseGraphFileError(f"'{path}' cannot be read: {error.strerror or error}.") from error
     except (ValueError, KeyError, EOFError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
         raise PoseGraphFileError(
-            f"'{path}' is no serialized map of this program, or is broken: {error}. Maps of "
-            'genuine slam_toolbox cannot be read; make the map again and serialize it.'
+            f"'{path}' is not a serialized map of this program, or is broken: {error}. Maps "
+            'of genuine slam_toolbox cannot be read; build the map again and serialize it.'
         ) from error
     fault = _fault(arrays)
     if fault:
@@ -259,12 +259,12 @@ def _mapper_of(arrays: dict[str, npt.NDArray[np.generic]], settings: MapperSetti
 def _fault(arrays: dict[str, npt.NDArray[np.generic]]) -> str | None:
     """Validate the arrays of a file; return the error, or None if they are valid."""
     if 'version' not in arrays or int(arrays['version'].sum()) != _VERSION:
-        return f'it is not of version {_VERSION}'
+        return f'its version is not {_VERSION}'
     for key, shape in _SHAPES.items():
         if key not in arrays or arrays[key].shape[1:] != shape or arrays[key].ndim < 1:
             return f"'{key}' is missing or has another shape"
         if not np.isfinite(np.asarray(arrays[key], dtype=float)).all():
-            return f"'{key}' has values that are no numbers"
+            return f"'{key}' has values that are not numbers"
     nodes = len(arrays['poses'])
     if not nodes:
         return 'it has no keyframes'

@@ -53,18 +53,18 @@ BROKEN = [
         '3: The text is not valid XML: '
         'not well-formed (invalid token). It is inside <robot> of line 1.',
     ),
-    ('robot', 'sdf', '1: A URDF starts with <robot>, and not with <sdf>.'),
+    ('robot', 'sdf', '1: A URDF starts with <robot>, not with <sdf>.'),
     (' name="arm"', '', "1: There is no attribute 'name' in <robot>. Add it."),
     ('<link name="base"/>', '<link/>', "2: There is no attribute 'name' in this <link>. Add it."),
     (
         '<link name="lower"/>',
         '<link name="upper"/>',
-        "4: There is a link 'upper' already, on line 3. Rename one of them.",
+        "4: There is already a link 'upper' on line 3. Rename one of them.",
     ),
     (
         'name="elbow"',
         'name="shoulder"',
-        "12: There is a joint 'shoulder' already, on line 5. Rename one of them.",
+        "12: There is already a joint 'shoulder' on line 5. Rename one of them.",
     ),
     (
         'type="revolute"',
@@ -95,31 +95,31 @@ BROKEN = [
     (
         '<link name="lower"/>',
         '<link name="lower"/><link name="hat"/>',
-        "4: Robot 'arm' falls "
-        "apart: the links 'base', 'hat' have no parent. Join them, so that only one root is left.",
+        "4: Robot 'arm' is not "
+        "a single tree: the links 'base', 'hat' have no parent. Connect them so that only one "
+        'root remains.',
     ),
     (
         '<parent link="base"/>',
         '<parent link="lower"/>',
-        "5: The joints 'shoulder', 'elbow' go round in a loop. The links of a robot must form a "
-        'tree.',
+        "5: The joints 'shoulder', 'elbow' form a loop. The links of a robot must form a tree.",
     ),
     (
         '<axis xyz="0 0 2"/>',
         '<axis xyz="0 0 0"/>',
-        "8: The axis of joint 'shoulder' is zero, so that it has no direction.",
+        "8: The axis of joint 'shoulder' is zero, so it has no direction.",
     ),
     (
         '<axis xyz="0 0 2"/>',
         '<axis xyz="0 1"/>',
         "8: 'xyz' in <axis> of joint 'shoulder' is "
-        "'0 1', but must be three numbers with spaces between them.",
+        "'0 1', but must be three numbers separated by spaces.",
     ),
     (
         'rpy="0.1 0.2 0.3"',
         'rpy="0.1 ${a} 0"',
         "7: 'rpy' in <origin> of joint 'shoulder' is "
-        "'0.1 ${a} 0', but must be three numbers with spaces between them.",
+        "'0.1 ${a} 0', but must be three numbers separated by spaces.",
     ),
     (
         'lower="-1"',
@@ -155,7 +155,7 @@ BROKEN = [
     (
         '<link name="base"/>',
         '<xacro:leg/>',
-        '2: <xacro:leg> is xacro and not URDF. Expand the file first: ros2 run xacro xacro FILE.',
+        '2: <xacro:leg> is xacro, not URDF. Expand the file first: ros2 run xacro xacro FILE.',
     ),
 ]
 
@@ -175,7 +175,7 @@ def test_broken_urdf_is_refused_with_line_and_cause(old: str, new: str, error: s
         (' \n', 'The robot description is empty. Pass the text of a URDF.'),
         ('<robot name="r"/>', "Robot 'r' has no links. Add at least one <link>."),
         ('/tmp/arm.urdf', "The robot description is '/tmp/arm.urdf', which looks like a file."),
-        ('None', "The robot description is 'None', which is no XML. Pass the text of a URDF."),
+        ('None', "The robot description is 'None', which is not XML. Pass the text of a URDF."),
     ],
 )
 def test_what_is_no_robot_is_refused(text: str, error: str) -> None:
@@ -190,7 +190,7 @@ def test_error_names_the_xacro_file() -> None:
     with pytest.raises(UrdfError) as caught:
         parse_urdf(HEADER + GOOD.replace('"0 0 2"', '"0 0 0"'))
     assert str(caught.value).endswith(
-        '(The line is one of what xacro made from urdf/arm.urdf.xacro.)'
+        '(The line number is that of the xacro output of urdf/arm.urdf.xacro.)'
     )
 
 

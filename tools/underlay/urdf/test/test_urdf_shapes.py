@@ -87,14 +87,14 @@ def test_color_of_another_link() -> None:
     [
         ('<box/>', "There is no attribute 'size' in <box> of <visual> of link 'base'. Add it."),
         ('<box size="1 2"/>', "is '1 2', but must be three numbers"),
-        ('<box size="1 -2 1"/>', 'is 1 -2 1, below zero'),
+        ('<box size="1 -2 1"/>', 'is negative: 1 -2 1'),
         ('<cylinder radius="1"/>', "no attribute 'length' in <cylinder>"),
         ('<cylinder radius="-1" length="1"/>', "'radius' in <cylinder>"),
         ('<sphere radius="nan"/>', 'must be a number'),
         ('<mesh/>', "no attribute 'filename' in <mesh>"),
         (
             '<spere radius="1"/>',
-            'is no geometry. There are <box>, <capsule>, <cylinder>, <mesh>, ',
+            'is not a geometry. There are <box>, <capsule>, <cylinder>, <mesh>, ',
         ),
         ('<spere radius="1"/>', "Did you mean 'sphere'?"),
         ('', "<geometry> in <visual> of link 'base' is empty."),

@@ -80,7 +80,7 @@ def _axis(element: XmlElement, where: str) -> Vector:
     x, y, z = vector(axis, 'xyz', where, Joint.axis)
     length = math.hypot(x, y, z)
     if axis is not None and length == 0.0:
-        raise UrdfError(f'The axis of {where} is zero, so that it has no direction.', axis.line)
+        raise UrdfError(f'The axis of {where} is zero, so it has no direction.', axis.line)
     return x / length, y / length, z / length
 
 
@@ -193,7 +193,7 @@ def _color(material: XmlElement) -> Color | None:
     except ValueError:
         raise UrdfError(
             f"'rgba' in <color> of {where} is '{given}', but must be four numbers from 0 to 1 "
-            'with spaces between them.',
+            'separated by spaces.',
             element.line,
         ) from None
     return red, green, blue, opacity
@@ -207,7 +207,7 @@ def _geometry(element: XmlElement, where: str) -> Geometry:
     read = READERS.get(body.tag)
     if read is None:
         raise UrdfError(
-            f'<{body.tag}> in {where} is no geometry. {_kinds()} '
+            f'<{body.tag}> in {where} is not a geometry. {_kinds()} '
             f'{did_you_mean(body.tag, READERS, 0.75)}'.rstrip(),
             body.line,
         )
@@ -253,7 +253,7 @@ def _length(body: XmlElement, name: str, where: str) -> float:
 
 def _negative(body: XmlElement, name: str, where: str) -> UrdfError:
     given = body.attributes[name]
-    return UrdfError(f"'{name}' in <{body.tag}> of {where} is {given}, below zero.", body.line)
+    return UrdfError(f"'{name}' in <{body.tag}> of {where} is negative: {given}.", body.line)
 
 
 READERS: dict[str, Callable[[XmlElement, str], Geometry]] = {

@@ -74,7 +74,7 @@ def _robot_element(text: str) -> XmlElement:
         raise UrdfError(_no_xml(text.strip()))
     root = parse_xml(text)
     if root.tag != 'robot':
-        raise UrdfError(f'A URDF starts with <robot>, and not with <{root.tag}>.', root.line)
+        raise UrdfError(f'A URDF starts with <robot>, not with <{root.tag}>.', root.line)
     return root
 
 
@@ -87,7 +87,7 @@ def _no_xml(text: str) -> str:
             """URDF; in a launch file, ParameterValue(Command(['xacro "', path, '"']), """
             'value_type=str).'
         )
-    return f'The robot description is {shown}, which is no XML. Pass the text of a URDF.'
+    return f'The robot description is {shown}, which is not XML. Pass the text of a URDF.'
 
 
 def _read(robot: XmlElement) -> RobotModel:
@@ -117,7 +117,7 @@ def _check_expanded(robot: XmlElement) -> None:
     for element in robot.children:
         if element.tag.startswith('xacro:'):
             raise UrdfError(
-                f'<{element.tag}> is xacro and not URDF. Expand the file first: '
+                f'<{element.tag}> is xacro, not URDF. Expand the file first: '
                 'ros2 run xacro xacro FILE.',
                 element.line,
             )
@@ -126,7 +126,7 @@ def _check_expanded(robot: XmlElement) -> None:
 def _origin_of(text: str) -> str:
     """Return a hint at the xacro file that the text was expanded from, or ''."""
     found = XACRO_MARK.search(text[:2000])
-    return f' (The line is one of what xacro made from {found[1]}.)' if found else ''
+    return f' (The line number is that of the xacro output of {found[1]}.)' if found else ''
 
 
 def _check_consistency(model: RobotModel) -> None:
@@ -159,7 +159,7 @@ def _check_unique(what: str, named: Sequence[Link] | Sequence[Joint]) -> None:
     for each in named:
         if each.name in first:
             raise UrdfError(
-                f"There is a {what} '{each.name}' already, on line {first[each.name]}. "
+                f"There is already a {what} '{each.name}' on line {first[each.name]}. "
                 'Rename one of them.',
                 each.line,
             )
@@ -197,8 +197,8 @@ def _check_one_root(model: RobotModel) -> None:
     if len(roots) > 1:
         names = ', '.join(f"'{link.name}'" for link in roots)
         raise UrdfError(
-            f"Robot '{model.name}' falls apart: the links {names} have no parent. "
-            'Join them, so that only one root is left.',
+            f"Robot '{model.name}' is not a single tree: the links {names} have no parent. "
+            'Connect them so that only one root remains.',
             roots[1].line,
         )
     hanging = _below(model, {link.name for link in roots})
@@ -206,7 +206,7 @@ def _check_one_root(model: RobotModel) -> None:
     if loop:
         names = ', '.join(f"'{joint.name}'" for joint in loop)
         raise UrdfError(
-            f'The joints {names} go round in a loop. The links of a robot must form a tree.',
+            f'The joints {names} form a loop. The links of a robot must form a tree.',
             loop[0].line,
         )
 

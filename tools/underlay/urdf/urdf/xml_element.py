@@ -232,7 +232,7 @@ def vector(element: XmlElement | None, name: str, where: str, default: Vector) -
         return default
     numbers = _numbers(given)
     if numbers is None or len(numbers) != 3:
-        raise _not('three numbers with spaces between them', element, name, where)
+        raise _not('three numbers separated by spaces', element, name, where)
     return numbers[0], numbers[1], numbers[2]
 
 

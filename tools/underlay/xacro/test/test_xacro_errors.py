@@ -163,8 +163,8 @@ ERRORS = {
     ),
     'prefix of XML': (
         '<a q:x="1"/>',
-        'top.xacro:4:1: error: broken XML: unbound prefix. The first element declares what '
-        'stands before a colon: xmlns:xacro="http://www.ros.org/wiki/xacro"',
+        'top.xacro:4:1: error: broken XML: unbound prefix. Declare the prefix before '
+        'the colon in the first element: xmlns:xacro="http://www.ros.org/wiki/xacro"',
     ),
     'XML': (
         '<a>\n  <b></a>',
@@ -216,7 +216,7 @@ def test_include_of_itself(run: Run) -> None:
     status, out, err = run('<xacro:include filename="top.xacro"/>')
     assert (status, out) == (1, '')
     lines = err.splitlines()
-    assert lines[0].endswith(': error: macros or includes lead to themselves without end')
+    assert lines[0].endswith(': error: macros or includes call themselves without end')
     assert lines[1:] == ['  included at top.xacro:4']
 
 

@@ -47,15 +47,14 @@ def test_misspelt_argument(capsys: pytest.CaptureFixture[str]) -> None:
     out, err = capsys.readouterr()
     assert '<link name="left_1"/>' in out
     assert err == (
-        "xacro: hint: no <xacro:arg> declares 'scal', so it changes nothing. "
-        "Did you mean 'scale'?\n"
+        "xacro: hint: no <xacro:arg> declares 'scal', so it has no effect. Did you mean 'scale'?\n"
     )
 
 
 def test_foreign_argument(capsys: pytest.CaptureFixture[str]) -> None:
     """Where no name is close, those that there are are listed."""
     assert main(['model.xacro', 'colour:=red']) == 0
-    assert capsys.readouterr().err.endswith('changes nothing. The arguments are: scale\n')
+    assert capsys.readouterr().err.endswith('has no effect. The arguments are: scale\n')
 
 
 def test_quiet(capsys: pytest.CaptureFixture[str]) -> None:

@@ -122,7 +122,7 @@ def _sentence(name: str, known: set[str]) -> str:
     hint = did_you_mean(name, known)
     if not hint and known:
         hint = f'The arguments are: {", ".join(sorted(known))}'
-    return f"no <xacro:arg> declares '{name}', so it changes nothing. {hint}".rstrip()
+    return f"no <xacro:arg> declares '{name}', so it has no effect. {hint}".rstrip()
 
 
 def _write_output(text: str, path: Optional[str]) -> None:

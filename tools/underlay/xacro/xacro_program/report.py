@@ -74,7 +74,7 @@ def _broken_xml(error: BrokenXmlError, trail: Trail) -> str:
     """Explain why XML is not well-formed."""
     text = f'broken XML: {error.reason}'
     if error.reason == 'unbound prefix':
-        return f'{text}. The first element declares what stands before a colon: {_NAMESPACE}'
+        return f'{text}. Declare the prefix before the colon in the first element: {_NAMESPACE}'
     is_unclosed = error.reason in ('mismatched tag', 'no element found')
     return f'{text}; {error.inside} is still open' if error.inside and is_unclosed else text
 
@@ -97,7 +97,7 @@ def _missing_argument(error: BaseException, trail: Trail) -> str:
 
 
 def _endless(error: BaseException, trail: Trail) -> str:
-    return 'macros or includes lead to themselves without end'
+    return 'macros or includes call themselves without end'
 
 
 def _missing_key(error: BaseException, trail: Trail) -> str:

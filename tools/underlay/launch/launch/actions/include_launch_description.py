@@ -8,7 +8,7 @@ import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch._checks.arguments import list_like, text_like
-from launch._include_stack import enter_launch_file, open_file
+from launch._include_stack import enter_launch_file, missing_launch_file, open_file
 from launch.action import Action
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description import LaunchDescription
@@ -124,13 +124,11 @@ class IncludeLaunchDescription(Action):
             The file does not exist.
 
         """
-        from launch._checks.missing_include import explain_missing_include
         from launch._checks.preflight import constant_text
 
         path = constant_text(self.__launch_description_source.location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):
-            reading = {each.path for each in context.run.include_stack}
-            raise FileNotFoundError(explain_missing_include(path, reading))
+            raise missing_launch_file(context, path)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """

@@ -46,16 +46,16 @@ class Command(LivePanel):
     PAGE = 'command'
     PROPERTIES = (
         NAMESPACE,
-        Topic('Command Topic', TOPIC, 'Where what is typed is published.', TYPE),
-        Topic('Transcript Topic', 'speech/transcript', 'Where what was heard comes from.', TYPE),
-        Topic('Speech Topic', 'speech/say', 'Where what the robot says comes from.', TYPE),
+        Topic('Command Topic', TOPIC, 'Where typed commands are published.', TYPE),
+        Topic('Transcript Topic', 'speech/transcript', 'Topic of the recognised speech.', TYPE),
+        Topic('Speech Topic', 'speech/say', 'Topic of what the robot says.', TYPE),
         Topic(
             'Audio Topic',
             'audio',
-            "Where the sound of the browser's microphone is published.",
+            "Where the audio of the browser's microphone is published.",
             'audio_common_msgs/msg/AudioData',
         ),
-        Topic('State Topic', 'executor/state', 'Where the state of the plan comes from.', TYPE),
+        Topic('State Topic', 'executor/state', 'Topic of the state of the plan.', TYPE),
     )
 
     @classmethod
@@ -131,9 +131,9 @@ class Command(LivePanel):
     def _tell(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
         text = message.get('text')
         if not isinstance(text, str) or not text.strip():
-            raise ValueError('Type what the robot is to do.')
+            raise ValueError('Type what the robot should do.')
         if len(text) > LONGEST:
-            raise ValueError(f'Say it in at most {LONGEST} letters.')
+            raise ValueError(f'Use at most {LONGEST} characters.')
         self._publish(text.strip())
 
     def _hear(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
@@ -141,11 +141,11 @@ class Command(LivePanel):
         try:
             sound = base64.b64decode(message.get('sound', ''), validate=True)
         except (TypeError, ValueError, binascii.Error):
-            raise ValueError('What the microphone recorded could not be read.') from None
+            raise ValueError('The recording of the microphone could not be read.') from None
         if len(sound) > LONGEST_SOUND or len(sound) % 2:
-            raise ValueError('What the microphone recorded could not be read.')
+            raise ValueError('The recording of the microphone could not be read.')
         if self._sound is None or not self._sound.get_subscription_count():
-            raise ValueError('Nobody listens: the speech recogniser is not running.')
+            raise ValueError('No one is listening: the speech recogniser is not running.')
         self._sound.publish(self._sound.msg_type(data=array('B', sound)))
 
     def _publish(self, text: str) -> None:
@@ -153,7 +153,7 @@ class Command(LivePanel):
         listeners = node.get_subscriptions_info_by_topic(self._commands.topic_name)
         own = (node.get_name(), node.get_namespace())
         if all((each.node_name, each.node_namespace) == own for each in listeners):
-            raise ValueError('Nobody takes commands: the planner of the robot is not running.')
+            raise ValueError('No one receives commands: the planner of the robot is not running.')
         self._commands.publish(String(data=text))
 
     def _add(self, who: str, message: String) -> None:

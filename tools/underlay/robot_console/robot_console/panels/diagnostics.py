@@ -61,7 +61,7 @@ def condition(level: int, message: str, hardware: str, values: list[tuple[str, s
 
     """
     if level not in (OK, WARN, ERROR, STALE):
-        message = f'{message} (it says level {level}, which does not exist)'.strip()
+        message = f'{message} (invalid level {level})'.strip()
         level = ERROR
     pairs = [(_short(key), _short(value)) for key, value in values[:MOST_VALUES]]
     if len(values) > MOST_VALUES:
@@ -222,9 +222,9 @@ class Diagnostics(LivePanel):
     PROPERTIES = (
         NAMESPACE,
         Topic(
-            'Topic', 'diagnostics', 'Where parts say it.', 'diagnostic_msgs/msg/DiagnosticArray'
+            'Topic', 'diagnostics', 'The diagnostics topic.', 'diagnostic_msgs/msg/DiagnosticArray'
         ),
-        Number('Stale After', 5.0, 'For how many seconds a part may say nothing.', 0.5, 3600.0),
+        Number('Stale After', 5.0, 'Seconds of silence after which a part is stale.', 0.5, 3600.0),
     )
 
     def settings(self) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from rviz_common.properties import Number, Topic
 __all__ = ['STILL', 'Drive', 'DriveSession', 'SpeedLimits', 'Velocity']
 
 STOPPED = 'The emergency stop is pressed.'
-STOP_ENDED = 'The emergency stop has ended this.'
+STOP_ENDED = 'The emergency stop ended this.'
 AGAIN = 'Let go, and press again.'
 
 MOVES, TURNS = (0.0, 20.0), (0.0, 20.0)
@@ -221,9 +221,9 @@ class Drive(Panel):
     PROPERTIES = (
         NAMESPACE,
         Topic('Topic', 'cmd_vel', 'Where the velocity is published.', 'geometry_msgs/msg/Twist'),
-        Number('Max Forward Speed', 0.5, 'In metres a second.', *MOVES),
-        Number('Max Sideways Speed', 0.3, 'In metres a second; 0 without sidesteps.', *MOVES),
-        Number('Max Turn Speed', 1.0, 'In radians a second.', *TURNS),
+        Number('Max Forward Speed', 0.5, 'In metres per second.', *MOVES),
+        Number('Max Sideways Speed', 0.3, 'In metres per second; 0 without sidesteps.', *MOVES),
+        Number('Max Turn Speed', 1.0, 'In radians per second.', *TURNS),
     )
 
     def start(self) -> None:

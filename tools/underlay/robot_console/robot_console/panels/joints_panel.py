@@ -85,7 +85,7 @@ def table_html(groups: Iterable[RowGroup]) -> str:
         if rows:
             parts.append(f'<tr class=g><td colspan=5>{escape(group.title)}')
             parts.extend(map(_row, rows))
-    more = f'<tr><td colspan=5>{left_out} more; search for some.' if left_out else ''
+    more = f'<tr><td colspan=5>{left_out} more; use the search.' if left_out else ''
     body = ''.join(parts)
     return f'<table class=joints>{HEAD}{body}{more}</table>' if body else ''
 
@@ -160,9 +160,9 @@ class JointsPanel(Panel):
     CLASS = 'robot_console/Joints'
     PROPERTIES = (
         NAMESPACE,
-        Topic(MEASURED, 'joint_states', 'What the joints do.', JOINT_STATE),
-        Topic(COMMANDED, 'joint_commands', 'What the joints were told.', JOINT_STATE),
-        Topic(DESCRIPTION, 'robot_description', 'What the joints can.', 'std_msgs/msg/String'),
+        Topic(MEASURED, 'joint_states', 'Topic of the joint states.', JOINT_STATE),
+        Topic(COMMANDED, 'joint_commands', 'Topic of the joint commands.', JOINT_STATE),
+        Topic(DESCRIPTION, 'robot_description', 'Source of joint limits.', 'std_msgs/msg/String'),
     )
 
     def start(self) -> None:
@@ -173,7 +173,7 @@ class JointsPanel(Panel):
         self._trouble = ''
         gui = self.context.gui
         gui.add_html(STYLE)
-        self._search = gui.add_text('Search', '', hint='A part of a name, such as left or knee')
+        self._search = gui.add_text('Search', '', hint='Part of a name, such as left or knee')
         self.context.on_input(self._search, lambda text: self._pace.hurry())
         self._notes = gui.add_html('')
         self._rows = gui.add_html('')

@@ -137,7 +137,7 @@ def _level(level: int) -> int:
 def _shortened(text: str) -> str:
     if len(text) <= LONGEST_LINE:
         return text
-    return f'{text[:LONGEST_LINE]} ... ({len(text) - LONGEST_LINE} letters more)'
+    return f'{text[:LONGEST_LINE]} ... ({len(text) - LONGEST_LINE} characters more)'
 
 
 class Interruption(NamedTuple):
@@ -227,9 +227,9 @@ class Log(LivePanel):
     PAGE = 'log'
     PROPERTIES = (
         NAMESPACE,
-        Topic('Topic', '/rosout', 'Where nodes say it.', 'rcl_interfaces/msg/Log'),
-        Whole('Kept Messages', 500, 'How many messages are kept.', 10, 5000),
-        Flag('Pop Up Errors', True, 'Whether an error is shown in all browsers at once.'),
+        Topic('Topic', '/rosout', 'The topic of the log.', 'rcl_interfaces/msg/Log'),
+        Whole('Kept Messages', 500, 'Number of messages to keep.', 10, 5000),
+        Flag('Pop Up Errors', True, 'Whether errors pop up in all browsers.'),
     )
 
     def settings(self) -> dict[str, Any]:

@@ -34,7 +34,7 @@ class Objects(LivePanel):
 
     CLASS = 'robot_console/Objects'
     PAGE = 'objects'
-    PROPERTIES = (NAMESPACE, Topic('Topic', TOPIC, 'Where objects are published.', TYPE))
+    PROPERTIES = (NAMESPACE, Topic('Topic', TOPIC, 'The topic of the objects.', TYPE))
 
     @classmethod
     def is_wanted(cls, node: Node) -> bool:

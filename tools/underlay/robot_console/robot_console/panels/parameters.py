@@ -127,9 +127,9 @@ class RemoteParameters:
         def take_result(response: Any, reason: str) -> None:
             result = response.results[0] if response and response.results else None
             if result is None:
-                tell(reason or 'The node did not say whether it took the value.')
+                tell(reason or 'The node did not report whether it set the value.')
             elif not result.successful:
-                tell(f'Refused: {result.reason or "the node gives no reason"}')
+                tell(f'Rejected: {result.reason or "the node gives no reason"}')
             else:
                 self._values[name] = value
                 tell('')
@@ -140,7 +140,7 @@ class RemoteParameters:
     def _load_values(self, names: list[str], tell: Tell) -> None:
         def take_values(response: Any, reason: str) -> None:
             if response is None or len(response.values) != len(names):
-                tell(reason or 'The node does not tell the values of its parameters.')
+                tell(reason or 'The node did not return the values of its parameters.')
                 return
             self._values = dict(zip(names, response.values))
             self._load_descriptions(names, tell)
@@ -230,9 +230,7 @@ class Parameters(LivePanel):
             self._listen(True)
             self._load(viewer.wish)
         elif node:
-            viewer.tell(
-                node=node, problem=f"There is no node '{node}' with parameters any longer."
-            )
+            viewer.tell(node=node, problem=f"There is no longer a node '{node}' with parameters.")
 
     def _load(self, node: str) -> None:
         remote = self._known.setdefault(node, RemoteParameters(self._calls, node))
@@ -246,7 +244,7 @@ class Parameters(LivePanel):
         node, name, text = (str(message.get(key, '')) for key in ('node', 'name', 'text'))
         remote = self._known.get(node)
         if remote is None or not remote.knows(name):
-            viewer.tell(node=node, name=name, refused='The parameter is not there any longer.')
+            viewer.tell(node=node, name=name, refused='The parameter no longer exists.')
             return
 
         def tell(reason: str) -> None:

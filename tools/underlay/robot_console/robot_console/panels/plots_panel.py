@@ -64,8 +64,8 @@ class PlotsPanel(Panel):
     CLASS = 'robot_console/Plots'
     PROPERTIES = (
         NAMESPACE,
-        Text('Series', '', 'Paths of numbers, with semicolons between them.'),
-        Number('Window', 10.0, 'How many seconds are shown.', MIN_WINDOW_S, MAX_WINDOW_S),
+        Text('Series', '', 'Paths of numbers, separated by semicolons.'),
+        Number('Window', 10.0, 'Time span of the plot, in seconds.', MIN_WINDOW_S, MAX_WINDOW_S),
     )
 
     def start(self) -> None:

@@ -26,12 +26,12 @@ class Recordings(Panel):
     CLASS = 'robot_console/Recordings'
     PROPERTIES = (
         NAMESPACE,
-        Text('Folder', '~/bags', 'Where recordings are.'),
-        Number('Seconds', 30, 'How much is kept of what has just happened.', 1, 600),
-        Number('Largest Memory', 200, 'Of the messages of the last seconds, in MiB.', 1, 4096),
-        Number('Largest Page', 50, 'Of the scene as one file, in MiB.', 1, 500),
-        Flag('Keep Scene', True, 'Whether the last seconds of the scene are kept at first.'),
-        Text('Commands', COMMANDS, 'Patterns of topics that robots obey; not played at first.'),
+        Text('Folder', '~/bags', 'Folder of the recordings.'),
+        Number('Seconds', 30, 'How many of the last seconds are kept.', 1, 600),
+        Number('Largest Memory', 200, 'Limit of the messages kept in memory, in MiB.', 1, 4096),
+        Number('Largest Page', 50, 'Limit of the scene as one file, in MiB.', 1, 500),
+        Flag('Keep Scene', True, 'Whether to keep the last seconds of the scene at the start.'),
+        Text('Commands', COMMANDS, 'Patterns of command topics; not played by default.'),
     )
 
     def start(self) -> None:

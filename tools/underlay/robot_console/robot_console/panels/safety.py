@@ -180,7 +180,7 @@ class Safety(Panel):
         Choice(
             'Robot',
             AUTO,
-            'Whether the robot is real; auto: simulated if somebody publishes /clock.',
+            'Whether the robot is real; auto: simulated if /clock has a publisher.',
             KINDS,
         ),
     )

@@ -124,7 +124,7 @@ def response_text(response: Any) -> str:
     text = to_yaml(response, SHORT)
     if len(text) <= LONGEST:
         return text
-    return f'{text[:LONGEST]}\n... ({len(text) - LONGEST} letters more)'
+    return f'{text[:LONGEST]}\n... ({len(text) - LONGEST} characters more)'
 
 
 class Services(LivePanel):
@@ -135,7 +135,7 @@ class Services(LivePanel):
     PERIOD_S = 1.0
     PROPERTIES = (
         NAMESPACE,
-        Number('Timeout', 5.0, 'How many seconds to wait for an answer.', 0.1, 3600.0),
+        Number('Timeout', 5.0, 'Seconds to wait for a response.', 0.1, 3600.0),
     )
 
     def settings(self) -> dict[str, Any]:
@@ -199,7 +199,7 @@ class Services(LivePanel):
         """Return the type of a service, or raise ValueError."""
         types = dict(self.context.node.get_service_names_and_types()).get(service, [])
         if len(types) != 1:
-            has = f'has several types: {", ".join(types)}' if types else 'is not there any longer'
+            has = f'has several types: {", ".join(types)}' if types else 'no longer exists'
             raise ValueError(f"'{service}' {has}.")
         return str(types[0])
 

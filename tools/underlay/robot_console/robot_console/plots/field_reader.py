@@ -146,11 +146,11 @@ _Access = Union[_FieldAccess, _PlaceAccess, _NameAccess, _OwnNameAccess]
 
 def _nothing_named(key: str, known: Sequence[str]) -> PathError:
     if not known:
-        return PathError(f"Nothing is named '{key}': the list is empty.")
+        return PathError(f"There is no element '{key}': the list is empty.")
     more = f' and {len(known) - MAX_NAMED} more' if len(known) > MAX_NAMED else ''
     shown = ', '.join(known[:MAX_NAMED]) + more
     meant = did_you_mean(key, known, 0.75)
-    return PathError(f"Nothing is named '{key}', but {shown}. {meant}".rstrip())
+    return PathError(f"There is no element '{key}', only {shown}. {meant}".rstrip())
 
 
 class FieldReader:
@@ -223,15 +223,15 @@ class _Walk:
             return
         if is_message(self._kind):
             fields = ', '.join(self._fields(self._kind))
-            raise PathError(f'{self._at} is no number, but has the fields {fields}.')
+            raise PathError(f'{self._at} is not a number, but has the fields {fields}.')
         if element_type(self._kind) is not None:
             names = ' or a name' if self._names() else ''
-            raise PathError(f'{self._at} is a list: add a place such as [0]{names}.')
-        raise PathError(f'{self._at} is no number, but a {self._kind}.')
+            raise PathError(f'{self._at} is a list: add an index such as [0]{names}.')
+        raise PathError(f'{self._at} is not a number, but a {self._kind}.')
 
     def _enter(self, step: Field) -> _Access:
         if not is_message(self._kind):
-            hint = ' It is a list: first say which, such as [0].' if self._element() else ''
+            hint = ' It is a list: first add an index, such as [0].' if self._element() else ''
             raise PathError(f"{self._at} has no field '{step.name}'.{hint}")
         fields = self._fields(self._kind)
         if step.name not in fields:
@@ -245,7 +245,7 @@ class _Walk:
     def _choose(self, step: Element) -> _Access:
         kind = self._element()
         if kind is None:
-            raise PathError(f'{self._at} is no list, so that it has no {step}.')
+            raise PathError(f'{self._at} is not a list, so it has no {step}.')
         lists = self._names()
         self._kind = kind
         if isinstance(step.key, int):
@@ -254,7 +254,7 @@ class _Walk:
         if own is not None:
             return _OwnNameAccess(step.key, own)
         if not lists:
-            raise PathError(f'The elements of {self._at} have no names: say a place, such as [0].')
+            raise PathError(f'The elements of {self._at} have no names: use an index such as [0].')
         return _NameAccess(step.key, lists)
 
     def _names(self) -> tuple[tuple[int, str], ...]:

@@ -175,8 +175,8 @@ class PlotBoard:
             return
         if len(self._plotted) >= MAX_SERIES:
             raise PathError(
-                f'There are {MAX_SERIES} series, which is as many as can be told apart. Remove '
-                'one, or list a second panel of plots in the file.'
+                f'There are already {MAX_SERIES} series, the maximum of a plot. Remove '
+                'one, or add a second Plots panel to the file.'
             )
         plotted = self._plotted[str(series)] = Plotted(series, MAX_WINDOW_S)
         for topic, (type_name, schema) in self._types.items():

@@ -97,17 +97,17 @@ def parse_path(text: str) -> FieldPath:
     text = text.strip()
     topic = TOPIC.match(text)
     if topic is None:
-        raise PathError(f"'{text}' does not begin with the name of a topic. {EXAMPLE}")
+        raise PathError(f"'{text}' does not start with a topic name. {EXAMPLE}")
     steps: list[Step] = []
     at = topic.end()
     while at < len(text):
         found = STEP.match(text, at)
         if found is None:
-            raise PathError(f"'{text}' goes wrong at '{text[at:]}': {_why(text[at:])} {EXAMPLE}")
+            raise PathError(f"'{text}' is not valid at '{text[at:]}': {_why(text[at:])} {EXAMPLE}")
         steps.append(_step(found))
         at = found.end()
     if not steps or isinstance(steps[0], Element):
-        raise PathError(f"'{text}' names no field of the messages of a topic. {EXAMPLE}")
+        raise PathError(f"'{text}' names no message field. {EXAMPLE}")
     return FieldPath(topic[0], tuple(steps))
 
 
@@ -121,11 +121,11 @@ def _step(found: re.Match[str]) -> Step:
 def _why(rest: str) -> str:
     """Explain a syntax error in a step."""
     if rest.startswith('['):
-        return 'brackets hold a number or a name, and are closed.'
+        return 'brackets must hold a number or a name, and be closed.'
     if rest.startswith('/'):
-        return 'in the name of a topic a letter or an underscore follows each slash.'
+        return 'in a topic name, a letter or an underscore must follow each slash.'
     if rest.startswith('.'):
-        return 'after a dot comes the name of a field.'
+        return 'a field name must follow a dot.'
     return 'a dot or a bracket is expected.'
 
 

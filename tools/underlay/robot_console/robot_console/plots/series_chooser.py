@@ -139,7 +139,7 @@ class PresetButtons:
         silent = [topic for topic in topics if topic not in found]
         if silent:
             names = ' and '.join(map(self._plot.full_name, silent))
-            self._say(f'No message has come on {names}; the preset needs one.')
+            self._say(f'No message received on {names}; the preset needs one.')
         elif COMMANDS in found:
             commanded, measured = (_positions(found[topic]) for topic in (COMMANDS, STATES))
             self._show(tracking_error(COMMANDS, STATES, commanded, measured))
@@ -156,7 +156,7 @@ class PresetButtons:
         if texts:
             self._plot.show(map(parse_series, texts))
         else:
-            self._say('There is nothing to plot for this preset: nobody publishes such values.')
+            self._say('There is nothing to plot for this preset: its topics have no publisher.')
 
 
 def _positions(message: Any) -> dict[str, float]:
@@ -260,7 +260,7 @@ class SeriesChooser:
         if topic in self._types:
             self._samples.ask([topic], lambda found: self._offer_fields(topic, found))
         elif topic != NOTHING:
-            self.say(f"Nobody publishes '{topic}' any longer.")
+            self.say(f"'{topic}' no longer has a publisher.")
 
     def _offer_fields(self, topic: str, found: Mapping[str, Any]) -> None:
         if topic in found:

@@ -124,7 +124,7 @@ class TopicListener:
         reasons = self._subscribe_all(missing) if missing else {}
         for topic, heard in self._heard.items():
             if not self._node.count_publishers(heard.topic):
-                reasons[topic] = f'Nobody publishes {heard.topic}.'
+                reasons[topic] = f'No publisher on {heard.topic}.'
         return reasons
 
     def take_all(self) -> None:
@@ -157,7 +157,7 @@ class TopicListener:
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
         if not types:
-            raise ValueError(f'Nobody publishes {name}.')
+            raise ValueError(f'No publisher on {name}.')
         if len(types) > 1:
             raise ValueError(f'{name} has several types: {", ".join(types)}.')
 

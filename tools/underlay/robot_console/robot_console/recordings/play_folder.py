@@ -143,7 +143,7 @@ class PlayFolder:
             self._speed: Any = gui.add_dropdown('Speed', SPEEDS, initial_value='1')
             self._loop: Any = gui.add_checkbox('Loop', False)
             self._obeyed: Any = gui.add_checkbox(
-                'Commands too', False, hint='Also what a robot would obey, such as cmd_vel.'
+                'Commands too', False, hint='Also topics that command a robot, such as cmd_vel.'
             )
             self._text: Any = gui.add_markdown('')
             self.chooser.add_details()
@@ -206,7 +206,7 @@ class PlayFolder:
     def _start(self, bag: Bag) -> None:
         left_out = self._left_out(bag)
         if len(left_out) == len(bag.topics):
-            text = '✖ The recording has nothing but commands, which are left out.'
+            text = '✖ The recording has only commands, which are left out.'
             assign(self._text, content=text)
             return
         arguments = [bag.path, '--rate', self._speed.value]
@@ -298,7 +298,7 @@ class PlayFolder:
         if bag is not None:
             self._show_span(bag)
         left_out = self._left_out(bag) if bag is not None else []
-        text = f'Left out, since a robot would obey: {listed(left_out)}' if left_out else ''
+        text = f'Left out, as they command a robot: {listed(left_out)}' if left_out else ''
         assign(self._text, content=escaped(text))
 
     def _show_span(self, bag: Bag) -> None:

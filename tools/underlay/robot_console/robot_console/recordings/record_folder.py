@@ -48,13 +48,13 @@ def bag_folder(folder: str, name: str, now: datetime) -> str:
     name = name.strip()
     if name.startswith('.') or '/' in name or '\0' in name:
         raise ValueError(
-            f"The name of a recording has no slashes, and no dot before it: '{name}' will not do."
+            f"'{name}' is not a valid name of a recording: no slashes, and no leading dot."
         )
     if not name:
         return _free(os.path.join(folder, now.strftime('%Y-%m-%d_%H-%M-%S')))
     path = os.path.join(folder, name)
     if os.path.lexists(path):
-        raise ValueError(f"There is a recording '{name}' already. Choose another name.")
+        raise ValueError(f"There is already a recording '{name}'. Choose another name.")
     return path
 
 
@@ -129,7 +129,7 @@ class RecordFolder:
         self._start_s: float | None = None
         gui = context.gui
         with gui.add_folder('Record'):
-            self._name: Any = gui.add_text('Name', '', hint='Without one it is the time.')
+            self._name: Any = gui.add_text('Name', '', hint='Default: the current time.')
             self._all: Any = gui.add_checkbox('All topics', True)
             self._topics: Any = gui.add_text('Topics', '', multiline=True, visible=False)
             self._more: Any = gui.add_dropdown('Add', [ADD], visible=False)
@@ -195,7 +195,7 @@ class RecordFolder:
             return ['--regex', regex] if regex else ['--all']
         topics = topics_in(self._topics.value)
         if not topics:
-            raise ValueError('No topic is chosen: add some, or record all.')
+            raise ValueError('No topic selected: add some, or record all.')
         # Resolved to absolute names, since the recorder treats arguments with a leading dash as
         # options.
         return ['--topics', *(full_topic_name(self._context.node, each) for each in topics)]

@@ -23,7 +23,7 @@ MESSAGE_BYTES = 1000
 MIB = 1024 * 1024
 TITLE = '<title>Viser</title>'
 
-HINT = 'One file that any browser shows, also without a network.'
+HINT = 'One file that opens in any browser, even offline.'
 
 
 class TooLarge(ValueError):
@@ -142,9 +142,9 @@ class SceneTape:
         page = html.replace(TITLE, f'<title>{escape(title)}</title>', 1).encode()
         if len(page) > max_bytes:
             raise TooLarge(
-                f'The page of {end_s - start_s:.0f} s would have {len(page) / MIB:.1f} MiB, and '
-                f'no more than {max_bytes / MIB:g} are allowed. Show less, such as no clouds of '
-                "points, or allow more: 'Largest Page' in the .rviz file."
+                f'The page of {end_s - start_s:.0f} s would have {len(page) / MIB:.1f} MiB, but '
+                f'no more than {max_bytes / MIB:g} are allowed. Show less, such as no point '
+                "clouds, or raise the limit: 'Largest Page' in the .rviz file."
             )
         return page
 
@@ -260,7 +260,7 @@ class SceneFolder:
             return
         self._is_busy = True
         assign(self._button, disabled=True)
-        assign(self._result, content='Making the file ...', visible=True)
+        assign(self._result, content='Creating the file ...', visible=True)
         threading.Thread(target=self._work, args=(self._tape, client), daemon=True).start()
 
     def _work(self, tape: SceneTape, client: Any) -> None:
@@ -270,7 +270,7 @@ class SceneFolder:
         except TooLarge as error:
             text = f'✖ {escaped(str(error))}'
         except Exception as error:  # whatever is in the scene, the button works again
-            text = f'✖ The file cannot be made: {escaped(f"{type(error).__name__}: {error}")}'
+            text = f'✖ The file cannot be created: {escaped(f"{type(error).__name__}: {error}")}'
         else:
             client.send_file_download(name, page, save_immediately=True)
             text = f'✔ {escaped(name)}: {size_text(len(page))}'

@@ -165,6 +165,6 @@ def mixture_text(publishers: Mapping[str, Iterable[str]]) -> str:
     nodes = sorted({name for names in publishers.values() for name in names})
     verb = 'publish' if len(nodes) > 1 else 'publishes'
     return (
-        f'{listed(nodes)} {verb} {listed(sorted(publishers))} as well: what is shown is a mixture '
-        'of recorded and live. End what is live, or play without it.'
+        f'{listed(nodes)} {verb} {listed(sorted(publishers))} as well: the display mixes '
+        'recorded and live data. Stop the live nodes, or play without these topics.'
     )

@@ -12,7 +12,7 @@ class Feed {
     this.triedAt = -Infinity;
     this.isOpen = false;
     this.banner = element('div', { id: 'lost', hidden: true });
-    this.banner.textContent = 'No connection with the program that shows this page. Trying again ...';
+    this.banner.textContent = 'No connection to the program behind this page. Reconnecting ...';
     document.body.prepend(this.banner);
     setInterval(() => this.watch(), 150);
   }

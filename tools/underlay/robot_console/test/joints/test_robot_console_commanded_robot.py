@@ -60,7 +60,7 @@ def test_hidden_without_commands(
     ghost.update()
     base = stage.node_at('/display_0/base')
     assert not base.visible
-    assert 'Nobody publishes /joint_commands. The ghost is hidden.' in said(ghost)
+    assert 'No publisher on /joint_commands. The ghost is hidden.' in said(ghost)
     command(stage, 0.5)
     ghost.update()
     assert base.visible
@@ -68,7 +68,7 @@ def test_hidden_without_commands(
     stage.node.publishers = 1
     ghost.update()
     assert now_s and not base.visible
-    assert 'No positions have come on /joint_commands for a second.' in said(ghost)
+    assert 'No positions received on /joint_commands for a second.' in said(ghost)
 
 
 def test_malformed_commands(stage: Stage, ghost: Any) -> None:
@@ -76,7 +76,7 @@ def test_malformed_commands(stage: Stage, ghost: Any) -> None:
     ghost.update()
     command(stage)
     ghost.update()
-    assert 'A command is left out: it has 1 names but 0 positions.' in said(ghost)
+    assert 'A command was ignored: it has 1 names but 0 positions.' in said(ghost)
     command(stage, math.nan)
     ghost.update()
     assert not stage.node_at('/display_0/base').visible

@@ -181,7 +181,7 @@ def test_many_joints() -> None:
     joints = JointTable()
     for index in range(3000):
         take(joints.measured, **{f'joint_{index}': 0.0})
-    assert '700 more; search for some.' in table_html(joints.groups(0.0))
+    assert '700 more; use the search.' in table_html(joints.groups(0.0))
     assert joints.measured.complaint == 'There are more than 1000 joints.'
 
 
@@ -189,10 +189,10 @@ def test_what_is_said_of_a_topic() -> None:
     """A topic is said to be late, since when, and who could be asked."""
     states = JointStates()
     watch = TopicWatch('/joint_states', states)
-    expected = '/joint_states: Nothing has come yet; nobody publishes it.'
+    expected = '/joint_states: Nothing received yet; it has no publisher.'
     assert (watch.is_late(0.0), watch.sentence(0.0, 0)) == (True, expected)
     for tick in range(100):
         take(states, tick / 50, knee=0.0)
-    assert watch.sentence(2.0, 1) == '/joint_states: 1 joints, 50 messages a second'
+    assert watch.sentence(2.0, 1) == '/joint_states: 1 joints, 50 messages per second'
     expected = '/joint_states: Nothing for 3 s; its 2 publishers are silent.'
     assert (watch.is_late(5.0), watch.sentence(5.0, 2)) == (True, expected)

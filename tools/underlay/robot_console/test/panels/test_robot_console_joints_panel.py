@@ -56,7 +56,7 @@ def test_nobody_publishes(show_panel: Any, work_until: Callable[..., None]) -> N
     """What is missing is said, with who is."""
     panel = show_panel(JointsPanel)
     work_until(panel, lambda: notes(panel))
-    assert '/joint_states: Nothing has come yet; nobody publishes it.' in notes(panel)
+    assert '/joint_states: Nothing received yet; it has no publisher.' in notes(panel)
     assert 'No limits: no description on /robot_description yet.' in notes(panel)
     assert 'in its name' not in notes(panel)
     panel._search.value = 'knee'

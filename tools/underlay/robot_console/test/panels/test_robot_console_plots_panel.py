@@ -107,10 +107,10 @@ def test_messages_keep_their_order(robot_node: Node, work_until: Work) -> None:
 def test_nobody_publishes(show_panel: Any, work_until: Work) -> None:
     """A topic that nobody publishes is named; so is a path that cannot be read."""
     panel = show_panel(PlotsPanel, Series='nothing.x')
-    work_until(panel, lambda: 'Nobody publishes /nothing.' in panel._legend.content)
+    work_until(panel, lambda: 'No publisher on /nothing.' in panel._legend.content)
     broken = show_panel(PlotsPanel, Series='nothing')
     assert (
-        'Series of the file: &#x27;nothing&#x27; names no field' in broken._chooser._said.content
+        'Series of the file: &#x27;nothing&#x27; names no message' in broken._chooser._said.content
     )
 
 
@@ -118,7 +118,7 @@ def test_only_heard(show_panel: Any, work_until: Work, robot_node: Node) -> None
     """A topic that others only hear is not taken for one that is published."""
     robot_node.create_subscription(JointState, 'states', lambda message: None, 10)
     panel = show_panel(PlotsPanel, Series='states.position[0]')
-    work_until(panel, lambda: 'Nobody publishes /states.' in panel._legend.content)
+    work_until(panel, lambda: 'No publisher on /states.' in panel._legend.content)
     states = robot_node.create_publisher(JointState, 'states', 10)
     message = JointState(name=['knee'], position=[1.0])
     work_until(panel, lambda: newest(panel) == [1.0], lambda: states.publish(message))
@@ -155,7 +155,7 @@ def test_written_path(show_panel: Any) -> None:
     chooser = panel._chooser
     chooser._path.value = 'joint_states.'
     chooser._add_path()
-    assert 'goes wrong at' in chooser._said.content
+    assert 'is not valid at' in chooser._said.content
     chooser._path.value = 'joint_states.position[0]'
     chooser._add_path()
     assert chooser._said.content == '' and listed(panel) == ['joint_states.position[0]']
@@ -167,7 +167,7 @@ def test_what_is_no_name_of_a_topic(show_panel: Any, work_until: Work, topic: st
     panel = show_panel(PlotsPanel)
     chooser = panel._chooser
     chooser._choose_topic(topic)
-    assert 'Nobody publishes' in chooser._said.content
+    assert 'no longer has a publisher' in chooser._said.content
     chooser._path.value = f'{topic}.position[0]'
     chooser._add_path()
     said = [chooser._said.content]
@@ -201,7 +201,7 @@ def test_preset_without_robot(show_panel: Any, work_until: Work) -> None:
     """A preset that has nothing to show says what it needs."""
     panel = show_panel(PlotsPanel)
     panel._chooser._presets.choose(TRACKING)
-    sentence = 'No message has come on /joint_states and /joint_commands; the preset needs one.'
+    sentence = 'No message received on /joint_states and /joint_commands; the preset needs one.'
     work_until(panel, lambda: sentence in panel._chooser._said.content)
 
 

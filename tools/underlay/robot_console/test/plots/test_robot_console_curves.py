@@ -159,10 +159,10 @@ def test_troubles() -> None:
     plots = board('js.position[<knee>]', 'js.speed')
     plots.take('js', state(hip=1.0), 1.0)
     html = legend_html(plots.plotted)
-    assert 'Nothing is named &#x27;&lt;knee&gt;&#x27;, but hip.' in html
+    assert 'There is no element &#x27;&lt;knee&gt;&#x27;, only hip.' in html
     assert 'js has no field &#x27;speed&#x27;' in html
     plots.take('js', state(**{'<knee>': 1.0}), 2.0)
-    assert 'Nothing is named' not in legend_html(plots.plotted)
+    assert 'There is no element' not in legend_html(plots.plotted)
     assert 'Nothing is plotted yet' in legend_html([])
 
 
@@ -185,7 +185,7 @@ def test_too_many_series() -> None:
     """More series than can be told apart are refused; those that are there stay."""
     plots = board(*(f'js.position[{index}]' for index in range(8)))
     plots.add('js.position[0]')
-    with pytest.raises(PathError, match='There are 8 series'):
+    with pytest.raises(PathError, match='There are already 8 series'):
         plots.add('js.position[8]')
     assert len(plots.plotted) == 8
     plots.remove('js.position[0]')

@@ -109,7 +109,7 @@ class Configuration:
         except OSError as error:
             raise ConfigError(path, None, _unreadable(path, error)) from error
         except UnicodeDecodeError as error:
-            raise ConfigError(path, None, f'The file is no text: {error}.') from error
+            raise ConfigError(path, None, f'The file is not a text file: {error}.') from error
         return cls.parse(text, path)
 
     @classmethod
@@ -132,7 +132,7 @@ class Configuration:
         """
         document = read_yaml(text, source)
         if document.values is None:
-            raise ConfigError(source, None, 'The file is empty: this is no configuration of RViz.')
+            raise ConfigError(source, None, 'The file is empty, not an RViz configuration.')
         return cls(document)
 
     def text(self, sections: Mapping[Place, Any]) -> str:
@@ -221,8 +221,8 @@ class Configuration:
 
 KINDS: dict[type, str] = {
     dict: "a mapping (lines like 'Name: value')",
-    list: "a list (lines that begin with '- ')",
-    str: 'a text',
+    list: "a list (lines that start with '- ')",
+    str: 'a string',
 }
 _MISSING = object()
 
@@ -246,7 +246,7 @@ def _text_of(path: str) -> str:
     with open(path, 'rb', opener=_open_at_once) as file:
         about = os.fstat(file.fileno())
         if not stat.S_ISREG(about.st_mode):
-            raise ConfigError(path, None, 'This is no regular file.')
+            raise ConfigError(path, None, 'This is not a regular file.')
         if about.st_size > LARGEST:
             raise ConfigError(path, None, TOO_LARGE)
         return file.read(LARGEST + 1).decode('utf-8-sig')
@@ -259,5 +259,5 @@ def _open_at_once(path: str, flags: int) -> int:
 def _unreadable(path: str, error: OSError) -> str:
     if isinstance(error, FileNotFoundError):
         full = os.path.abspath(path)
-        return f'There is no such file. Looked for {full}.'
+        return f'File not found. Looked for {full}.'
     return f'The file cannot be read: {error.strerror}.'

@@ -167,7 +167,7 @@ class _Reader:
         next(self._events)
         more = next(self._events)
         if not isinstance(more, yaml.StreamEndEvent):
-            raise ConfigError(self._source, _line(more), 'A second document begins here.')
+            raise ConfigError(self._source, _line(more), 'A second document starts here.')
         return value
 
     def _value(self, event: Any, place: Place) -> Any:
@@ -184,7 +184,7 @@ class _Reader:
 
     def _scalar(self, event: Any) -> Any:
         if isinstance(event, yaml.AliasEvent):
-            reason = f"'*{event.anchor}' refers to another place: write here what stands there."
+            reason = f"Alias '*{event.anchor}' is not supported: write the value itself here."
             raise ConfigError(self._source, _line(event), reason)
         return event.value if event.style else scalar_value(event.value)
 
@@ -199,7 +199,7 @@ class _Reader:
         while not isinstance(key := next(self._events), yaml.MappingEndEvent):
             if not isinstance(key, yaml.ScalarEvent):
                 raise ConfigError(
-                    self._source, _line(key), 'A key must be a text, and not a tree.'
+                    self._source, _line(key), 'A key must be a string, not a mapping or a list.'
                 )
             name, here = key.value, (*place, key.value)
             if name in values:
@@ -212,7 +212,7 @@ class _Reader:
         raise ConfigError(
             self._source,
             line,
-            f"'{name}' stands here and in line {first} already: remove one of them.",
+            f"'{name}' is already in line {first}: remove one of the two.",
         )
 
 

@@ -88,7 +88,7 @@ def replace_file(path: str, text: str) -> None:
         _replace(path, text.encode())
     except OSError as error:
         raise ConfigError(
-            path, None, f'The file cannot be written: {error.strerror}. It is as it was.'
+            path, None, f'The file cannot be written: {error.strerror}. It is unchanged.'
         ) from error
 
 

@@ -19,7 +19,7 @@ NO_TOKEN = 'none'
 PARAMETERS: dict[str, tuple[str | int, str]] = {
     'host': ('127.0.0.1', 'The address at which the page is served.'),
     'port': (0, 'The port of the page; 0: the first free one from 8080 on.'),
-    'token': ('', 'What must be known to open the page; made up if empty, "none" for none.'),
+    'token': ('', 'The token that opens the page; random if empty, "none" for no token.'),
 }
 """The ROS parameters of a node with a page: names, defaults and descriptions."""
 
@@ -53,7 +53,7 @@ class PageSettings:
             raise ValueError(f'The port is {self.port}, but must be from 1 to 65535.')
         if self.token == NO_TOKEN and not self.is_local:
             raise ValueError(
-                f"The token is 'none', but other machines reach {self.host}: everybody there "
+                f"The token is 'none', but other machines reach {self.host}: anyone there "
                 'could drive the robot. Choose a token, as in token:=TEXT, or host:=127.0.0.1.'
             )
 
@@ -117,7 +117,7 @@ def _reason(host: str, port: int, number: int) -> str:
         )
     return (
         f'Port {port} of {host} cannot be taken: {why}. End what uses it, or choose another port; '
-        'without a choice the next free one is taken.'
+        'without a choice, the next free one is used.'
     )
 
 

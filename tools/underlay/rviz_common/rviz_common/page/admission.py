@@ -44,17 +44,17 @@ PAGE = string.Template("""<!doctype html>
 <body>
 <main>
 <h1>$heading</h1>
-<p>Who opens this page can drive a robot, so its address has a token that is new at each start.
-Open the whole address that was printed in the terminal where this was started:</p>
+<p>Anyone who opens this page can drive a robot, so its address has a token that changes at
+each start. Open the whole address that was printed in the terminal where this was started:</p>
 <p><code>$title is at http://$host/?token=...</code></p>
-<p>or put the token in here. This browser keeps it until the next start.</p>
+<p>or enter the token here. This browser keeps it until the next start.</p>
 <form action="/" method="get">
 <input name="token" aria-label="Token" placeholder="Token" autocomplete="off" autofocus required>
 <button>Open</button>
 </form>
-<p>The terminal is out of sight? The log has the address as well; on the machine where it runs:</p>
+<p>No access to the terminal? The log has the address, too. On the machine where it runs:</p>
 <p><code>grep -rh 'at http://.*token=' ~/.ros/log</code></p>
-<p>Choose a token with <code>token:=TEXT</code>, or do without one on a machine that is yours alone
+<p>Choose a token with <code>token:=TEXT</code>, or do without one on a machine that only you use
 with <code>token:=none</code>.</p>
 </main>
 </body>
@@ -103,7 +103,7 @@ class Admission:
 
         """
         if not all(map(_is_address, (path, origin or ''))):
-            return Refusal(HTTPStatus.BAD_REQUEST, 'This is no address.')
+            return Refusal(HTTPStatus.BAD_REQUEST, 'This is not a valid address.')
         if origin is not None and urlsplit(origin).netloc != host:
             return Refusal(
                 HTTPStatus.FORBIDDEN, f'Pages of {origin} may not use this one, which is {host}.'

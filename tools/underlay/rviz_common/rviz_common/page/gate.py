@@ -79,7 +79,7 @@ def gated(
     @functools.wraps(serve)
     def serve_gated(handler: Any, host: Any, port: Any, **options: Any) -> Any:
         if used:
-            raise RuntimeError('The page has been started already.')
+            raise RuntimeError('The page has already been started.')
         used.append(True)
         answer = _gate(options.pop('process_request'), title, admission, routes)
         options.update(process_request=answer, max_size=LARGEST_BYTES, logger=LOGGER)
@@ -92,7 +92,7 @@ def gated(
     finally:
         websockets.asyncio.server.serve = serve  # type: ignore[misc]
     if not used:
-        raise RuntimeError('The page is not protected: this version of viser starts otherwise.')
+        raise RuntimeError('The page is not protected: this version of viser starts differently.')
 
 
 def _routed(handler: Any, routes: Routes, uploads: Uploads, options_of: OptionsOf) -> Any:

@@ -120,9 +120,9 @@ def decoded(received: bytes | str) -> _messages.Message | str:
     except (ValueError, RecursionError) as error:
         return ascii(str(error))
     if not fields.keys() <= FIELDS[name]:
-        return f'a {name} with too much in it'
+        return f'a {name} with unknown fields'
     if isinstance(message, _messages.GuiUpdateMessage) and message.updates.keys() != {'value'}:
-        return 'other properties of a widget than its value'
+        return 'properties of a widget other than its value'
     return message if _is_finite(fields) else f'a {name} with numbers that are not finite'
 
 
@@ -162,7 +162,7 @@ def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) 
     """
     error = about.get('exception')
     said = described_error(error) if isinstance(error, Exception) else about.get('message', '')
-    _complain(f'What a browser has sent failed: {said}')
+    _complain(f'A message of a browser failed: {said}')
 
 
 def _shorten(record: logging.LogRecord) -> bool:

@@ -49,7 +49,7 @@ class Routes:
 
         """
         if path in self._by_path:
-            raise ValueError(f"There is something at '{path}' already.")
+            raise ValueError(f"The path '{path}' is already in use.")
         self._by_path[path] = route
 
     def remove(self, path: str) -> None:

@@ -87,17 +87,17 @@ class Uploads:
         """Return the reason why a file is rejected, or ''."""
         if start.size_bytes > LARGEST_UPLOAD_BYTES:
             return (
-                f'The file has {start.size_bytes / MEGA:.1f} MB, and the largest that can be '
-                f'loaded here has {LARGEST_UPLOAD_BYTES // MEGA} MB. Choose a file that RViz has '
+                f'The file has {start.size_bytes / MEGA:.1f} MB, but the limit for files '
+                f'loaded here is {LARGEST_UPLOAD_BYTES // MEGA} MB. Choose a file that RViz has '
                 'saved.'
             )
         if not (0 <= start.size_bytes and 0 <= start.part_count <= MOST_PARTS):
-            return 'The size of the file makes no sense. Load the page again, and try once more.'
+            return 'The size of the file is not valid. Reload the page, and try again.'
         is_known = start.transfer_uuid in self._running
         if is_known or any(each.owner is owner for each in self._running.values()):
-            return 'Another file of this page is on its way. Wait for it, or load the page again.'
+            return 'This page is already uploading a file. Wait for it, or reload the page.'
         if len(self._running) >= MOST_AT_ONCE:
-            return f'{MOST_AT_ONCE} files are on their way already. Try again in a moment.'
+            return f'{MOST_AT_ONCE} files are already being uploaded. Try again in a moment.'
         return ''
 
     def _continues(self, part: FileTransferPart, owner: object) -> bool:

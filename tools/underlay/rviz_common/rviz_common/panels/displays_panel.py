@@ -18,7 +18,7 @@ from rviz_common.visualizer.global_options import FIXED_FRAME
 
 __all__ = ['DisplaysPanel', 'EntryFolder']
 
-NAME = Text('Name', '', 'What it is called here and in the file.')
+NAME = Text('Name', '', 'Its name here and in the file.')
 
 NO_TOPIC = '(none)'
 
@@ -197,10 +197,10 @@ class _AddDisplay:
         gui = context.gui
         with gui.add_folder('Add a display', expand_by_default=False):
             if not names:
-                gui.add_markdown('No installed package offers displays.')
+                gui.add_markdown('No installed package provides displays.')
                 return
-            self._class = gui.add_dropdown('Display', names, hint='What is to be shown.')
-            self._topic = gui.add_dropdown('Topic', [NO_TOPIC], hint='Those of a fitting type.')
+            self._class = gui.add_dropdown('Display', names, hint='The type of the display.')
+            self._topic = gui.add_dropdown('Topic', [NO_TOPIC], hint='Topics of a matching type.')
             button = gui.add_button('Add')
         context.on_input(self._class, lambda value: self.update())
         context.on_click(button, self._add)

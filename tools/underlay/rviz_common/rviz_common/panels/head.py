@@ -75,7 +75,7 @@ class Head:
 
     def _button(self, context: Context, tool: Tool | None) -> Any:
         name = MOVE if tool is None else tool.NAME
-        hint = 'Drag to turn the scene.' if tool is None else tool.HINT
+        hint = 'Drag to rotate the scene.' if tool is None else tool.HINT
         button = context.gui.add_button(name, hint=hint, color='gray')
         context.on_click(button, lambda: self._visualizer.tools.use(tool))
         return button
@@ -131,7 +131,7 @@ class FileFolder:
             self._path: Any = gui.add_text(
                 'Path', printable(path), hint='On the machine where rviz2 runs.'
             )
-            save = gui.add_button('Save', hint='Write what is shown to this file.')
+            save = gui.add_button('Save', hint='Save the configuration to this file.')
             download = gui.add_button('Download', hint='Save it where the browser runs.')
             upload = gui.add_upload_button('Load a .rviz file', mime_type='*/*')
         context.on_click(save, self._save)
@@ -176,7 +176,7 @@ class FileFolder:
                 raise ConfigError(name, None, TOO_LARGE)
             configuration = Configuration.parse(content.decode(), name)
         except UnicodeDecodeError as error:
-            self._visualizer.notify('Not loaded', f'{name}: The file is no text: {error}.')
+            self._visualizer.notify('Not loaded', f'{name}: The file is not a text file: {error}.')
         except ConfigError as error:
             self._visualizer.notify('Not loaded', str(error))
         else:

@@ -31,8 +31,8 @@ class ViewsPanel(Panel):
         self._folder: Any = None
         self._shown: Any = None
         with gui.add_folder(None):
-            take = gui.add_button('Take this view', hint='Take over how this browser looks.')
-            back = gui.add_button('Back to the view', hint='Have all browsers look so.')
+            take = gui.add_button('Take this view', hint='Copy the view of this browser.')
+            back = gui.add_button('Back to the view', hint='Apply this view in all browsers.')
         take.on_click(lambda event: self._post_take(event.client_id))
         self.context.on_click(back, lambda: self._cameras.show(self._cameras.view))
         self._place = gui.add_folder(None)
@@ -40,7 +40,7 @@ class ViewsPanel(Panel):
         self._listed: list[Any] = []
         with self._saved:
             self._name = gui.add_text('Name', 'View')
-            save = gui.add_button('Save this view', hint='Add how this browser looks.')
+            save = gui.add_button('Save this view', hint='Save the view of this browser.')
         save.on_click(lambda event: self._post_save(event.client_id))
         self._list()
 

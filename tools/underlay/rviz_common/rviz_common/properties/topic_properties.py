@@ -46,23 +46,23 @@ def topic_properties(
     """
     return (
         Topic(f'{path}/Value', topic, 'The topic of the messages.', type_name),
-        Whole(f'{path}/Depth', depth, 'How many messages may wait.', 1, 100000),
+        Whole(f'{path}/Depth', depth, 'Size of the message queue.', 1, 100000),
         Choice(
             f'{path}/Durability Policy',
             durability,
-            'Transient Local asks for messages from before.',
+            'Transient Local also receives messages published earlier.',
             (VOLATILE, TRANSIENT_LOCAL, SYSTEM_DEFAULT),
         ),
         Choice(
             f'{path}/History Policy',
             KEEP_LAST,
-            'Whether messages beyond the depth are dropped.',
+            'Whether to drop messages beyond the depth.',
             (KEEP_LAST, KEEP_ALL, SYSTEM_DEFAULT),
         ),
         Choice(
             f'{path}/Reliability Policy',
             RELIABLE,
-            'Best Effort also hears those who do not repeat what is lost.',
+            'Best Effort also receives from best-effort publishers.',
             (RELIABLE, BEST_EFFORT, SYSTEM_DEFAULT),
         ),
     )

@@ -192,7 +192,7 @@ class Maker:
             kind = load_plugin(DISPLAYS, given['Class'])
         except LookupError:
             return UnknownEntry(
-                given, f"No package offers displays of the class '{given['Class']}'."
+                given, f"No package provides displays of the class '{given['Class']}'."
             )
         except ImportError as error:
             return UnknownEntry(given, f"'{given['Class']}' cannot be used: {error}")

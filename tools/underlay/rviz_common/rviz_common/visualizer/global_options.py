@@ -19,9 +19,9 @@ __all__ = ['BACKGROUND', 'FIXED_FRAME', 'FRAME_RATE', 'OPTIONS', 'UNUSED_OPTIONS
 
 BACKGROUND, FIXED_FRAME, FRAME_RATE = 'Background Color', 'Fixed Frame', 'Frame Rate'
 OPTIONS = (
-    ColorOf(BACKGROUND, (48, 48, 48), 'The color behind all.'),
-    Text(FIXED_FRAME, 'map', 'The frame that does not move on the screen.'),
-    Number(FRAME_RATE, 30.0, 'How many times a second all is drawn at most; beyond 60 is 60.', 1),
+    ColorOf(BACKGROUND, (48, 48, 48), 'The background color.'),
+    Text(FIXED_FRAME, 'map', 'The frame that stays fixed on the screen.'),
+    Number(FRAME_RATE, 30.0, 'Maximum number of frames drawn per second; at most 60.', 1),
 )
 UNUSED_OPTIONS = ('Default Light',)
 
@@ -64,7 +64,7 @@ class FrameWatch:
     def _judge(self) -> tuple[Level, str]:
         fixed, names = self._frames.fixed_frame, self.names()
         if not fixed:
-            return Level.ERROR, 'No fixed frame is chosen. Choose one of the options above.'
+            return Level.ERROR, 'No fixed frame selected. Select one in the options above.'
         if not names:
             return self._of_silence()
         if fixed not in names:
@@ -77,11 +77,11 @@ class FrameWatch:
         fixed = self._frames.fixed_frame
         if not talking:
             return Level.WARN, (
-                f"Nobody publishes to {' or '.join(TOPICS)}: only what is in '{fixed}' itself can "
-                'be shown. Start robot_state_publisher, or whatever knows where the robot is.'
+                f"No publisher on {' or '.join(TOPICS)}: only data in '{fixed}' itself can be "
+                'shown. Start robot_state_publisher, or another publisher of the robot pose.'
             )
         return Level.WARN, (
-            f'There is a publisher of {" and ".join(talking)}, but no transform has come yet.'
+            f'There is a publisher of {" and ".join(talking)}, but no transform received yet.'
         )
 
     def _of_trees(self, fixed: str, names: list[str]) -> tuple[Level, str]:
@@ -92,14 +92,14 @@ class FrameWatch:
         own = tops[fixed]
         connected = roots.pop(own)
         if not roots:
-            return Level.OK, f'{connected} frames are known.'
+            return Level.OK, f'{connected} frames are connected.'
         others = ', '.join(
             f"'{root}' and the {count - 1} below it" if count > 1 else f"'{root}'"
             for root, count in sorted(roots.items())[:SHOWN]
         )
         return Level.WARN, (
-            f"No transform from '{fixed}' to {others}: nobody publishes between '{own}' and "
-            f"'{sorted(roots)[0]}', so that what is there cannot be shown."
+            f"No transform from '{fixed}' to {others}: nothing connects '{own}' and "
+            f"'{sorted(roots)[0]}', so data in those frames cannot be shown."
         )
 
 
@@ -130,4 +130,4 @@ def _unknown(fixed: str, names: list[str]) -> str:
     meant = did_you_mean(fixed, names)
     listed = ', '.join(names[:SHOWN]) + (', ...' if len(names) > SHOWN else '')
     hint = f' {meant}' if meant else f' The frames are: {listed}.'
-    return f"There is no frame '{fixed}': nobody publishes a transform from or to it.{hint}"
+    return f"There is no frame '{fixed}': no transform from or to it is published.{hint}"

@@ -40,14 +40,14 @@ def surprises(shown: Visualizer) -> Iterator[str]:
     yield from _about_classes('panels', source, shown.panels.unknown, shown.panels.failures)
     yield from _about_classes('views', source, [] if view.is_known else [view.class_name], {})
     for name in shown.options.unknown(UNUSED_OPTIONS):
-        yield f"{source}: The global option '{name}' is not known. The file keeps it."
-    yield from (f'{source}: Of the global options, {each}' for each in shown.options.refusals)
-    yield from (f'{source}: Of the view, {each}' for each in view.values.refusals)
+        yield f"{source}: Unknown global option '{name}'. The file keeps it."
+    yield from (f'{source}: In the global options, {each}' for each in shown.options.refusals)
+    yield from (f'{source}: In the view, {each}' for each in view.values.refusals)
     for panel in shown.panels.panels:
-        about = f"Of the panel '{panel.name}' ({panel.CLASS})"
+        about = f"In the panel '{panel.name}' ({panel.CLASS})"
         yield from (f'{source}: {about}, {each}' for each in panel.values.refusals)
     for tool in shown.tools.tools:
-        yield from (f'{source}: Of {tool.CLASS}, {each}' for each in tool.values.refusals)
+        yield from (f'{source}: In {tool.CLASS}, {each}' for each in tool.values.refusals)
 
 
 def _about_displays(configuration: Configuration, entries: list[Entry]) -> Iterator[str]:
@@ -61,7 +61,7 @@ def _about_displays(configuration: Configuration, entries: list[Entry]) -> Itera
         elif isinstance(entry, DisplayEntry):
             yield from _about_properties(document.where(place), entry)
     for reason, names in left_out.items():
-        yield f'{reason.rstrip(".")}: {", ".join(names)} left out. The file keeps what it says.'
+        yield f'{reason.rstrip(".")}: {", ".join(names)} left out. The file keeps them.'
 
 
 def _about_classes(
@@ -72,7 +72,7 @@ def _about_classes(
         if name in failures:
             reason = f"'{name}' cannot be used: {failures[name].rstrip('.')}"
         else:
-            reason = f"No package offers {what} of the class '{name}'"
+            reason = f"No package provides {what} of the class '{name}'"
         yield f'{source}: {reason}. The file keeps it.'
 
 
@@ -85,7 +85,7 @@ def _about_properties(where: str, entry: DisplayEntry) -> Iterator[str]:
             'The file keeps it.'
         )
     for refusal in display.values.refusals:
-        yield f"{where}: Of the display '{entry.name}' ({entry.class_name}), {refusal}"
+        yield f"{where}: In the display '{entry.name}' ({entry.class_name}), {refusal}"
 
 
 def _placed(entries: list[Entry], above: Place) -> Iterator[tuple[Place, Entry]]:

@@ -137,7 +137,7 @@ class Visualizer:
         """
         path = os.path.expanduser(path.strip())
         if not path.endswith('.rviz'):
-            raise ConfigError(path or 'The file', None, 'Its name must end with .rviz.')
+            raise ConfigError(path or 'The file', None, 'The file name must end with .rviz.')
         self.configuration.save(path, self._sections())
         self.path = path
 
@@ -309,7 +309,7 @@ class Visualizer:
             self._attend()
             self.context.queue.run()
         except Exception as error:  # a failing widget must not stop anything else
-            self._logger.error(f'What was entered failed: {described_error(error)}')
+            self._logger.error(f'An input failed: {described_error(error)}')
             self._rouse()  # for the remaining work
 
     def _rouse(self) -> None:

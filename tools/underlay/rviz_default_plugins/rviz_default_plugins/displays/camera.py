@@ -87,7 +87,7 @@ class Camera(ImageTopicDisplay):
         self.status.say(
             'Camera Info',
             Level.WARN,
-            f'No message has come on {self._info_topic} yet, which says what the camera sees.',
+            f'No message received on {self._info_topic} yet, which says what the camera sees.',
         )
 
     def _follow(self, header: Any) -> None:

@@ -36,7 +36,7 @@ class Markers(TopicDisplay):
         if new:
             self.values['Namespaces'] = {**enabled, **dict.fromkeys(sorted(new), True)}
         if self.received:
-            sentence = f'{self.received} messages have come on {self.values["Topic/Value"]}.'
+            sentence = f'{self.received} messages received on {self.values["Topic/Value"]}.'
             self.status.say('Topic', Level.OK, sentence)
 
     def take(self, message: Any) -> None:

@@ -90,9 +90,7 @@ def test_decaying_clouds_are_not_too_many(message_stage):
     for _ in range(display.MOST + 3):
         message_stage.tell(display, cloud_of([(1, 0, 0)]))
     assert len(message_stage.drawn(display)) == 2 * display.MOST
-    assert (
-        sentence(display, 'Decay') == f'No more than the last {display.MOST} messages are shown.'
-    )
+    assert sentence(display, 'Decay') == f'Only the last {display.MOST} messages are shown.'
 
 
 def test_colors_of_points(message_stage):
@@ -374,7 +372,7 @@ def test_image_is_shown_in_a_window(message_stage, clocked):
     window = display._window
     assert window._image.image[0, 0].tolist() == [200, 0, 0]
     assert window._image.format == 'jpeg'
-    assert sentence(display, 'Topic') == '1 messages have come on /topic.'
+    assert sentence(display, 'Topic') == '1 messages received on /topic.'
     display.stop()
     assert window._panel._impl.removed
     display.start()
@@ -475,7 +473,7 @@ def test_camera_without_info(message_stage, clocked):
     """As long as nothing is known of the camera, that is said; then the picture is shown."""
     display = message_stage.listen(Camera)
     message_stage.tell(display, picture())
-    assert sentence(display, 'Camera Info').startswith('No message has come on /camera_info yet')
+    assert sentence(display, 'Camera Info').startswith('No message received on /camera_info yet')
     message_stage.node.say('/camera_info', camera_info(focal=0.0))
     display.update()
     assert 'the camera is not calibrated' in sentence(display, 'Message')

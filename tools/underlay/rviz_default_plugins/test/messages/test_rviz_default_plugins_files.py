@@ -57,7 +57,7 @@ def test_no_topic_and_a_wrong_one(message_stage, name):
     kind = load_plugin(DISPLAYS, name)
     empty = message_stage.show(kind, {'Topic': {'Value': ''}})
     empty.update()
-    assert 'No topic is chosen' in all_sentences(empty)
+    assert 'No topic selected' in all_sentences(empty)
     wrong = message_stage.show(kind, {'Topic': {'Value': '/a b'}})
     wrong.update()
     assert "'/a b' cannot be subscribed" in all_sentences(wrong)

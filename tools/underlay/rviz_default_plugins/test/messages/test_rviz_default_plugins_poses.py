@@ -59,7 +59,7 @@ def test_pose_is_an_arrow_in_its_frame(message_stage):
     assert arrow.opacity == 0.5
     assert arrow.vertices[:, 0].max() == pytest.approx(2.3)
     assert near(stage.node_at(display.root).position, 5, 0, 0)
-    assert sentence(display, 'Topic') == '1 messages have come on /topic.'
+    assert sentence(display, 'Topic') == '1 messages received on /topic.'
 
 
 def test_pose_becomes_axes_when_its_shape_is_changed(message_stage):
