@@ -178,6 +178,9 @@ def _show(suite: Suite, output: IO[bytes] | None) -> None:
 def _show_machine() -> None:
     """Print what else the machine is doing: what has failed may have come too late."""
     print('Load of the last 1, 5 and 15 minutes:', *map('{:.1f}'.format, os.getloadavg()))
+    for path in ('/proc/meminfo', *(f'/proc/pressure/{name}' for name in ('cpu', 'io', 'memory'))):
+        with suppress(OSError):  # kernels without pressure stall information
+            print(path, *Path(path).read_text().splitlines()[:3], sep='\n  ')
     with suppress(OSError):  # where there is no ps
         columns = 'pid,ppid,etimes,times,rss,args'
         busy = subprocess.run(

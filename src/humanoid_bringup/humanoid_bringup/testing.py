@@ -148,7 +148,11 @@ class ToldRobot:
             assert self.robot.stands, f'The robot fell. It has said {self.said}'
             return condition()
 
-        self.ros.wait_until(holds, timeout_s, f'{what}; the robot has said {self.said}')
+        self.ros.wait_until(
+            holds,
+            timeout_s,
+            lambda: f'{what}; the robot has said {self.said}, and its plan is {self.plan}',
+        )
 
     def wait_for(self, text: str, timeout_s: float = PATIENCE_S) -> None:
         """
@@ -175,7 +179,7 @@ class ToldRobot:
 
         """
         while True:
-            self.wait_until(lambda: self.is_over, timeout_s, f'the end of a plan, {self.plan}')
+            self.wait_until(lambda: self.is_over, timeout_s, 'the end of a plan')
             self.wait_until(lambda: bool(self.said), 5.0, 'a word about it')
             self.robot.wait(1.0)
             if self.is_over:

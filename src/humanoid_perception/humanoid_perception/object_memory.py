@@ -220,29 +220,36 @@ class ObjectMemoryNode(Node):
             _seen_from(self._anchor, view),
             [each for each in sightings if each],
             self._anchor,
-            *self._own_m(told),
+            *self._own_m(told, stamp),
         )
 
-    def _own_m(self, told: MemoryParameters) -> tuple[dict[str, Array], list[Array]]:
-        """Compute the positions of held objects, by id, and of the hands, in the memory frame."""
+    def _own_m(
+        self, told: MemoryParameters, stamp: Time
+    ) -> tuple[dict[str, Array], list[Array]]:
+        """
+        Compute the positions of held objects, by id, and of the hands, in the memory frame.
+
+        They are those at the time of the image: a moving robot has left them when its detections
+        arrive.
+        """
         held = {each.id: (each.header.frame_id, each.bbox.center.position) for each in self._held}
         found = {
-            name: self._placed_point(told.odom_frame, frame, (at.x, at.y, at.z))
+            name: self._placed_point(told.odom_frame, frame, stamp, (at.x, at.y, at.z))
             for name, (frame, at) in held.items()
         }
         hands = [
-            self._placed_point(told.odom_frame, frame, (0.0, 0.0, 0.0))
+            self._placed_point(told.odom_frame, frame, stamp, (0.0, 0.0, 0.0))
             for frame in told.hand_frames
         ]
         known = {name: at for name, at in found.items() if at is not None}
         return known, [at for at in hands if at is not None]
 
     def _placed_point(
-        self, odom: str, frame: str, point_m: tuple[float, float, float]
+        self, odom: str, frame: str, stamp: Time, point_m: tuple[float, float, float]
     ) -> Array | None:
-        """Transform a point into the memory frame at the latest time; None if not available."""
+        """Transform a point into the memory frame; None if its frame is not available."""
         try:
-            position, rotation = self._pose(odom, frame, Time())
+            position, rotation = self._pose(odom, frame, stamp)
         except TransformException:
             return None
         return _placed(self._anchor, position + rotation @ np.array(point_m), rotation)[0]

@@ -99,7 +99,7 @@ class RosSandbox:
         self,
         predicate: Callable[[], bool],
         timeout_s: float = 60.0,
-        what: str = 'the condition',
+        what: str | Callable[[], str] = 'the condition',
     ) -> None:
         """
         Spin the nodes until a condition holds; the message of a failure lists the topics.
@@ -114,7 +114,7 @@ class RosSandbox:
         timeout_s
             Real time to wait.
         what
-            Description of the condition, for the message of a failure.
+            Description of the condition, for the message of a failure, or what makes it then.
 
         Raises
         ------
@@ -125,7 +125,7 @@ class RosSandbox:
         wait_until(
             predicate,
             timeout_s,
-            lambda: f'{what}; {self._graph()}',
+            lambda: f'{what if isinstance(what, str) else what()}; {self._graph()}',
             self._handle,
         )
 
