@@ -95,8 +95,8 @@ def _build_underlay(
     )
     if status != 0:
         raise SetupError(
-            f'The underlay could not be built (all that colcon printed is in {log}):\n'
-            f'{last_words(log, "rror", 5)}\nMend that and run the same command again'
+            f'The underlay could not be built (the full output of colcon is in {log}):\n'
+            f'{last_words(log, "rror", 5)}\nFix that and run the same command again'
         )
 
 

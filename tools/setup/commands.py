@@ -373,7 +373,7 @@ def forget_environment(locations: Locations) -> None:
     if Home(locations).is_deleted_with_the_workspace():
         remove(iter([locations.environment]))
     else:
-        print(f'The environment in {locations.environment} was named by you and stays.')
+        print(f'The environment in {locations.environment} was chosen by you and is kept.')
     if locations.link.is_symlink():
         locations.link.unlink()
 
@@ -390,6 +390,6 @@ def explain_os_error(error: OSError) -> str:
     """
     name = f' ({error.filename})' if error.filename else ''
     return (
-        f'The machine refused: {error.strerror}{name}. Mend that and run the same command again: '
+        f'The system reported: {error.strerror}{name}. Fix that and run the same command again: '
         'it continues from here'
     )

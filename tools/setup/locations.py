@@ -87,7 +87,7 @@ def find_locations(root: Path, wanted: str | None) -> Locations:
         environment = cache_folder() / hashlib.sha256(os.fsencode(root)).hexdigest()[:12]
     if not fits_in_shebang(environment):
         raise SetupError(
-            f'The environment cannot lie in {environment}: the path has a space or is too long '
+            f'The environment cannot be in {environment}: the path has a space or is too long '
             'for the first line of a script. Keep it elsewhere, as in: make setup VENV=/opt/venv'
         )
     return Locations(root, link, environment)

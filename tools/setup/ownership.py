@@ -49,7 +49,7 @@ class Home:
             )
         raise SetupError(
             f'The environment in {environment} was made for a workspace in another place or by '
-            f'another Python than {python_version()}, and its programs name those: '
+            f'a Python other than {python_version()}, and its programs refer to those: '
             f'{self._advice()}'
         )
 
@@ -71,7 +71,7 @@ class Home:
     def _advice(self) -> str:
         """Explain how to make a separate environment, without affecting another workspace."""
         if self.is_deleted_with_the_workspace():
-            return 'run `make distclean setup` to make it anew'
+            return 'run `make distclean setup` to recreate it'
         if self._locations.is_linked:
             return (
                 'choose another VENV, as in: make setup VENV=/opt/venv; or run '

@@ -37,7 +37,7 @@ def make_environment(locations: Locations, interpreter: str) -> None:
     run_or_fail(
         [interpreter, '-m', 'venv', locations.environment],
         cwd=locations.root,
-        failure=f'The virtual environment {locations.environment} cannot be made',
+        failure=f'The virtual environment {locations.environment} cannot be created',
     )
 
 
@@ -138,10 +138,10 @@ def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> Non
     )
     if status != 0:
         raise SetupError(
-            f'pip could not install the wheels (its whole output is in {log}):\n'
+            f'pip could not install the wheels (the full output is in {log}):\n'
             f'{last_words(log, "ERROR")}\n'
-            'Mend that (network, proxy, disk) and run the same command again: it continues there, '
-            'and what was fetched stays in the cache of pip'
+            'Fix that (network, proxy, disk) and run the same command again: it continues there, '
+            'and what was already downloaded stays in the cache of pip'
         )
 
 

@@ -31,7 +31,7 @@ def test_an_environment_of_another_place_is_refused(locations: Locations) -> Non
     home.write()
     home.require_same()
     Stamp(locations.environment / 'stamp' / 'home').write('/moved\n/moved/.venv\n3.11')
-    with pytest.raises(SetupError, match='run `make distclean setup` to make it anew'):
+    with pytest.raises(SetupError, match='run `make distclean setup` to recreate it'):
         home.require_same()
 
 

@@ -78,11 +78,11 @@ class JointStatePublisher(Node):
         try:
             self._joints.take(states)
         except ValueError as error:
-            self._left_out(f'{topic}: a message has {error}, and is left out.')
+            self._left_out(f'{topic}: a message has {error}, and is ignored.')
             return
         if wrong := self._joints.not_finite(states):
             names = ', '.join(f"'{name}'" for name in wrong)
-            self._left_out(f'{topic}: no number, and left out, is the position of {names}.')
+            self._left_out(f'{topic}: the position of {names} is not a number, and is ignored.')
 
     def _left_out(self, sentence: str) -> None:
         """Log a warning about rejected values, throttled because sources may repeat them."""
@@ -122,7 +122,7 @@ class JointStatePublisher(Node):
         try:
             self._load(self._changed({'robot_description': message.data}), 'robot_description')
         except ValueError as error:
-            self._refused(f'A robot description is left out. {error}')
+            self._refused(f'A robot description is ignored. {error}')
 
     def _publish(self) -> None:
         """Publish the states of all joints, if any are known."""
@@ -152,8 +152,8 @@ class JointStatePublisher(Node):
     def _silence(self, topic: str) -> str:
         count = self.count_publishers(topic)
         found = '1 publisher was found' if count == 1 else f'{count} publishers were found'
-        who = found if count else 'nobody publishes it'
-        return f'Nothing was heard on {topic} so far: {who}.'
+        who = found if count else 'it has no publisher'
+        return f'Nothing received on {topic} so far: {who}.'
 
     def _report_silence(self, sentences: list[str]) -> None:
         """Log warnings about topics that are still silent."""
@@ -241,5 +241,5 @@ def _resolved(node: Node, name: str) -> str:
     except RuntimeError as error:
         reason = str(error).split(', at ')[0].removeprefix('failed to resolve name: ')
         raise ValueError(
-            f"The parameter 'source_list' names '{name}', which can be no topic: {reason}."
+            f"The parameter 'source_list' names '{name}', which is not a valid topic: {reason}."
         ) from error

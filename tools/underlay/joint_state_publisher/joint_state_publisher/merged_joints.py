@@ -182,7 +182,9 @@ class MergedJoints:
         """
         for name in settings.zeros:
             if name not in self.free:
-                why = 'follows another joint' if name in self._leaders else 'is no moving joint'
+                why = (
+                    'follows another joint' if name in self._leaders else 'is not a moving joint'
+                )
                 yield (
                     f"The parameter 'zeros.{name}' is not used: '{name}' {why} of this robot. "
                     f'{did_you_mean(name, self.free, 0.75)}'.rstrip()
@@ -198,7 +200,7 @@ def _mimics(model: RobotModel, settings: Settings) -> dict[str, Mimic]:
     for name, mimic in dependents.items():
         if mimic.joint not in moving:
             raise ValueError(
-                f"'dependent_joints' lets '{name}' follow '{mimic.joint}', which is no moving "
+                f"'dependent_joints' lets '{name}' follow '{mimic.joint}', which is not a moving "
                 f'joint of this robot. {did_you_mean(mimic.joint, moving, 0.75)}'.rstrip()
             )
     mimics = {**(model.mimics if settings.use_mimic_tags else {}), **dependents}

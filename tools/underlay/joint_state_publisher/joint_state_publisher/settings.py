@@ -14,13 +14,13 @@ from urdf import check_for_loops, Mimic
 __all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'checked', 'settings_of']
 
 DESCRIPTIONS = {
-    'rate': 'How often joint states are published, in 1/s.',
-    'source_list': 'Topics of joint states whose values are taken over.',
-    'use_mimic_tags': 'Let joints follow others as <mimic> says.',
-    'use_smallest_joint_limits': 'Keep to the limits of <safety_controller> too.',
-    'publish_default_positions': 'Publish a position for joints of which no source tells any.',
-    'publish_default_velocities': 'Publish the velocity 0 for joints of which none is known.',
-    'publish_default_efforts': 'Publish the effort 0 for joints of which none is known.',
+    'rate': 'The rate at which joint states are published, in Hz.',
+    'source_list': 'Joint state topics whose values are merged.',
+    'use_mimic_tags': 'Let joints follow others according to their <mimic> tags.',
+    'use_smallest_joint_limits': 'Also keep within the limits of <safety_controller>.',
+    'publish_default_positions': 'Publish a default position for joints that no source reports.',
+    'publish_default_velocities': 'Publish velocity 0 for joints whose velocity is unknown.',
+    'publish_default_efforts': 'Publish effort 0 for joints whose effort is unknown.',
     'delta': 'How far each joint moves by itself between two messages, in radians or metres.',
     'robot_description': 'The text of the URDF; it is taken from the topic if this is empty.',
 }
@@ -95,7 +95,7 @@ def _dependents(values: Mapping[str, Any]) -> dict[str, Mimic]:
             joint, _, key = name.removeprefix('dependent_joints.').rpartition('.')
             if not joint or key not in DEPENDENT_KEYS:
                 raise ValueError(
-                    f"The parameter '{name}' ends with none of {', '.join(DEPENDENT_KEYS)}. "
+                    f"The parameter '{name}' must end with one of {', '.join(DEPENDENT_KEYS)}. "
                     f'{did_you_mean(key, DEPENDENT_KEYS, 0.75)}'.rstrip()
                 )
             default = '' if key == 'parent' else 0.0
@@ -111,7 +111,7 @@ def _dependents(values: Mapping[str, Any]) -> dict[str, Mimic]:
 def _dependent(joint: str, part: Mapping[str, Any]) -> Mimic:
     if not part.get('parent'):
         raise ValueError(
-            f"The joint '{joint}' depends on nothing: set dependent_joints.{joint}.parent."
+            f"The joint '{joint}' follows no joint: set dependent_joints.{joint}.parent."
         )
     return Mimic(part['parent'], part.get('factor', 1.0), part.get('offset', 0.0))
 
@@ -150,7 +150,7 @@ def checked(name: str, value: Any, default: Any) -> Any:
         return tuple(texts)
     if isinstance(default, (bool, str)):
         if not isinstance(value, type(default)):
-            raise _wrong(name, value, 'true or false' if default in (True, False) else 'a text')
+            raise _wrong(name, value, 'true or false' if default in (True, False) else 'a string')
         return value
     if not isinstance(value, (int, float)) or isinstance(value, bool) or not isfinite(value):
         raise _wrong(name, value, 'a number')

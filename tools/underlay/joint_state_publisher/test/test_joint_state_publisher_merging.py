@@ -66,7 +66,7 @@ def test_zeros_of_no_joint_are_reported() -> None:
     """A zero that is not used is said, with a suggestion."""
     settings = Settings(zeros={'kne': 1.0, 'toe': 1.0})
     assert list(MergedJoints(MODEL, settings).surplus_zeros(settings)) == [
-        "The parameter 'zeros.kne' is not used: 'kne' is no moving joint of this robot. "
+        "The parameter 'zeros.kne' is not used: 'kne' is not a moving joint of this robot. "
         "Did you mean 'knee'?",
         "The parameter 'zeros.toe' is not used: 'toe' follows another joint of this robot.",
     ]
@@ -150,9 +150,9 @@ def test_dependent_joints_are_above_mimic_tags() -> None:
 @pytest.mark.parametrize(
     ('dependents', 'sentence'),
     [
-        ({'toe': Mimic('wheal')}, "lets 'toe' follow 'wheal', which is no moving joint of this "
+        ({'toe': Mimic('wheal')}, "lets 'toe' follow 'wheal', which is not a moving joint of this "
          "robot. Did you mean 'wheel'?"),
-        ({'toe': Mimic('glue')}, "lets 'toe' follow 'glue', which is no moving joint"),
+        ({'toe': Mimic('glue')}, "lets 'toe' follow 'glue', which is not a moving joint"),
         ({'knee': Mimic('toe')}, 'follow each other in a loop: shin -> knee -> toe -> shin'),
     ],
 )  # fmt: skip

@@ -65,20 +65,20 @@ def test_positions_that_are_no_number(probe: Probe, programs: Programs, arm: str
         lambda: heard and list(heard[-1].position) == [0.5, 0.0],
         'nothing was merged',
     )
-    says(probe, program, "/commands: no number, and left out, is the position of 'elbow'.")
+    says(probe, program, "/commands: the position of 'elbow' is not a number, and is ignored.")
 
 
 def test_description_from_the_topic(probe: Probe, programs: Programs) -> None:
     """It waits for a description, refuses a broken one and takes a new one over."""
     program = programs.start(MODULE)
     says(probe, program, 'Waiting for robot_description to be published on the /robot_desc')
-    says(probe, program, 'Nothing was heard on /robot_description so far: nobody publishes it.')
+    says(probe, program, 'Nothing received on /robot_description so far: it has no publisher.')
     heard = probe.listen(JointState, '/joint_states')
     sender = probe.sender(String, '/robot_description', LATCHED)
     sender.publish(String(data=ARM))
     probe.until(lambda: heard, 'no joint states')
     sender.publish(String(data=ARM.replace('"upper"/><child', '"uper"/><child')))
-    says(probe, program, 'A robot description is left out. robot_description:4: The parent of')
+    says(probe, program, 'A robot description is ignored. robot_description:4: The parent of')
     heard.clear()
     probe.until(lambda: heard, 'the broken description has ended it')
     assert list(heard[-1].name) == ['shoulder', 'elbow']
@@ -118,16 +118,16 @@ def test_misspelt_names_are_reported(probe: Probe, programs: Programs, arm: str)
         'no warning',
     )
     assert "There is no parameter 'rat'. Did you mean 'rate'?" in program.output
-    assert "'elbo' is no moving joint of this robot. Did you mean 'elbow'?" in program.output
+    assert "'elbo' is not a moving joint of this robot. Did you mean 'elbow'?" in program.output
     assert "/commands: The joint states name 'sholder'" in program.output
-    says(probe, program, 'Nothing was heard on /silent so far: nobody publishes it.')
-    assert 'heard on /commands' not in program.output
+    says(probe, program, 'Nothing received on /silent so far: it has no publisher.')
+    assert 'received on /commands' not in program.output
 
 
 def test_time_of_the_simulator(probe: Probe, programs: Programs, arm: str) -> None:
     """Stamps and the rate follow the time of a simulator, also when it begins anew."""
     program = programs.start(MODULE, arm, use_sim_time='true')
-    says(probe, program, 'use_sim_time is true, but nobody publishes /clock: ')
+    says(probe, program, 'use_sim_time is true, but there is no publisher on /clock: ')
     heard = probe.listen(JointState, '/joint_states')
     clock = probe.sender(Clock, '/clock')
     for begin_s in (500, 5):

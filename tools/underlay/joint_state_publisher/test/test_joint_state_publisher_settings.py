@@ -52,11 +52,14 @@ def test_nested_parameters_are_by_joint() -> None:
         ({'source_list': 'commands'}, "'source_list' must be a list of names, and not 'commands'"),
         ({'source_list': [1]}, "'source_list' must be a list of names"),
         ({'use_mimic_tags': 'no'}, "'use_mimic_tags' must be true or false, and not 'no'."),
-        ({'robot_description': 7}, "'robot_description' must be a text, and not 7."),
+        ({'robot_description': 7}, "'robot_description' must be a string, and not 7."),
         ({'zeros.knee': 'bent'}, "'zeros.knee' must be a number, and not 'bent'."),
-        ({'dependent_joints.a.parnt': 'b'}, 'ends with none of parent, factor, offset. Did you'),
-        ({'dependent_joints.a': 'b'}, "'dependent_joints.a' ends with none of parent, factor"),
-        ({'dependent_joints.a.factor': 2.0}, "'a' depends on nothing: set dependent_joints.a.par"),
+        (
+            {'dependent_joints.a.parnt': 'b'},
+            'must end with one of parent, factor, offset. Did you',
+        ),
+        ({'dependent_joints.a': 'b'}, "'dependent_joints.a' must end with one of parent, factor"),
+        ({'dependent_joints.a.factor': 2.0}, "'a' follows no joint: set dependent_joints.a.par"),
         ({'dependent_joints.a.parent': 'a'}, 'follow each other in a loop: a -> a.'),
     ],
 )

@@ -131,9 +131,9 @@ class Board:
         for name, position in pose.items():
             slider = self.sliders.get(name)
             if slider is None:
-                why = 'follows another joint' if name in self._moving else 'is no moving joint'
+                why = 'follows another joint' if name in self._moving else 'is not a moving joint'
                 yield (
-                    f"'{name}' is left out: it {why} of this robot. "
+                    f"'{name}' is skipped: it {why} of this robot. "
                     f'{did_you_mean(name, self.sliders, 0.75)}'.rstrip()
                 )
                 continue

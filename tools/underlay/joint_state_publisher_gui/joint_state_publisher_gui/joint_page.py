@@ -22,7 +22,7 @@ __all__ = ['JointPage', 'PoseFolder']
 WIDTH_PX = 460
 WARNED_FRAMES = 100
 
-NONE = '(none is saved)'
+NONE = '(none saved)'
 
 
 class JointPage:
@@ -129,7 +129,7 @@ class JointPage:
             'All joints',
             tuple(work),
             hint=(
-                "Centre: the positions by default, as the parameter 'zeros' says. Zero: 0 or the "
+                "Centre: the default positions, as in the parameter 'zeros'. Zero: 0 or the "
                 'nearest limit. Randomise: anywhere within the limits.'
             ),
         )

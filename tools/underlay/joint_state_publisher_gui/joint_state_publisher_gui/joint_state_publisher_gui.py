@@ -26,7 +26,7 @@ PROGRAM = 'joint_state_publisher_gui'
 FRAME_S = 0.1
 
 EXTRAS = {
-    'num_rows': Extra(0, 'Means nothing here: the page scrolls.'),
+    'num_rows': Extra(0, 'Has no effect here: the page scrolls.'),
     **{name: Extra(*about) for name, about in PARAMETERS.items()},
 }
 
@@ -63,7 +63,7 @@ class JointStatePublisherGui(JointStatePublisher):
         values = {name: self.get_parameter(name).value for name in EXTRAS}
         if values['num_rows']:
             self.get_logger().info(
-                "The parameter 'num_rows' means nothing here: the page scrolls."
+                "The parameter 'num_rows' has no effect here: the page scrolls."
             )
         self.page = _serve(values)
         self.joint_page = JointPage(self.page.viser, self._make_queue(), _poses_folder())

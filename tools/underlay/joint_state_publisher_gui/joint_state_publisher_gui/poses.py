@@ -95,8 +95,8 @@ class Poses:
             raise PoseError('The pose is not saved: give it a name first.')
         if len(name) > LONGEST_NAME or not name.isprintable():
             raise PoseError(
-                f'The pose is not saved: its name must be at most {LONGEST_NAME} characters that '
-                'can be printed.'
+                f'The pose is not saved: its name must have at most {LONGEST_NAME} characters, '
+                'all of them printable.'
             )
         self._write({**self.read(), name: dict(pose)})
         return name
@@ -130,20 +130,22 @@ class Poses:
 
     def _poses(self, content: Any) -> dict[str, Pose]:
         if not isinstance(content, dict):
-            raise self._broken('it must have poses by name')
+            raise self._broken('it must map names to poses')
         return {str(name): self._pose(name, pose) for name, pose in content.items()}
 
     def _pose(self, name: Any, pose: Any) -> Pose:
         if not isinstance(pose, dict):
-            raise self._broken(f"the pose '{name}' must have positions by joint")
+            raise self._broken(f"the pose '{name}' must map joints to positions")
         for joint, value in pose.items():
             if not _is_position(value):
-                raise self._broken(f"'{value}' of '{joint}' in the pose '{name}' is no position")
+                raise self._broken(
+                    f"'{value}' of '{joint}' in the pose '{name}' is not a position"
+                )
         return {str(joint): float(value) for joint, value in pose.items()}
 
     def _broken(self, why: str) -> PoseError:
         return PoseError(
-            f"The file of poses '{self.file}' cannot be used, and is left as it is: {why}. "
+            f"The pose file '{self.file}' cannot be used, and is left unchanged: {why}. "
             'Correct it, or move it away.'
         )
 

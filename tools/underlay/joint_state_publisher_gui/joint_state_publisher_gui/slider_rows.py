@@ -52,7 +52,7 @@ class SliderRows:
         self._parent = parent
         self._board = board
         with parent:
-            self.search = server.gui.add_text('Search', '', hint='Words of the names of joints')
+            self.search = server.gui.add_text('Search', '', hint='Words from joint names')
             self._area = server.gui.add_folder(None)
         on_input(post, self.search, self._search)
         self.rows: list[SliderRow] = []
@@ -81,9 +81,9 @@ class SliderRows:
         """Show a message if there are no sliders, or fewer than joints found."""
         notice = Notice(self._server.gui)
         if not self._board.sliders:
-            notice.say('This robot has no joint that can be moved.')
+            notice.say('This robot has no movable joints.')
         elif not count:
-            notice.say('No joint has this in its name.')
+            notice.say('No joint name matches.')
         elif count > len(self.rows):
             notice.say(f'{len(self.rows)} of {count} joints are shown. Search for the others.')
 

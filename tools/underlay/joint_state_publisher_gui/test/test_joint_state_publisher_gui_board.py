@@ -143,8 +143,8 @@ def test_poses_are_applied_as_far_as_they_fit() -> None:
     sentences = board.apply({'left_kne': 1.0, 'toe': 1.0, 'lift': 9.0, 'wheel': 0.5})
     assert board.pose() == {'left_knee': 0, 'wheel': 0.5, 'lift': 3, 'free': 0, 'rail': 0}
     assert sentences == [
-        "'left_kne' is left out: it is no moving joint of this robot. Did you mean 'left_knee'?",
-        "'toe' is left out: it follows another joint of this robot.",
+        "'left_kne' is skipped: it is not a moving joint of this robot. Did you mean 'left_knee'?",
+        "'toe' is skipped: it follows another joint of this robot.",
         "'lift' stops at its limit: 9 is not within the limits.",
     ]
 

@@ -148,7 +148,7 @@ def test_numbers_that_are_none(probe: Probe, gui: JointStatePublisherGui) -> Non
     says(
         probe,
         gui,
-        '/commands: no number, and left out, is the position of &#x27;left_elbow&#x27;.',
+        '/commands: the position of &#x27;left_elbow&#x27; is not a number, and is ignored.',
     )
     probe.until(lambda: heard and list(heard[-1].position) == [0.25, 0.0], 'the rest is missing')
     source.publish(JointState(name=['left_elbow'], position=[1.0, 2.0]))
@@ -184,14 +184,14 @@ def test_poses(probe: Probe, gui: JointStatePublisherGui, tmp_path: Path) -> Non
     file.write_text(file.read_text() + '  gone: 1.0\n')
     give(gui.joint_page.all, 'Zero')
     give(poses.use, 'Load')
-    says(probe, gui, '&#x27;gone&#x27; is left out: it is no moving joint of this robot.')
+    says(probe, gui, '&#x27;gone&#x27; is skipped: it is not a moving joint of this robot.')
     probe.until(lambda: sliders(gui)['left_elbow'].value == 0.5, 'the pose is not loaded')
     give(poses.use, 'Delete')
     says(probe, gui, 'is deleted.')
-    assert poses.saved.options == ('(none is saved)',)
+    assert poses.saved.options == ('(none saved)',)
     file.write_text('- broken')
     give(poses.keep, 'Save')
-    says(probe, gui, 'cannot be used, and is left as it is: it must have poses by name.')
+    says(probe, gui, 'cannot be used, and is left unchanged: it must map names to poses.')
     assert file.read_text() == '- broken'
 
 
@@ -219,8 +219,8 @@ def test_warnings_end(
 def test_silent_topics(probe: Probe, start: Start) -> None:
     """The page says which robot and which sources it has not heard of."""
     node = start('source_list:=[commands]')
-    says(probe, node, 'Nothing was heard on /commands so far: nobody publishes it.')
-    says(probe, node, 'Nothing was heard on /robot_description so far: nobody publishes it.')
+    says(probe, node, 'Nothing received on /commands so far: it has no publisher.')
+    says(probe, node, 'Nothing received on /robot_description so far: it has no publisher.')
     says(probe, node, 'Waiting for robot_description')
     describe(probe, node, URDF)
     says(probe, node, 'bot: 2 joints')
@@ -262,7 +262,7 @@ def test_new_robots_replace_the_page(probe: Probe, gui: JointStatePublisherGui) 
     search = gui.joint_page.sliders.search
     sender = probe.sender(String, '/robot_description', LATCHED)
     sender.publish(String(data='<robot/>'))
-    says(probe, gui, 'A robot description is left out.')
+    says(probe, gui, 'A robot description is ignored.')
     assert sliders(gui) == old
     describe(probe, gui, URDF.replace('left_elbow', 'right_elbow'))
     assert list(sliders(gui)) == ['left_shoulder', 'right_elbow']

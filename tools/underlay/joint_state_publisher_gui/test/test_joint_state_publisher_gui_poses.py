@@ -32,12 +32,12 @@ def test_saved_poses_are_read_again(poses: Poses) -> None:
     ('content', 'why'),
     [
         ('a: [', 'while parsing'),
-        ('- a', 'it must have poses by name'),
-        ('wave: 3', "the pose 'wave' must have positions by joint"),
-        ('wave: {knee: bent}', "'bent' of 'knee' in the pose 'wave' is no position"),
+        ('- a', 'it must map names to poses'),
+        ('wave: 3', "the pose 'wave' must map joints to positions"),
+        ('wave: {knee: bent}', "'bent' of 'knee' in the pose 'wave' is not a position"),
         ('wave: {knee: .nan}', "'nan' of 'knee'"),
         ('wave: {knee: true}', "'True' of 'knee'"),
-        (f'wave: {{knee: {10**400}}}', "of 'knee' in the pose 'wave' is no position"),
+        (f'wave: {{knee: {10**400}}}', "of 'knee' in the pose 'wave' is not a position"),
         ('[' * 5000, ''),
         ('\x00', 'special characters are not allowed'),
         (b'\xff\xfe\xfa', ''),
@@ -52,7 +52,7 @@ def test_broken_files_are_kept(poses: Poses, content, why) -> None:
     for use in (poses.read, lambda: poses.save('new', {}), lambda: poses.delete('new')):
         with pytest.raises(PoseError) as caught:
             use()
-        assert f"'{poses.file}' cannot be used, and is left as it is: " in str(caught.value)
+        assert f"'{poses.file}' cannot be used, and is left unchanged: " in str(caught.value)
         assert why in str(caught.value)
         assert poses.file.read_bytes() == data
 

@@ -45,7 +45,7 @@ def test_serves_its_page_until_it_ends(
         urlopen(url.partition('?')[0], timeout=100)
     with pytest.raises(HTTPError, match='403'):
         urlopen(Request(url, headers={'Origin': 'http://evil.example'}), timeout=100)
-    assert program.output.count("'num_rows' means nothing here") == 1
+    assert program.output.count("'num_rows' has no effect here") == 1
     assert 'There is no parameter' not in program.output
     assert program.end(number) == 0
     assert 'Traceback' not in program.output
@@ -64,12 +64,12 @@ def test_waits_for_a_robot(probe: Probe, programs: Programs) -> None:
     ('words', 'parameters', 'sentence'),
     [
         (['/no/arm.urdf'], {}, "The URDF '/no/arm.urdf' cannot be read: No such file"),
-        (['a', 'b'], {}, 'joint_state_publisher_gui takes one URDF file at most'),
+        (['a', 'b'], {}, 'joint_state_publisher_gui takes at most one URDF file'),
         ([], {'host': 'here'}, "The host is 'here', but must be an address of this machine"),
         ([], {'port': '8080.5'}, "The parameter 'port' must be a whole number, and not 8080.5."),
         ([], {'port': '70000'}, 'The port is 70000, but must be from 1 to 65535.'),
         ([], {'port': 'web'}, "The parameter 'port' must be a number, and not 'web'."),
-        ([], {'token': '7'}, "The parameter 'token' must be a text, and not 7."),
+        ([], {'token': '7'}, "The parameter 'token' must be a string, and not 7."),
     ],
 )
 def test_cannot_start(programs: Programs, words, parameters, sentence) -> None:

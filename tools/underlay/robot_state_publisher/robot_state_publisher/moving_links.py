@@ -54,9 +54,9 @@ def usable_positions(
 def _mismatch(names: Sequence[str], positions: Sequence[float]) -> str:
     about = ', '.join(f"'{name}'" for name in names)
     if not positions:
-        return f'A joint state about {about} has no positions, and is left out.'
+        return f'A joint state about {about} has no positions, and is ignored.'
     return (
-        f'A joint state has {len(names)} names but {len(positions)} positions, and is left out; '
+        f'A joint state has {len(names)} names but {len(positions)} positions, and is ignored; '
         f'it is about {about or "no joint"}.'
     )
 
@@ -131,8 +131,8 @@ def _beyond(joints: Sequence[Joint], values: Sequence[float]) -> str:
     """Format an error message that names the joints with non-finite positions."""
     names = [f"'{joint.name}'" for joint, value in zip(joints, values) if not isfinite(value)]
     return (
-        f'A joint state is left out, as it leads to positions of {", ".join(names)} that are '
-        'larger than any number.'
+        f'A joint state is ignored, because the positions of {", ".join(names)} would not be '
+        'finite.'
     )
 
 

@@ -38,8 +38,8 @@ def file_argument(program: str, words: list[str]) -> str | None:
     """
     if len(words) > 1 or any(word.startswith('-') for word in words):
         raise ValueError(
-            f'{program} takes one URDF file at most and no options, but not {" ".join(words)}. '
-            'Parameters are given after --ros-args -p.'
+            f'{program} takes at most one URDF file and no options, not {" ".join(words)}. '
+            'Pass parameters after --ros-args -p.'
         )
     return words[0] if words else None
 

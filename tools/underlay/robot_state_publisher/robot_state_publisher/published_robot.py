@@ -118,7 +118,7 @@ class PublishedRobot:
         """
         if not (self._settings.ignore_timestamp or stamp.sec or stamp.nanosec):
             raise UnusableStateError(
-                'A joint state without a stamp is left out. Stamp it, or set the parameter '
+                'A joint state without a stamp is ignored. Stamp it, or set the parameter '
                 'ignore_timestamp.'
             )
 
@@ -144,7 +144,7 @@ class PublishedRobot:
         if not self.times.went_back(names, stamp.sec * S + stamp.nanosec):
             return None
         self.times.forget()
-        return 'The stamps of joint states have jumped back: all joints are published anew.'
+        return 'The stamps of joint states have jumped back: all joints are published again.'
 
     def knows(self, names: tuple[str, ...]) -> bool:
         """

@@ -29,7 +29,7 @@ REPEAT_S = 10.0
 JUMPS_S = 60.0
 """Log interval for time jumps; two simulators in a domain cause one with every /clock message."""
 TIME_JUMPED = (
-    'The time has jumped back: all joints are published anew. If it goes on to do so, two '
+    'Time has jumped back: all joints are published again. If this keeps happening, two '
     'simulators publish /clock.'
 )
 
@@ -90,7 +90,7 @@ class RobotStatePublisher(Node):
         logger.info(robot.model.describe())
         for joint in robot.model.joints:
             if joint.kind == 'floating':
-                logger.info(f"Joint '{joint.name}' is floating: its transform is left to others.")
+                logger.info(f"Joint '{joint.name}' is floating: its transform is not published.")
             elif joint.kind == 'planar':
                 logger.warning(f"Joint '{joint.name}' is planar, and published as if fixed.")
         self._description.publish(String(data=self._settings.robot_description))

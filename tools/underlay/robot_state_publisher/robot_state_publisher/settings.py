@@ -13,9 +13,9 @@ __all__ = ['DESCRIPTIONS', 'Settings']
 
 DESCRIPTIONS = {
     'robot_description': 'The text of the URDF.',
-    'publish_frequency': 'How often a joint is published at most, in 1/s: above 0, up to 1000.',
+    'publish_frequency': 'The maximum publishing rate of a joint, in Hz: above 0, up to 1000.',
     'ignore_timestamp': 'Publish every joint state, whatever its stamp and the frequency.',
-    'frame_prefix': "What the names of all frames begin with, such as 'robot1/'.",
+    'frame_prefix': "The prefix of all frame names, such as 'robot1/'.",
 }
 
 

@@ -86,7 +86,7 @@ class StateWatch:
         for name in sorted(new):
             yield (
                 f"The position of joint '{name}' in a joint state is not a number, which means "
-                'that nobody knows it: the joint keeps its last pose.'
+                'that it is unknown: the joint keeps its last pose.'
             )
 
     def complaint(self, publishers: int, topic: str) -> str | None:
@@ -112,7 +112,7 @@ class StateWatch:
         self._complained = True
         names = ', '.join(f"'{name}'" for name in missing)
         return (
-            f'{_some(len(missing), len(self._needed))} had no state so far, so that tf does not '
+            f'{_some(len(missing), len(self._needed))} had no state so far, so tf does not '
             f'know where the links below them are: {names}. {_sources(publishers, topic)}'
         )
 
@@ -139,6 +139,6 @@ def _some(missing: int, needed: int) -> str:
 def _sources(publishers: int, topic: str) -> str:
     """Format the number of publishers of the joint states."""
     if publishers == 0:
-        return f'Nobody publishes {topic}.'
+        return f'There is no publisher on {topic}.'
     nodes = 'one publisher' if publishers == 1 else f'{publishers} publishers'
     return f'{topic} has {nodes}.'

@@ -38,7 +38,7 @@ STATUS_NAMES = {
 ENDS = (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED, GoalStatus.STATUS_ABORTED)
 CANCEL_TEXTS = {
     CancelGoal.Response.ERROR_NONE: 'Goal canceled.',
-    CancelGoal.Response.ERROR_REJECTED: 'Failed to cancel goal: the server refuses',
+    CancelGoal.Response.ERROR_REJECTED: 'Failed to cancel goal: the server rejected the request',
     CancelGoal.Response.ERROR_GOAL_TERMINATED: 'Failed to cancel goal: it has already ended',
 }
 CANCEL_FAILURE = 'Failed to cancel goal: the server does not know it'
@@ -150,7 +150,7 @@ class GoalSender:
         if not wait_until(self._node, is_over, patience, timeout_s):
             raise RuntimeError(f"'{self._name}' has not answered within {timeout_s:g} s")
         if not future.done():
-            raise RuntimeError(f"The server of '{self._name}' has gone away before {what} came")
+            raise RuntimeError(f"The server of '{self._name}' disappeared before {what} arrived")
         return future.result()
 
     def _hint(self) -> str:

@@ -111,6 +111,6 @@ def node_name(text: str) -> str:
     """
     if not (text.isascii() and text.isidentifier()):
         raise argparse.ArgumentTypeError(
-            f'{text!r} is no name of a node: letters, digits and underscores, no digit first'
+            f'{text!r} is not a valid node name: letters, digits and underscores, no digit first'
         )
     return text

@@ -140,7 +140,7 @@ def create_parser(
     parser.add_argument(
         '--use-python-default-buffering',
         action='store_true',
-        help='leave the buffering of the output to Python, instead of line by line',
+        help='use the output buffering of Python instead of line buffering',
     )
     add_lazy_subparsers(
         parser,

@@ -51,7 +51,7 @@ class ExtensionPointsCommand(CommandExtension):
             print(group)
             if args.verbose:
                 count = len(extensions(group, own))
-                print(f'  {len(own)} here, {count - len(own)} of other packages')
+                print(f'  {len(own)} here, {count - len(own)} from other packages')
         return None
 
 

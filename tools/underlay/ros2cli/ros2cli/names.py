@@ -34,15 +34,11 @@ def absolute(name: str, kind: str = 'topic') -> str:
     full_name = name if name.startswith('/') else f'/{name}'
     if not NAME.fullmatch(full_name):
         raise RuntimeError(
-            f"'{name}' is no name of {_article(kind)} {kind}: parts of letters, digits and "
-            'underscores, none of which begins with a digit, joined by slashes, as in '
+            f"'{name}' is not a valid {kind} name: parts of letters, digits and "
+            'underscores, none of which starts with a digit, joined by slashes, as in '
             "'/robot1/joint_commands'"
         )
     return full_name
-
-
-def _article(noun: str) -> str:
-    return 'an' if noun[0] in 'aeiou' else 'a'
 
 
 def closest(name: str, known: Iterable[str]) -> str:

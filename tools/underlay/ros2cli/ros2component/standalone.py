@@ -57,7 +57,7 @@ def _load(process: subprocess.Popen[bytes], args: argparse.Namespace) -> None:
 
         node.watch.wait_for(is_over, Patience(f"the container '{name}'"))
         if process.poll() is not None:
-            raise RuntimeError(f"The container '{name}' has ended with {process.returncode}")
+            raise RuntimeError(f"The container '{name}' exited with status {process.returncode}")
         component = load_component(node, name, args)
     print(f"Loaded component {component.uid} into '{name}' container node as '{component.name}'")
 

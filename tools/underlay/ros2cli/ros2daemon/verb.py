@@ -11,8 +11,8 @@ __all__ = ['AnswerVerb', 'VerbExtension']
 
 ANSWER = (
     'The daemon is not running\n'
-    'There is none, and none is needed: each command looks at the graph itself, as soon as the '
-    'graph is complete'
+    'There is none, and none is needed: each command discovers the graph itself, and answers '
+    'as soon as it is complete'
 )
 
 

@@ -51,7 +51,7 @@ class DoctorCommand(VerbCommand):
             help='Leave out the packages of the workspace',
         )
         parser.add_argument(
-            '-iw', '--include-warnings', action='store_true', help='Let warnings be failures'
+            '-iw', '--include-warnings', action='store_true', help='Count warnings as failures'
         )
         super().add_arguments(parser, cli_name, argv=argv)
 

@@ -150,7 +150,7 @@ def _port(text: str) -> int:
 
 def _number(text: str, least: int, most: int) -> int:
     if not (text.isascii() and text.isdigit() and least <= int(text) <= most):
-        raise argparse.ArgumentTypeError(f'{text!r} is no number from {least} to {most}')
+        raise argparse.ArgumentTypeError(f'{text!r} is not a number from {least} to {most}')
     return int(text)
 
 
@@ -160,9 +160,9 @@ def _multicast_group(text: str) -> str:
     try:
         address = IPv4Address(text)
     except AddressValueError as error:
-        raise argparse.ArgumentTypeError(f'{text!r} is no IPv4 address: {error}') from error
+        raise argparse.ArgumentTypeError(f'{text!r} is not an IPv4 address: {error}') from error
     if not address.is_multicast:
         raise argparse.ArgumentTypeError(
-            f'{text!r} is no multicast address: those go from 224.0.0.0 to 239.255.255.255'
+            f'{text!r} is not a multicast address: these range from 224.0.0.0 to 239.255.255.255'
         )
     return text

@@ -82,7 +82,7 @@ def _split(text: str) -> list[str]:
     try:
         return shlex.split(text)
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f'{text!r} is no command: {error}') from error
+        raise argparse.ArgumentTypeError(f'{text!r} is not a valid command: {error}') from error
 
 
 def _report(status: int) -> None:

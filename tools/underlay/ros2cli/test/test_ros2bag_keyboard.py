@@ -40,7 +40,7 @@ def test_keys_pause_step_and_change_the_rate(
     before = termios.tcgetattr(theirs)
     words = ['bag', 'play', str(tmp_path / 'bag'), '--start-paused']
     process = start_ros2(*words, stdin=theirs, preexec_fn=lambda: _own_terminal(theirs))
-    _expect(process, 'Paused: SPACE or the service')
+    _expect(process, 'Paused: press SPACE or call the service')
     assert not termios.tcgetattr(theirs)[3] & termios.ECHO
     for key, line in ((b' ', 'Resumed.'), (b'\x1b[A', 'Rate: 1.1'), (b' ', 'Paused.')):
         os.write(ours, key)

@@ -231,7 +231,7 @@ def test_topic_that_was_not_recorded_is_named(ros2_here: Ros2, tmp_path: Path) -
     expected = f"'{path}' has no topic '/tick'. Did you mean '/ticks'?\n"
     assert (result.returncode, result.stderr) == (1, expected)
     result = ros2_here('bag', 'play', path, '--start-offset', '99')
-    assert (result.returncode, 'has no messages in what was chosen' in result.stderr) == (1, True)
+    assert (result.returncode, 'has no messages in this selection' in result.stderr) == (1, True)
 
 
 def test_unknown_topic_to_rename_or_leave_out_is_warned_of(
@@ -242,7 +242,7 @@ def test_unknown_topic_to_rename_or_leave_out_is_warned_of(
     path = str(tmp_path / 'bag')
     words = ['--remap', '/tick:=/copy', '--exclude-topics', '/description', '/image']
     errors = ear.spin_with(start_ros2('bag', 'play', path, *words))
-    text = f"'{path}' has no topic '{{}}' to rename or to leave out."
+    text = f"'{path}' has no topic '{{}}' to remap or to exclude."
     assert f"{text.format('/tick')} Did you mean '/ticks'?\n" in errors
     assert f'{text.format("/image")}\n' in errors
     assert text.format('/description') not in errors

@@ -127,7 +127,7 @@ def test_second_type_of_a_topic_is_left_out(start_ros2: Start, tmp_path: Path) -
     _publish(start_ros2, 'text', 'reliable')
     _wait_for_messages(folder / 'bag_0.mcap', 20)
     start_ros2('topic', 'pub', '/mixed', 'std_msgs/msg/Int32', '{data: 1}', '-r', '50')
-    _expect_line(process, "Of topic '/mixed' only std_msgs/msg/String is recorded")
+    _expect_line(process, "Only std_msgs/msg/String is recorded on topic '/mixed'")
     _wait_for_messages(folder / 'bag_0.mcap', 20, _size_of_messages(folder))
     assert _stop(process)[0] == 0
     assert set(texts(BagReader(str(folder)).messages(), '/mixed')) == {'text'}

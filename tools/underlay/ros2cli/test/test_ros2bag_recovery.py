@@ -307,8 +307,8 @@ def test_recover_says_what_it_did(
     path = _unfinished_bag(tmp_path / 'bag', monkeypatch)
     result = ros2_here('bag', 'recover', str(tmp_path / 'bag'))
     assert result.stdout.splitlines() == [
-        f'{path}: recovered {COUNT} messages; what it was is in {path}.broken, which can be '
-        'deleted',
+        f'{path}: recovered {COUNT} messages; the original is kept as {path}.broken, which '
+        'can be deleted',
         f'{tmp_path / "bag"}: {COUNT} messages; metadata.yaml is written',
     ]
     assert (result.returncode, result.stderr) == (0, '')

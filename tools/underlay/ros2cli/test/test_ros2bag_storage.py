@@ -137,17 +137,17 @@ def test_metadata_of_older_versions_is_read() -> None:
 @pytest.mark.parametrize('text', ['', '- 1', 'rosbag2_bagfile_information: {version: 9}', '{'])
 def test_broken_metadata_is_a_sentence(text: str) -> None:
     """What is no metadata leads to the command that makes it anew."""
-    with pytest.raises(BagError, match="'x' is no metadata of a recording .*ros2 bag recover"):
+    with pytest.raises(BagError, match="'x' is not metadata of a recording .*ros2 bag recover"):
         metadata_from_text(text, 'x')
 
 
 @pytest.mark.parametrize(
     ('old', 'new', 'reason'),
     [
-        ('message_count: 2', 'message_count: <b>', "'<b>' is no whole number"),
-        ('nanoseconds: 5', "nanoseconds: '5'", "'5' is no whole number"),
-        ('name: /a', 'name: [1]', r'\[1\] is no text'),
-        ('- a_0.mcap', '- 3', '3 is no text'),
+        ('message_count: 2', 'message_count: <b>', "'<b>' is not an integer"),
+        ('nanoseconds: 5', "nanoseconds: '5'", "'5' is not an integer"),
+        ('name: /a', 'name: [1]', r'\[1\] is not a string'),
+        ('- a_0.mcap', '- 3', '3 is not a string'),
     ],
 )
 def test_metadata_with_values_of_other_kinds(old: str, new: str, reason: str) -> None:
@@ -163,7 +163,7 @@ def test_metadata_with_values_of_other_kinds(old: str, new: str, reason: str) ->
     for part in range(1, text.count(old) + 1):
         pieces = text.split(old)
         broken = old.join(pieces[:part]) + new + old.join(pieces[part:])
-        with pytest.raises(BagError, match=f'no metadata of a recording .*{reason}'):
+        with pytest.raises(BagError, match=f'not metadata of a recording .*{reason}'):
             metadata_from_text(broken, 'x')
 
 

@@ -60,7 +60,7 @@ def test_extension_points_are_sorted(run: Callable[..., list[str]]) -> None:
     assert run('extension_points') == GROUPS
     lines = run('extension_points', '--verbose')
     assert lines[::2] == GROUPS
-    assert lines[-1] == f'  {len(TopicCommand.VERBS)} here, 2 of other packages'
+    assert lines[-1] == f'  {len(TopicCommand.VERBS)} here, 2 from other packages'
 
 
 def test_extensions_stand_below_their_group(run: Callable[..., list[str]]) -> None:

@@ -98,7 +98,7 @@ def test_now_is_a_time() -> None:
         ('std_msgs/msg/Float32', '{data: x}', "'data' needs a number, but got 'x'"),
         ('std_msgs/msg/Byte', '{data: 256}', r'from 0 to 255 \(byte\), but got 256'),
         ('std_msgs/msg/Bool', '{data: [1]}', r"'data' needs true or false, but got \[1\]"),
-        ('std_msgs/msg/String', '{data: {a: 1}}', "'data' needs a text, but got {'a': 1}"),
+        ('std_msgs/msg/String', '{data: {a: 1}}', "'data' needs a string, but got {'a': 1}"),
         (
             'sensor_msgs/msg/JointState',
             '{name: a}',
@@ -111,7 +111,7 @@ def test_now_is_a_time() -> None:
         ),
         ('sensor_msgs/msg/JointState', '{header: 1}', "'header' needs a mapping"),
         ('std_msgs/msg/String', '[1]', 'The passed value needs to be a dictionary in YAML format'),
-        ('std_msgs/msg/String', '{a: [', 'The passed value is no YAML'),
+        ('std_msgs/msg/String', '{a: [', 'The passed value is not valid YAML'),
         ('std_msgs/msg/Strin', '{}', 'The passed message type is invalid'),
     ],
 )

@@ -59,13 +59,13 @@ GOAL = (
     "    error:\n      error: 0\n      error_string: ''\n\n"
     'Goal finished with status: SUCCEEDED\n'
 )
-NO_INTERFACE = 'Unknown package {!r}\nIt is in none of the folders of AMENT_PREFIX_PATH'
+NO_INTERFACE = 'Unknown package {!r}\nIt is not in any folder of AMENT_PREFIX_PATH'
 UNKNOWN = f"The node '{ARM}' has no parameter 'sped'. Did you mean 'speed'?\n"
 UNDECLARED = 'Invalid access to undeclared parameter(s): []\n'
 NO_DAEMON = (
     'The daemon is not running\n'
-    'There is none, and none is needed: each command looks at the graph itself, as soon as the '
-    'graph is complete\n'
+    'There is none, and none is needed: each command discovers the graph itself, and answers '
+    'as soon as it is complete\n'
 )
 
 
@@ -209,8 +209,8 @@ ROWS = [
     Row(
         f'action send_goal /1 {ACTION}',
         '',
-        "'/1' is no name of an action: parts of letters, digits and underscores, none of which "
-        "begins with a digit, joined by slashes, as in '/robot1/joint_commands'\n",
+        "'/1' is not a valid action name: parts of letters, digits and underscores, none of which "
+        "starts with a digit, joined by slashes, as in '/robot1/joint_commands'\n",
         1,
     ),
     # 4.10 daemon
@@ -302,17 +302,17 @@ def test_missing_word_is_a_usage_error(words: str, missing: str, ros2_here: Ros2
 @pytest.mark.parametrize(
     ('words', 'error'),
     [
-        ('param list --filter [', "argument --filter: '[' is no regular expression: "),
+        ('param list --filter [', "argument --filter: '[' is not a regular expression: "),
         ('param get /a b --timeout 0', "argument --timeout: '0' is not a number above zero"),
         ('service call /a b --rate x', "argument -r/--rate: 'x' is not a number above zero"),
         ('service echo /a --qos-reliability x', "argument --qos-reliability: invalid choice: 'x'"),
         ('service list --spin-time x', "argument --spin-time: 'x' is not a number above zero"),
         ('interface show --all-comments --no-comments a', 'argument --no-comments: not allowed'),
         ('component unload /a x', "argument component_uid: 'x' is not a whole number"),
-        ('multicast send --port x', "argument -p/--port: 'x' is no number from 1 to 65535"),
-        ('multicast receive --group x', "argument -g/--group: 'x' is no IPv4 address"),
+        ('multicast send --port x', "argument -p/--port: 'x' is not a number from 1 to 65535"),
+        ('multicast receive --group x', "argument -g/--group: 'x' is not an IPv4 address"),
         ('doctor --report --report-failed', 'argument -rf/--report-failed: not allowed with'),
-        ('doctor hello --ttl x', "argument --ttl: 'x' is no number from 0 to 255"),
+        ('doctor hello --ttl x', "argument --ttl: 'x' is not a number from 0 to 255"),
     ],
 )
 def test_wrong_value_is_a_usage_error(words: str, error: str, ros2_here: Ros2) -> None:

@@ -81,7 +81,7 @@ def test_unknown_container_suggests(words: list[str], ros2_container: Ros2) -> N
     ('words', 'error'),
     [
         (['load', 'c', 'p', 'X', '-p', 'speed'], "'speed' is not of the form 'name:=value'"),
-        (['load', 'c', 'p', 'X', '--log-level', 'loud'], "'loud' is none of unset, debug"),
+        (['load', 'c', 'p', 'X', '--log-level', 'loud'], "'loud' is not one of unset, debug"),
         (['unload', 'c', '-1'], "'-1' is not a whole number"),
         (['unload', 'c', 'one'], "'one' is not a whole number"),
     ],

@@ -74,7 +74,7 @@ def test_environment_without_fault(environment: Environment) -> None:
     [
         ({'AMENT_PREFIX_PATH': ''}, 'ERROR: no ROS 2 environment is sourced in this terminal'),
         ({'ROS_DISTRO': 'humble'}, "ERROR: ROS_DISTRO is 'humble' instead of 'jazzy'"),
-        ({'RMW_IMPLEMENTATION': 'rmw_x'}, "ERROR: RMW_IMPLEMENTATION is 'rmw_x', of which PyPI"),
+        ({'RMW_IMPLEMENTATION': 'rmw_x'}, "ERROR: RMW_IMPLEMENTATION is 'rmw_x', for which PyPI"),
         ({'PYTHONPATH': '/opt/ros/jazzy/lib'}, "ERROR: PYTHONPATH also names another ROS, '/opt"),
         ({'COLCON_PREFIX_PATH': '/gone'}, "WARNING: COLCON_PREFIX_PATH names the folder '/gone'"),
     ],
@@ -123,7 +123,7 @@ def test_wheels() -> None:
         'ERROR: wheels are missing: xacro',
         'ERROR: wheels of ROS have versions that do not belong together: '
         'ros-rcl 9.2.7 instead of 9.2.8',
-        'WARNING: wheels have other versions than the tested ones: numpy 2.1 instead of 2.0',
+        'WARNING: wheels have versions other than the tested ones: numpy 2.1 instead of 2.0',
     ]
     assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws'), 'make setup'))) == []
     assert sentences(wheel_findings(Wheels(installed, {}, None, 'pip install'))) == [
@@ -249,7 +249,10 @@ def test_network_without_fault(network: Network) -> None:
             "WARNING: ROS_DISCOVERY_SERVER names '10.0.0.2', but ROS_AUTOMATIC_DISCOVERY_RANGE is "
             'LOCALHOST',
         ),
-        ({'ROS_DOMAIN_ID': 'x'}, "ERROR: ROS_DOMAIN_ID is 'x', which is no whole number from 0 t"),
+        (
+            {'ROS_DOMAIN_ID': 'x'},
+            "ERROR: ROS_DOMAIN_ID is 'x', which is not a whole number from 0 t",
+        ),
         ({'ROS_DOMAIN_ID': '233'}, "ERROR: ROS_DOMAIN_ID is '233'"),
         ({'ROS_DOMAIN_ID': '102'}, 'WARNING: the ports of domain 102 begin at 32900, among those'),
         ({'FASTRTPS_DEFAULT_PROFILES_FILE': '/x'}, 'WARNING: FASTRTPS_DEFAULT_PROFILES_FILE name'),
@@ -368,7 +371,11 @@ def test_clean_up_keeps_what_is_used(tmp_path: Path) -> None:
         ('', {'GL': '', 'EGL': ''}, ['WARNING: there is no OpenGL library: neither libGL nor']),
         ('egl', {'GL': 'x', 'EGL': ''}, ['WARNING: MUJOCO_GL is egl, but there is no libEGL']),
         ('glfw', {'GL': 'x', 'EGL': ''}, ['WARNING: MUJOCO_GL is glfw, which needs a display,']),
-        ('x', {'GL': 'x', 'EGL': ''}, ["WARNING: MUJOCO_GL is 'x', which is none of egl, glfw"]),
+        (
+            'x',
+            {'GL': 'x', 'EGL': ''},
+            ["WARNING: MUJOCO_GL is 'x', which is not one of egl, glfw"],
+        ),
     ],
 )
 def test_graphics(backend: str, libraries: dict[str, str], sentences_expected: list[str]) -> None:
@@ -394,7 +401,7 @@ def test_graphics_card_of_others() -> None:
     """A card that this user may not use is named."""
     facts = Graphics({}, {'GL': 'x'}, (), {'/dev/dri/renderD128': False, '/dev/nvidia0': True})
     assert sentences(graphics_findings(facts)) == [
-        "WARNING: this user may not use the graphics card '/dev/dri/renderD128'"
+        "WARNING: this user has no permission to use the graphics card '/dev/dri/renderD128'"
     ]
 
 
@@ -511,10 +518,10 @@ def test_namespaces_without_effect(
         (['odom base', 'map odom', 'x y'], ["WARNING: on '/tf' there are 2 trees of frames"]),
         (['a c', 'b c', 'b a'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a c', 'b c'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
-        (['a b', 'b a'], ["ERROR: on '/tf', the frames go round in a circle: a, b"]),
+        (['a b', 'b a'], ["ERROR: on '/tf', the frames form a loop: a, b"]),
         (
             ['map odom', 'a b', 'b a', 'b c'],
-            ["ERROR: on '/tf', the frames go round in a circle: a, b, c"],
+            ["ERROR: on '/tf', the frames form a loop: a, b, c"],
         ),
         ([], []),
     ],
@@ -541,14 +548,14 @@ def test_trees_without_a_clock() -> None:
     """Where nodes wait for /clock, nothing is to be published by hand."""
     edges = [Transform('/tf', 'base', 'x'), Transform('/tf', 'odom', 'y')]
     [finding] = frame_findings(edges, waits_for_clock=True)
-    assert finding.mend.startswith('let somebody publish /clock first')
+    assert finding.mend.startswith('start a publisher of /clock first')
 
 
 def test_nodes_without_a_clock() -> None:
     """The nodes whose time stands still are named in one finding."""
     assert sentences(clock_findings(())) == []
     assert sentences(clock_findings(['/a', '/b'])) == [
-        'ERROR: use_sim_time is true, but nobody publishes /clock: /a, /b'
+        'ERROR: use_sim_time is true, but there is no publisher on /clock: /a, /b'
     ]
 
 

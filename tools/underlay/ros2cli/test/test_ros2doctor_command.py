@@ -145,7 +145,7 @@ def test_error_is_a_failure(
     assert capsys.readouterr().out == (
         '\nERROR (broken): It is broken\n'
         '    why it matters: nothing works\n'
-        '    to mend it: glue it\n'
+        '    to fix it: glue it\n'
         '\n1/2 check(s) failed\n\nFailed modules: broken\n\n'
         '\n   PARTS\narm    : 1\nfinger : none\n'
     )
@@ -175,7 +175,7 @@ def test_failing_check(
         '    why it matters: what it looks at has not been examined\n'
         '\nERROR (broken): It is broken\n'
         '    why it matters: nothing works\n'
-        '    to mend it: glue it\n'
+        '    to fix it: glue it\n'
         '\n2/2 check(s) failed\n\nFailed modules: broken careless\n\n'
         '\n   CARELESS\nnot available : ZeroDivisionError: division by zero\n'
     )
@@ -227,7 +227,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
     expected = (
         "ERROR (qos): on '/image', what '/camera' offers is not what '/viewer' asks for",
         "WARNING (nodes): 2 nodes have the name '/viewer'",
-        'ERROR (clock): use_sim_time is true, but nobody publishes /clock: /walker\n',
+        'ERROR (clock): use_sim_time is true, but there is no publisher on /clock: /walker\n',
         "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots map, base_link",
     )
     result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
@@ -237,7 +237,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
         assert text in result.stdout
     assert result.returncode == 1
     assert 'Failed modules: ' in result.stdout
-    assert 'let somebody publish /clock first' in result.stdout
+    assert 'start a publisher of /clock first' in result.stdout
     assert 'other machines' not in result.stdout
     report = ros2('doctor', '--report', cwd=tmp_path)
     assert report.returncode == 0
@@ -251,7 +251,7 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
         'doctor', '-ep', cwd=tmp_path, extra={'RMW_IMPLEMENTATION': 'rmw_nobody_has_this'}
     )
     assert result.returncode == 1
-    assert "RMW_IMPLEMENTATION is 'rmw_nobody_has_this', of which PyPI has no wheel" in (
+    assert "RMW_IMPLEMENTATION is 'rmw_nobody_has_this', for which PyPI has no wheel" in (
         result.stdout
     )
     assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
@@ -264,7 +264,7 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
     [
         (
             {'ROS_DOMAIN_ID': 'x'},
-            "ERROR (network): ROS_DOMAIN_ID is 'x', which is no whole number",
+            "ERROR (network): ROS_DOMAIN_ID is 'x', which is not a whole number",
         ),
         (
             {'ROS_DISTRO': 'humble'},
@@ -272,7 +272,8 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
         ),
         (
             {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'},
-            "ERROR (network): ROS_AUTOMATIC_DISCOVERY_RANGE is 'near', which is none of SUBNET, ",
+            "ERROR (network): ROS_AUTOMATIC_DISCOVERY_RANGE is 'near', which is not one of "
+            'SUBNET, ',
         ),
     ],
 )

@@ -134,7 +134,7 @@ def test_show_of_empty_stdin(ros2_here: Ros2, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr('sys.stdin', io.StringIO('\nstd_srvs/srv/Trigger\n'))
     result = ros2_here('interface', 'show', '-')
     assert (result.returncode, result.stdout) == (1, '')
-    assert result.stderr == 'Standard input has no name of an interface in its first line\n'
+    assert result.stderr == 'Standard input has no interface name in its first line\n'
 
 
 def test_show_of_a_terminal(ros2_here: Ros2, monkeypatch: pytest.MonkeyPatch) -> None:

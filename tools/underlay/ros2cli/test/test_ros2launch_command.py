@@ -124,7 +124,7 @@ def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
             '--launch-prefix must be specified if --launch-prefix-filter is provided',
         ),
         (['-s', 'arm', 'broken.launch.py'], "the launch file '"),
-        (['--json', 'arm', 'say.launch.py'], '--json says how --dry-run shows it: give both'),
+        (['--json', 'arm', 'say.launch.py'], '--json requires --dry-run'),
     ],
 )
 def test_errors(words: list[str], error: str, ros2: Ros2, arm: dict[str, str]) -> None:
@@ -212,7 +212,7 @@ def test_path_of_no_file(ros2: Ros2, arm: dict[str, str]) -> None:
     ]
     assert errors == [
         "the launch file './folder.launch.py' is a folder\n",
-        "the launch file './link.launch.py' is a symbolic link that leads nowhere ('/nope')\n",
+        "the launch file './link.launch.py' is a broken symbolic link to '/nope'\n",
         "the launch file './pipe.launch.py' is not a regular file\n",
     ]
 

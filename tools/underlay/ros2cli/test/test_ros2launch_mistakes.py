@@ -57,7 +57,7 @@ MISTAKES = {
         "Node(package='arn', executable='drive')",
         CAUGHT
         + "\"package 'arn' not found, searching: ['{prefix}']\"\n"
-        + "It is in none of the folders of AMENT_PREFIX_PATH. Did you mean 'arm'?",
+        + "It is not in any folder of AMENT_PREFIX_PATH. Did you mean 'arm'?",
         'Node',
     ),
     'executable': Mistake(

@@ -41,10 +41,10 @@ def test_interrupt_is_quiet(start_ros2: Start) -> None:
 @pytest.mark.parametrize(
     ('words', 'error'),
     [
-        (['--group', '10.0.0.1'], "'10.0.0.1' is no multicast address"),
-        (['--group', 'all'], "'all' is no IPv4 address"),
-        (['--port', '70000'], "'70000' is no number from 1 to 65535"),
-        (['--ttl', '-1'], "'-1' is no number from 0 to 255"),
+        (['--group', '10.0.0.1'], "'10.0.0.1' is not a multicast address"),
+        (['--group', 'all'], "'all' is not an IPv4 address"),
+        (['--port', '70000'], "'70000' is not a number from 1 to 65535"),
+        (['--ttl', '-1'], "'-1' is not a number from 0 to 255"),
     ],
 )
 def test_wrong_addresses_are_usage_errors(words: list[str], error: str, ros2_here: Ros2) -> None:

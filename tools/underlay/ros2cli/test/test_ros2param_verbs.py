@@ -217,14 +217,14 @@ def test_load_reports_each_parameter(tmp_path: Path, ros2_robot: Ros2) -> None:
     [
         (None, 'cannot be read: '),
         ('/other: {ros__parameters: {}}', "only for nodes: ['/other']"),
-        ('a: [', 'is no YAML: '),
-        ('', 'has no names of nodes'),
+        ('a: [', 'is not valid YAML: '),
+        ('', 'has no node names'),
         ('/robot1/arm: 3', "has the value 3 for '/robot1/arm', which is not below 'ros__para"),
         ('/a: {ros_parameters: {b: 1}}', "which is not below 'ros__parameters': 'ros_parameters'"),
         ('/robot1/arm: {ros__parameters: [1]}', "below 'ros__parameters' of '/robot1/arm', not"),
         ('/**: {ros__parameters: {speed: }}', "has no value for the parameter 'speed'"),
         ('/**: {ros__parameters: {n: 9999999999999999999}}', "value for the parameter 'n': 99"),
-        ('- 1', 'has no names of nodes'),
+        ('- 1', 'has no node names'),
     ],
 )
 def test_wrong_file_is_explained(

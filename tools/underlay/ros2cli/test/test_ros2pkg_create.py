@@ -168,12 +168,15 @@ def test_existing_folder_is_left_alone(
     ('words', 'reason'),
     [
         (['test'], "cannot be named 'test'"),
-        (['my-pkg'], "package 'my-pkg' is no name of a Python module"),
-        (['bad name'], "'bad name' is no name of a package: use letters, digits and underscores"),
-        (['1x'], "'1x' is no name of a package"),
+        (['my-pkg'], "package 'my-pkg' is not a valid Python module name"),
+        (
+            ['bad name'],
+            "'bad name' is not a valid package name: use letters, digits and underscores",
+        ),
+        (['1x'], "'1x' is not a valid package name"),
         (['_x'], "with a letter first, for example 'n_x'"),
-        (['class'], "package 'class' cannot be: 'class' is a word of the language Python"),
-        (['json'], "package 'json' cannot be: Python has a module 'json' of its own"),
+        (['class'], "package 'class' cannot be used: 'class' is a Python keyword"),
+        (['json'], "package 'json' cannot be used: Python has a module 'json' of its own"),
         (['p', '--node-name', '2go'], "for example 'n2go'"),
         (['p', '--library-name', 'a b'], "for example 'a_b'"),
     ],
@@ -194,7 +197,7 @@ def test_path_is_no_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert main(['pkg', 'create', 'a/b']) == 1
     assert capsys.readouterr() == (
         '',
-        "'a/b' is a path and no name of a package. Give the folder in which to create the "
+        "'a/b' is a path, not a package name. Give the folder in which to create the "
         'package with --destination-directory.\n',
     )
     assert list(folder.iterdir()) == []

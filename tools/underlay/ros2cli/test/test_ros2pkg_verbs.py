@@ -113,5 +113,5 @@ def test_broken_manifest_is_a_sentence(run: Run, prefix: Path) -> None:
     assert run('xml', 'arm') == (
         1,
         '',
-        f"'{manifest}' is no XML: no element found: line 1, column 9\n",
+        f"'{manifest}' is not valid XML: no element found: line 1, column 9\n",
     )

@@ -186,7 +186,7 @@ def test_unknown_package(ros2: Ros2, arm: dict[str, str]) -> None:
     result = ros2('run', 'nope', 'fail', extra=arm)
     assert (result.stdout, result.returncode) == ('', 1)
     assert result.stderr.startswith(
-        "Package 'nope' not found\nIt is in none of the folders of AMENT_PREFIX_PATH"
+        "Package 'nope' not found\nIt is not in any folder of AMENT_PREFIX_PATH"
     )
 
 
@@ -200,7 +200,8 @@ def test_unknown_package(ros2: Ros2, arm: dict[str, str]) -> None:
         (['arm'], 'ros2 run: error: the following arguments are required: executable_name'),
         (
             ['--prefix', "'", 'arm', 'fail'],
-            'ros2 run: error: argument --prefix: "\'" is no command: No closing quotation',
+            'ros2 run: error: argument --prefix: "\'" is not a valid command: No closing '
+            'quotation',
         ),
         (['--nope', 'arm', 'fail'], 'ros2: error: unrecognized arguments: --nope'),
     ],

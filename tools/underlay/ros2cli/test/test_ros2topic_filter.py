@@ -82,7 +82,7 @@ def test_everything_else_is_refused(text: str) -> None:
 )
 def test_filter_that_does_not_fit_is_explained(text: str) -> None:
     """A condition that the message cannot answer is a sentence."""
-    with pytest.raises(RuntimeError, match='does not fit: '):
+    with pytest.raises(RuntimeError, match='cannot be applied: '):
         MessageFilter(text)(JOINTS)
 
 
@@ -101,7 +101,7 @@ def test_wrong_filter_is_a_usage_error(ros2_here: Ros2) -> None:
     for verb in ('echo', 'hz'):
         result = ros2_here('topic', verb, '/x', '--filter', 'exit()')
         assert result.returncode == 2
-        assert "argument --filter: 'exit()' is no call that a filter allows" in result.stderr
+        assert "argument --filter: 'exit()' is not a call that a filter allows" in result.stderr
 
 
 def feed(counter: LossCounter, numbers: list[Any]) -> list[str]:

@@ -34,7 +34,7 @@ def test_echo_names_the_publisher(ros2_here: Ros2) -> None:
     assert warning.startswith("WARNING: no message passes from '/talker' to '/_ros2cli_")
     assert warning.endswith(
         "on '/temperature': Best effort publisher and reliable subscription. "
-        'Change the --qos options, or leave them away to follow the publisher.'
+        'Change the --qos options, or omit them to follow the publisher.'
     )
 
 
@@ -109,8 +109,8 @@ def test_other_type_is_named(ros2_here: Ros2) -> None:
     assert (result.returncode, result.stdout, result.stderr) == (
         0,
         '',
-        "WARNING: '/temperature' has the type sensor_msgs/msg/Temperature, so that no "
-        'std_msgs/msg/String passes.\n',
+        "WARNING: '/temperature' has the type sensor_msgs/msg/Temperature, so no "
+        'std_msgs/msg/String message passes.\n',
     )
 
 
@@ -121,7 +121,7 @@ def test_pub_of_other_type_is_explained(ros2_here: Ros2) -> None:
     assert result.returncode == 1
     assert result.stderr.splitlines()[0] == (
         "Still waiting for subscriptions of '/orders' (Ctrl-C to stop). '/orders' has the type "
-        'std_msgs/msg/String, so that no std_msgs/msg/Int8 passes.'
+        'std_msgs/msg/String, so no std_msgs/msg/Int8 message passes.'
     )
 
 
@@ -158,11 +158,11 @@ def test_misspelt_topic_suggests(ros2_here: Ros2, start_ros2: Start) -> None:
 @pytest.mark.parametrize(
     ('words', 'status', 'error'),
     [
-        (['/x y', 'std_msgs/msg/String'], 1, "'/x y' is no name of a topic"),
-        (['/1', 'std_msgs/msg/String'], 1, "'/1' is no name of a topic"),
+        (['/x y', 'std_msgs/msg/String'], 1, "'/x y' is not a valid topic name"),
+        (['/1', 'std_msgs/msg/String'], 1, "'/1' is not a valid topic name"),
         (['/x', 'std_msgs/msg/String', '--qos-depth', '1.5'], 2, "'1.5' is not a whole number"),
         (['/x', 'std_msgs/msg/String', '--qos-depth', '9' * 20], 2, 'is too long: at most'),
-        (['/x', 'std_msgs/msg/String', '-n', 'a/b'], 2, "'a/b' is no name of a node"),
+        (['/x', 'std_msgs/msg/String', '-n', 'a/b'], 2, "'a/b' is not a valid node name"),
         (['/x', 'std_msgs/msg/String', '-w', 'two'], 2, "'two' is not a whole number"),
     ],
 )

@@ -88,7 +88,7 @@ def test_message_comes_from_stdin(ros2_here: Ros2, monkeypatch: pytest.MonkeyPat
         (None, '--stdin reads values from standard input, which is closed\n'),
         (
             io.TextIOWrapper(io.BytesIO(b'\xff'), encoding='utf-8'),
-            "--stdin reads text, and standard input is none: 'utf-8' codec can't decode byte "
+            "--stdin reads text, but standard input is not text: 'utf-8' codec can't decode byte "
             '0xff in position 0: invalid start byte\n',
         ),
     ],
@@ -176,4 +176,4 @@ def test_what_is_no_topic_is_refused(name: str, ros2_here: Ros2) -> None:
     """A name that no topic can have is an error of one sentence, before anything is published."""
     result = ros2_here('topic', 'pub', name, 'std_msgs/msg/String')
     assert (result.returncode, result.stdout) == (1, '')
-    assert 'is no name of a topic: parts of letters, digits and underscores' in result.stderr
+    assert 'is not a valid topic name: parts of letters, digits and underscores' in result.stderr

@@ -193,7 +193,7 @@ ERRORS = [
     (
         [*ECHO_JOINTS, '--filter', 'm.nope'],
         '',
-        "The filter 'm.nope' does not fit: 'JointState' object has no field 'nope'\n",
+        "The filter 'm.nope' cannot be applied: 'JointState' object has no field 'nope'\n",
     ),
     (['delay', '/robot_description'], '', 'msg does not have header\n'),
 ]

@@ -85,8 +85,8 @@ def _find(node: Any, manager: str, name: str, kind: str, timeout_s: float) -> No
         for service, kinds in node.watch.graph.get_service_names_and_types()
         if kind in kinds and service.endswith(f'/{name}')
     )
-    hint = closest(manager, known) or (f'There are: {", ".join(known)}' if known else '')
-    advice = hint or 'There is none at all: start a robot, or look at ROS_DOMAIN_ID'
+    hint = closest(manager, known) or (f'Available: {", ".join(known)}' if known else '')
+    advice = hint or 'None is running: start a robot, or check ROS_DOMAIN_ID'
     raise RuntimeError(f"There is no controller manager '{manager}'\n{advice}")
 
 

@@ -156,7 +156,7 @@ def test_switch_nothing(control: Ros2) -> None:
     """To name no controller is a mistake."""
     done = control('switch_controllers')
     assert (done.returncode, done.stdout) == (1, '')
-    assert done.stderr == 'Name controllers: --activate NAME, --deactivate NAME, or both\n'
+    assert done.stderr == 'Choose controllers: --activate NAME, --deactivate NAME, or both\n'
 
 
 def test_another_manager(control: Ros2) -> None:
@@ -177,5 +177,5 @@ def test_no_manager_at_all(control: Ros2, monkeypatch: pytest.MonkeyPatch) -> No
     assert (done.returncode, done.stdout) == (1, '')
     assert done.stderr == (
         "There is no controller manager '/controller_manager'\n"
-        'There is none at all: start a robot, or look at ROS_DOMAIN_ID\n'
+        'None is running: start a robot, or check ROS_DOMAIN_ID\n'
     )

@@ -33,8 +33,8 @@ def leave_out(distribution: Any) -> None:
     if COMMANDS & set(sys.argv):
         names = ', '.join(missing)
         print(
-            'The data_files of setup.py name what does not exist, so it is not installed: '
-            f'{names}. Create it and build again, or take it out of setup.py.',
+            'The data_files of setup.py list files that do not exist, so they are not installed: '
+            f'{names}. Create them and build again, or remove them from setup.py.',
             file=sys.stderr,
         )
 

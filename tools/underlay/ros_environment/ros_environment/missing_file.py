@@ -59,7 +59,7 @@ def _unsuitable(path: str) -> str:
     if os.path.exists(path):
         return 'not a regular file'
     if os.path.islink(path):
-        return f"a symbolic link that leads nowhere ('{os.readlink(path)}')"
+        return f"a broken symbolic link to '{os.readlink(path)}'"
     return ''
 
 
@@ -74,4 +74,4 @@ def _listing(names: list[str]) -> str:
     """List the contents of a directory, unless there are too many entries."""
     if not names or len(names) > _LISTED:
         return ''
-    return f'In this folder there are: {", ".join(names)}'
+    return f'This folder contains: {", ".join(names)}'

@@ -39,7 +39,7 @@ def explain_missing_package(package: str) -> str:
     for workspace in workspaces():
         if installed.is_installed_in(workspace / 'install', package):
             return (
-                f"'{package}' is built in '{workspace}', but this shell does not know it. "
+                f"'{package}' is built in '{workspace}', but not sourced in this shell. "
                 f'Run: {advice.source_command(workspace)}'
             )
         source = source_packages(workspace).get(package)
@@ -137,17 +137,17 @@ def explain_uninstalled_file(path: str) -> str:
 def _explain_unknown_package(package: str) -> str:
     if not installed.prefixes():
         return (
-            'AMENT_PREFIX_PATH names no folder: neither a ROS 2 installation nor a workspace '
-            'has been sourced. Run: source install/setup.bash'
+            'AMENT_PREFIX_PATH contains no existing folder: neither a ROS 2 installation nor a '
+            'workspace has been sourced. Run: source install/setup.bash'
         )
     waiting = installed.built_on_demand(package)
     if waiting:
-        return f"'{package}' belongs to what is not built yet: {waiting}"
+        return f"'{package}' is not available yet: {waiting}"
     known = installed.known_packages()
     for workspace in workspaces():
         known.update(source_packages(workspace))
     places = ''.join(f", nor in the source tree of '{folder}'" for folder in workspaces())
-    text = f'It is in none of the folders of AMENT_PREFIX_PATH{places}.'
+    text = f'It is not in any folder of AMENT_PREFIX_PATH{places}.'
     return _with_suggestion(text, package, known)
 
 

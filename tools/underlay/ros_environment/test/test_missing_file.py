@@ -23,11 +23,11 @@ def _files(workspace: Path) -> None:
     ('path', 'explanation'),
     [
         ('config/robt.yaml', "does not exist. Did you mean 'robot.yaml'?"),
-        ('config/x', 'does not exist. In this folder there are: arm.yaml, link.yaml, robot.yaml'),
+        ('config/x', 'does not exist. This folder contains: arm.yaml, link.yaml, robot.yaml'),
         ('confg/x', "does not exist: there is no folder 'confg'"),
         ('src/confg/x', "does not exist: there is no folder 'src/confg'"),
         ('config', 'is a folder'),
-        ('config/link.yaml', "is a symbolic link that leads nowhere ('nowhere')"),
+        ('config/link.yaml', "is a broken symbolic link to 'nowhere'"),
     ],
 )
 def test_missing_file(path: str, explanation: str) -> None:

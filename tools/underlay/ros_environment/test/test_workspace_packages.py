@@ -124,7 +124,7 @@ def test_package_that_is_built_on_demand(workspace: Path, monkeypatch: pytest.Mo
     (waiting / 'navigation2').write_text('nav2 slam\nnavigation2 is not built yet: run this\n')
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(prefix))
     text = explain_missing_package('nav2_bringup')
-    assert text.startswith("'nav2_bringup' belongs to") and text.endswith('run this')
+    assert text.startswith("'nav2_bringup' is not available yet") and text.endswith('run this')
     assert 'run this' not in explain_missing_package('gripper')
 
 

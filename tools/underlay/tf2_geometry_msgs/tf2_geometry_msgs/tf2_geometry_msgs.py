@@ -111,7 +111,7 @@ def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     if isinstance(pose, PoseStamped):
         raise TypeError(
             'do_transform_pose takes a Pose and returns one, but this is a PoseStamped: use '
-            'do_transform_pose_stamped, or give its pose'
+            'do_transform_pose_stamped, or pass its pose'
         )
     place, turn = pose.position, pose.orientation
     numbers = (place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w)

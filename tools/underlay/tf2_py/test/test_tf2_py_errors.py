@@ -71,7 +71,7 @@ def test_unknown_frame(buffer: BufferCore) -> None:
     text = str(reason(buffer, 'xyzzy', 'map', at(0)))
     assert text.endswith('The frames are: base_link, map, mars, odom, rover, single')
     text = str(reason(BufferCore(), 'map', 'odom', at(0)))
-    assert text.endswith('There are no frames yet: nothing has come on /tf and /tf_static')
+    assert text.endswith('There are no frames yet: nothing was received on /tf and /tf_static')
 
 
 @pytest.mark.parametrize(
@@ -93,9 +93,9 @@ def test_two_trees(buffer: BufferCore) -> None:
             "Could not find a connection between 'base_link' and 'rover' because they are not "
             'part of the same tree. Tf has two or more unconnected trees. '
         )
-        assert "'base_link' is below 'map', 'rover' is below 'mars': nobody" in str(error)
+        assert "'base_link' is below 'map', 'rover' is below 'mars': no node" in str(error)
     error = reason(buffer, 'map', 'rover', at(0))
-    assert "'map' is a root, 'rover' is below 'mars': nobody publishes" in str(error)
+    assert "'map' is a root, 'rover' is below 'mars': no node publishes" in str(error)
 
 
 @pytest.mark.parametrize(
@@ -105,7 +105,7 @@ def test_two_trees(buffer: BufferCore) -> None:
             12.25,
             'Lookup would require extrapolation into the future.  Requested time 12.250000 but '
             'the latest data is at time 12.000000, when looking up transform from frame '
-            '[base_link] to frame [map]. That is 0.250 s ahead: give a timeout',
+            '[base_link] to frame [map]. That is 0.250 s ahead: pass a timeout',
         ),
         (
             9.5,
@@ -178,7 +178,7 @@ def test_old_data(buffer: BufferCore, caplog: pytest.LogCaptureFixture) -> None:
     buffer.set_transform(stamped('map', 'odom', 1.5, (9, 9, 9)), 'late')
     assert caplog.records[0].message.startswith(
         'TF_OLD_DATA ignoring data from the past for frame odom at time 1.500000 according to '
-        'authority late: the latest is of 12.000000, and 10 s are kept.'
+        'authority late: the latest is from 12.000000, and 10 s are kept.'
     )
     assert not buffer.can_transform_core('map', 'odom', at(1.5))[0]
 

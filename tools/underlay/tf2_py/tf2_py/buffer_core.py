@@ -45,9 +45,7 @@ class BufferCore:
     def __init__(self, cache_time: Optional[Duration] = None) -> None:
         cache_ns = _CACHE_NS if cache_time is None else nanoseconds(cache_time)
         if cache_ns < 0:
-            raise ValueError(
-                f'A buffer cannot keep {cache_ns / 1e9:g} s of the past: give a time from 0'
-            )
+            raise ValueError(f'The cache time must be 0 s or more, not {cache_ns / 1e9:g} s')
         self._store = FrameStore(cache_ns)
         self._lock = threading.RLock()
         self._complaints = Complaints(self._warn)

@@ -97,7 +97,7 @@ def old_data(child: str, stamp_ns: int, latest_ns: int, cache_ns: int, authority
     """
     return (
         f'TF_OLD_DATA ignoring data from the past for frame {child} at time {stamp_ns / 1e9:.6f} '
-        f'according to authority {authority}: the latest is of {latest_ns / 1e9:.6f}, and '
+        f'according to authority {authority}: the latest is from {latest_ns / 1e9:.6f}, and '
         f'{cache_ns / 1e9:g} s are kept. Two clocks are in use (is use_sim_time the same '
         'everywhere?), or time went back, as when a bag is played again'
     )
@@ -116,8 +116,8 @@ def both_kinds(child: str, authority: str) -> str:
 
     """
     return (
-        f'The frame "{child}" comes both as a static transform and as one that moves; the last '
-        f'one counts, from authority "{authority}". Two nodes publish it: '
+        f'Frame "{child}" is published both as a static and as a dynamic transform; the latest '
+        f'one is used, from authority "{authority}". Two nodes publish it: '
         "'ros2 topic info -v /tf' and 'ros2 topic info -v /tf_static' name them"
     )
 

@@ -14,7 +14,7 @@ from tf2_py.samples import Gap
 _MAX_LINKS = 1000
 
 _SHOWN = 20
-_ADVICE_TO_WAIT = 'give a timeout to wait for it'
+_ADVICE_TO_WAIT = 'pass a timeout to wait for it'
 
 
 class Step(Protocol):
@@ -104,7 +104,7 @@ def _loop(frames: list[str]) -> str:
     return (
         'The tf tree is invalid because it contains a loop. '
         f'From child to parent: {" -> ".join(loop)}. One of these frames has a wrong parent; '
-        "'ros2 topic echo /tf' and 'ros2 topic info -v /tf' show who says so."
+        "'ros2 topic echo /tf' and 'ros2 topic info -v /tf' show which node publishes it."
     )
 
 
@@ -176,8 +176,8 @@ def unconnected_frames(target: str, source: str, roots: tuple[str, str]) -> str:
     return (
         f"Could not find a connection between '{target}' and '{source}' because they are not "
         'part of the same tree. Tf has two or more unconnected trees. '
-        f'{_below(target, roots[0])}, {_below(source, roots[1])}: nobody publishes the transform '
-        f"between '{roots[0]}' and '{roots[1]}', or not yet"
+        f'{_below(target, roots[0])}, {_below(source, roots[1])}: no node publishes the '
+        f"transform between '{roots[0]}' and '{roots[1]}' yet"
     )
 
 
@@ -197,7 +197,7 @@ def after_waiting(reason: str, timeout_s: float) -> str:
         The time for which the caller has waited, in s.
 
     """
-    return reason.replace(_ADVICE_TO_WAIT, f'it has not come within {timeout_s:g} s; wait longer')
+    return reason.replace(_ADVICE_TO_WAIT, f'not received within {timeout_s:g} s; wait longer')
 
 
 def extrapolation(gap: Gap, target: str, source: str) -> str:
@@ -236,8 +236,8 @@ def _far(gap: Gap) -> str:
         return f'That is {ahead_s:.3f} s ahead: {_ADVICE_TO_WAIT}, or ask for time 0, the latest'
     back_s = (gap.oldest_ns - gap.requested_ns) / 1e9
     return (
-        f'That is {back_s:.3f} s too early: the buffer was made later, keeps less, or the clocks '
-        'differ (is use_sim_time the same everywhere?)'
+        f'That is {back_s:.3f} s too early: the buffer was created later, its cache is shorter, '
+        'or the clocks differ (is use_sim_time the same everywhere?)'
     )
 
 
@@ -248,7 +248,7 @@ def _seconds(time_ns: int) -> str:
 def _which(frame: str, known: Collection[str]) -> str:
     """Suggest a similar frame name, or list the existing ones."""
     if not known:
-        return 'There are no frames yet: nothing has come on /tf and /tf_static'
+        return 'There are no frames yet: nothing was received on /tf and /tf_static'
     question = did_you_mean(frame, known)
     if question:
         return question

@@ -45,10 +45,10 @@ def test_old_style() -> None:
         ([*FRAMES, '--yaw', '1', '--qw', '1'], '--qw and --yaw exclude each other'),
         ([*FRAMES, '--qw', '2'], 'the quaternion (0 0 0 2) has the length 2 instead of 1'),
         ([*FRAMES, '--qw', '0.99'], 'the quaternion (0 0 0 0.99) has the length 0.99 instead'),
-        (['--frame-id', 'a', '--child-frame-id', 'a'], "'a' cannot be placed in itself"),
+        (['--frame-id', 'a', '--child-frame-id', 'a'], "'a' cannot be its own parent"),
         (
             ['--frame-id', 'a', '--child-frame-id', '/b'],
-            "the frame '/b' begins with a slash, which names of frames in tf2 do not: write 'b'",
+            "the frame '/b' starts with a slash, which tf2 does not allow: write 'b'",
         ),
         (
             ['--frame_id', 'a', '--child_frame_id=b'],
@@ -57,8 +57,11 @@ def test_old_style() -> None:
         ([*FRAMES, '--wobble', '1'], "there is no option '--wobble'. The options are: --help"),
         ('1 2 3 0 0 0 foo bar 100'.split(), "'100' is the period that ROS 1 had: leave it out"),
         ('1 2 3 0 0 0 1 foo bar 100'.split(), "'100' is the period that ROS 1 had"),
-        (['--frame-id', '', '--child-frame-id', 'a'], "'' and 'a' are to be frames: none can be"),
-        (['--frame-id', 'a', '--child-frame-id', '/'], "'a' and '/' are to be frames"),
+        (
+            ['--frame-id', '', '--child-frame-id', 'a'],
+            "'' and 'a' have to be frame names: neither may be empty",
+        ),
+        (['--frame-id', 'a', '--child-frame-id', '/'], "'a' and '/' have to be frame names"),
         (['1', '2', 'foo', 'bar'], '4 arguments are neither x y z yaw pitch roll frame_id'),
         ('1 2 3 4 5 six foo bar'.split(), "'six' is not a number"),
     ],

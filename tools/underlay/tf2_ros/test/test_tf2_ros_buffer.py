@@ -88,15 +88,15 @@ def test_end_of_the_wait(buffer: Buffer) -> None:
 
 
 def test_advice_after_a_wait(buffer: Buffer) -> None:
-    """Who has waited is not asked to give a timeout."""
+    """Who has waited is not asked to pass a timeout."""
     buffer.set_transform(stamped('map', 'base', 10.0), 'test')
     buffer.set_transform(stamped('map', 'base', 11.0), 'test')
-    text = 'it has not come within 0.05 s; wait longer, or ask for time 0'
+    text = 'not received within 0.05 s; wait longer, or ask for time 0'
     found, reason = buffer.can_transform('map', 'base', at(11.5), SHORT, return_debug_tuple=True)
     assert not found and text in reason
     with pytest.raises(ExtrapolationException) as caught:
         buffer.lookup_transform('map', 'base', at(11.5), SHORT)
-    assert text in str(caught.value) and 'give a timeout' not in str(caught.value)
+    assert text in str(caught.value) and 'pass a timeout' not in str(caught.value)
 
 
 def test_wait_in_the_thread_that_receives(buffer: Buffer) -> None:
@@ -195,7 +195,7 @@ def test_interface() -> None:
         lambda: interface.can_transform_full('a', at(0), 'b', at(0), 'c'),
     ]
     for call in calls:
-        with pytest.raises(tf2_ros.NotImplementedException, match='is for a subclass'):
+        with pytest.raises(tf2_ros.NotImplementedException, match='implemented by a subclass'):
             call()
 
 

@@ -80,7 +80,7 @@ def test_echo_waits(start_program: Start) -> None:
 def test_echo_without_a_clock(start_program: Start) -> None:
     """Whoever waits for simulated time that nobody publishes is told so."""
     echo = start_program('tf2_ros.tf2_echo', 'a', 'b', '--ros-args', '-p', 'use_sim_time:=true')
-    read_until(echo.stderr, 'use_sim_time is true, but nobody publishes /clock: ')
+    read_until(echo.stderr, 'use_sim_time is true, but there is no publisher on /clock: ')
     end(echo, signal.SIGTERM)
 
 
@@ -102,13 +102,13 @@ def test_bad_arguments(start_program: Start) -> None:
         (
             'tf2_ros.tf2_echo',
             ['map', 'odom', '-1'],
-            'no rate in Hz: give a number from 1e-06 to 1e+06',
+            'not a rate in Hz: give a number from 1e-06 to 1e+06',
         ),
-        ('tf2_ros.tf2_echo', ['map', 'odom', 'fast'], "'fast' is no rate in Hz"),
-        ('tf2_ros.tf2_echo', ['map', 'odom', '1e-300'], "'1e-300' is no rate in Hz"),
+        ('tf2_ros.tf2_echo', ['map', 'odom', 'fast'], "'fast' is not a rate in Hz"),
+        ('tf2_ros.tf2_echo', ['map', 'odom', '1e-300'], "'1e-300' is not a rate in Hz"),
         ('tf2_ros.tf2_echo', ['map', 'odom', '-p', '16'], "'16' is not between 0 and 15 digits"),
-        ('tf2_ros.tf2_monitor', ['--period', '0'], "'0' is no period in seconds"),
-        ('tf2_ros.tf2_monitor', ['--period', 'nan'], "'nan' is no period in seconds"),
+        ('tf2_ros.tf2_monitor', ['--period', '0'], "'0' is not a period in seconds"),
+        ('tf2_ros.tf2_monitor', ['--period', 'nan'], "'nan' is not a period in seconds"),
         ('tf2_ros.tf2_monitor', ['map'], 'give two frames'),
         (PUBLISHER, [*ARGUMENTS, '--ros-args', '-p', 'wrong'], 'The ROS arguments cannot be used'),
     ):

@@ -32,7 +32,7 @@ def number_in(low: float, high: float, what: str) -> Callable[[str], float]:
         number = _number(text)
         if not low <= number <= high:
             raise argparse.ArgumentTypeError(
-                f'{text!r} is no {what}: give a number from {low:g} to {high:g}'
+                f'{text!r} is not a {what}: give a number from {low:g} to {high:g}'
             )
         return number
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 Result = Union[bool, tuple[bool, str]]
 _BLOCKED = (
-    'No transform could come during the wait, since the thread that waited is the one that '
+    'No transform could arrive during the wait: the thread that waited is the one that '
     'receives them: create the TransformListener with spin_thread=True, or await '
     'lookup_transform_async'
 )

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 _SPIN = (
-    'The answer reaches a node only while it is spun: spin it in another thread than the one '
-    'that asks'
+    'A node receives the answer only while it spins: spin it in a thread other than the one '
+    'that calls'
 )
 
 

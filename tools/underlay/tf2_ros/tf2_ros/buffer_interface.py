@@ -32,7 +32,7 @@ class NotImplementedException(Exception):
     """A method is not implemented by a subclass."""
 
     def __init__(self, method: str = 'This method') -> None:
-        super().__init__(f'{method} is for a subclass to implement')
+        super().__init__(f'{method} has to be implemented by a subclass')
 
 
 class BufferInterface:
@@ -132,9 +132,9 @@ class BufferInterface:
         if hasattr(object_stamped, 'header'):
             return self.registration.get(kind)
         raise TypeException(
-            f'A {kind.__name__} has no header, and so neither a frame nor a time: put it into a '
-            f'message with one, as {kind.__name__}Stamped, or look up the transform and apply a '
-            'function like tf2_geometry_msgs.do_transform_pose'
+            f'A {kind.__name__} has no header, so neither a frame nor a time: put it into a '
+            f'message with one, such as {kind.__name__}Stamped, or look up the transform and '
+            'apply a function like tf2_geometry_msgs.do_transform_pose'
         )
 
     def lookup_transform(

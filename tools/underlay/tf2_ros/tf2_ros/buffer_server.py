@@ -144,8 +144,8 @@ def make_node(words: list[str]) -> Node:
 
     if words:
         raise ValueError(
-            f"buffer_server takes no arguments, but has been given '{' '.join(words)}'. Its "
-            'parameters are set so: --ros-args -p buffer_size:=120.0'
+            f"buffer_server takes no arguments, but got '{' '.join(words)}'. Set its "
+            'parameters like this: --ros-args -p buffer_size:=120.0'
         )
     node = Node('tf_buffer')
     cache_s = float(node.declare_parameter('buffer_size', _CACHE_S).value)

@@ -202,8 +202,8 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
 def _leave(node: Node) -> None:
     """Exit the process while a callback is running, which cannot be ended otherwise."""
     sys.stderr.write(
-        f"The node '{node.get_name()}' was busy in a callback for {_END_S:g} s after the signal "
-        'to stop, and was ended.\n'
+        f"The node '{node.get_name()}' was still busy in a callback {_END_S:g} s after the stop "
+        'signal, and was terminated.\n'
     )
     sys.stdout.flush()
     sys.stderr.flush()
@@ -274,8 +274,10 @@ def _watch_clock(node: Node) -> None:
 
 
 def _complaint(publishers: int) -> str:
-    why = f'no time has come on {_CLOCK} so far' if publishers else f'nobody publishes {_CLOCK}'
+    why = (
+        f'no time received on {_CLOCK} yet' if publishers else f'there is no publisher on {_CLOCK}'
+    )
     return (
         f'use_sim_time is true, but {why}: the time of this node stands still. Start the '
-        'simulator, or play the bag with --clock; without one, leave out use_sim_time.'
+        'simulator, or play the bag with --clock; without one, do not set use_sim_time.'
     )

@@ -126,7 +126,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='static_transform_publisher',
         allow_abbrev=False,
-        description='Publish where a frame is in another one, as long as the program runs.',
+        description='Publish the static transform between two frames as long as the program runs.',
         epilog='The rotation is a quaternion or roll, pitch and yaw. Deprecated: the arguments '
         'x y z yaw pitch roll frame_id child_frame_id, or x y z qx qy qz qw frame_id '
         'child_frame_id.',
@@ -134,7 +134,7 @@ def _parser() -> argparse.ArgumentParser:
     for name, text in _NUMBERS.items():
         parser.add_argument(f'--{name}', type=_number, help=text)
     parser.add_argument('--frame-id', required=True, help='the parent frame')
-    parser.add_argument('--child-frame-id', required=True, help='the frame that is placed')
+    parser.add_argument('--child-frame-id', required=True, help='the child frame')
     return parser
 
 
@@ -154,7 +154,7 @@ def _old_style(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> _St
     if _ends_with_period(arguments):
         parser.error(
             f"'{arguments[-1]}' is the period that ROS 1 had: leave it out, as ROS 2 publishes a "
-            'static transform once, also for those who come later'
+            'static transform once, and late subscribers get it, too'
         )
     names = _OLD_STYLE.get(len(arguments))
     if names is None:
@@ -196,15 +196,15 @@ def _transform(
     is_old_style: bool = False,
 ) -> _StaticTransform:
     if not frame.strip('/') or not child.strip('/'):
-        parser.error(f"'{frame}' and '{child}' are to be frames: none can be without a name")
+        parser.error(f"'{frame}' and '{child}' have to be frame names: neither may be empty")
     for name in (frame, child):
         if name.startswith('/'):
             parser.error(
-                f"the frame '{name}' begins with a slash, which names of frames in tf2 do not: "
+                f"the frame '{name}' starts with a slash, which tf2 does not allow: "
                 f"write '{name.lstrip('/')}'"
             )
     if frame == child:
-        parser.error(f"'{frame}' cannot be placed in itself: give two different frames")
+        parser.error(f"'{frame}' cannot be its own parent: give two different frames")
     x, y, z = (given.get(name, 0.0) for name in ('x', 'y', 'z'))
     return _StaticTransform(
         frame, child, (x, y, z), _rotation(parser, given), is_old_style=is_old_style

@@ -29,15 +29,15 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='tf2_echo',
         allow_abbrev=False,
-        description='Print where the target frame is in the source frame, again and again. This '
+        description='Print the pose of the target frame in the source frame, periodically. This '
         'is also the transform that takes data from the target frame to the source frame.',
     )
-    parser.add_argument('source_frame', help='the frame in which the other one is looked for')
-    parser.add_argument('target_frame', help='the frame that is looked for')
+    parser.add_argument('source_frame', help='the frame in which the pose is given')
+    parser.add_argument('target_frame', help='the frame whose pose is printed')
     rate = number_in(1e-6, 1e6, 'rate in Hz')
-    parser.add_argument('rate', nargs='?', type=rate, default=1.0, help='in Hz; 1 if not given')
+    parser.add_argument('rate', nargs='?', type=rate, default=1.0, help='in Hz (default: 1)')
     parser.add_argument(
-        '-p', '--precision', type=_digits, default=3, help='digits after the point; 3 if not given'
+        '-p', '--precision', type=_digits, default=3, help='decimal places (default: 3)'
     )
     return parser
 

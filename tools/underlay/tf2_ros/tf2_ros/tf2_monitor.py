@@ -28,7 +28,7 @@ def _arguments(words: list[str]) -> argparse.Namespace:
     parser = _parser()
     args = parser.parse_args(words)
     if args.source_frame and not args.target_frame:
-        parser.error('give two frames to look at what is between them, or none for all')
+        parser.error('give two frames to monitor the chain between them, or none for all')
     return args
 
 
@@ -40,13 +40,13 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='tf2_monitor',
         allow_abbrev=False,
-        description='Print every 10 s how late and how often transforms come: those of all '
-        'frames, or those between two.',
+        description='Print the delay and the rate of transforms every 10 s: of all frames, or of '
+        'the chain between two.',
     )
     parser.add_argument('source_frame', nargs='?', default='')
     parser.add_argument('target_frame', nargs='?', default='')
     seconds = number_in(0.01, 1e6, 'period in seconds')
-    parser.add_argument('--period', type=seconds, default=_PERIOD_S, help='seconds of each report')
+    parser.add_argument('--period', type=seconds, default=_PERIOD_S, help='seconds per report')
     return parser
 
 

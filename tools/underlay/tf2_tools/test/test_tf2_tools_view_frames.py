@@ -94,7 +94,7 @@ def test_interrupt_of_graphviz(tmp_path: Path, dot: None, environment: dict[str,
     viewer.send_signal(signal.SIGINT)
     _, errors = viewer.communicate(timeout=TIMEOUT_S / 2)
     assert viewer.returncode == 0 and 'Traceback' not in errors
-    assert f'dot has not drawn {path}.gv so far, and was stopped' in errors
+    assert f'dot did not finish drawing {path}.gv in time, and was stopped' in errors
 
 
 def test_tree_as_svg() -> None:
@@ -143,7 +143,7 @@ def test_nothing_comes(tmp_path: Path, environment: dict[str, str]) -> None:
     viewer = start(environment, 'tf2_tools.view_frames', '-t', '0.2', '-o', path)
     output, errors = viewer.communicate(timeout=TIMEOUT_S)
     assert viewer.returncode == 0 and output == '{}\n'
-    assert 'No transforms have come.' in errors
+    assert 'No transforms received.' in errors
     assert 'no tf data' in Path(f'{path}.gv').read_text(encoding='utf-8')
 
 
@@ -174,7 +174,7 @@ def test_no_time_to_listen(environment: dict[str, str], seconds: str) -> None:
     process = start(environment, 'tf2_tools.view_frames', f'--wait-time={seconds}')
     _, errors = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 2 and 'Traceback' not in errors
-    assert f"'{seconds}' is no time in seconds: give a number from 0" in errors
+    assert f"'{seconds}' is not a time in seconds: give a number from 0" in errors
 
 
 def test_closed_output(environment: dict[str, str], tmp_path: Path) -> None:

@@ -125,7 +125,7 @@ def _problem(process: subprocess.Popen[str], path: str, is_stopped: Callable[[],
                 break
     process.kill()
     process.communicate()
-    return f'dot has not drawn {path}.gv so far, and was stopped'
+    return f'dot did not finish drawing {path}.gv in time, and was stopped'
 
 
 @dataclass(frozen=True)

@@ -36,10 +36,10 @@ def _parser() -> argparse.ArgumentParser:
         '-t',
         type=number_in(0.0, 1e6, 'time in seconds'),
         default=_WAIT_S,
-        help='seconds to listen; 5 if not given',
+        help='seconds to listen (default: 5)',
     )
     parser.add_argument(
-        '-o', '--output', default='', help='the files without their endings; else frames_<date>'
+        '-o', '--output', default='', help='output path without extension (default: frames_<date>)'
     )
     return parser
 
@@ -79,8 +79,8 @@ def _view(args: argparse.Namespace) -> int:
 def _say_what_is_missing(node: Node, buffer: Buffer) -> None:
     if not buffer._getFrameStrings():
         node.get_logger().warning(
-            "No transforms have come. 'ros2 topic info -v /tf' shows if anybody publishes them; "
-            'nodes in other domains or on other machines are not seen'
+            "No transforms received. 'ros2 topic info -v /tf' shows whether a node publishes "
+            'them; nodes in other domains or on other machines are not visible'
         )
 
 

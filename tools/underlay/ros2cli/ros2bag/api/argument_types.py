@@ -35,7 +35,7 @@ def count(text: str) -> int:
     except ValueError:
         value = -1
     if value < 0:
-        raise argparse.ArgumentTypeError(f'{text!r} is not a whole number from zero on')
+        raise argparse.ArgumentTypeError(f'{text!r} is not a non-negative integer')
     return value
 
 
@@ -64,7 +64,7 @@ def not_negative(text: str) -> float:
     except ValueError:
         value = -1.0
     if not 0.0 <= value < float('inf'):
-        raise argparse.ArgumentTypeError(f'{text!r} is not a number from zero on')
+        raise argparse.ArgumentTypeError(f'{text!r} is not a non-negative number')
     return value
 
 
@@ -79,7 +79,7 @@ class Refused(argparse.Action):
     option_strings, dest
         As argparse passes them; values that follow the option are ignored.
     reason
-        The text of the usage error after "is not possible here:".
+        The text of the usage error after "is not supported here:".
 
     """
 
@@ -95,4 +95,4 @@ class Refused(argparse.Action):
         option_string: str | None = None,
     ) -> None:
         """Exit with a usage error."""
-        parser.error(f'{option_string} is not possible here: {self._reason}')
+        parser.error(f'{option_string} is not supported here: {self._reason}')

@@ -95,8 +95,8 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
         '--wait-for-all-acked',
         type=not_negative,
         metavar='MS',
-        help='at the end, wait so long until all subscribers have everything; 0 is for ever '
-        '(default: 1000)',
+        help='at the end, wait up to this long until all subscribers have received everything; '
+        '0 waits forever (default: 1000)',
         default=1000,
     )
 
@@ -173,14 +173,14 @@ def add_span_arguments(parser: argparse.ArgumentParser) -> None:
         type=not_negative,
         default=0.0,
         metavar='SECONDS',
-        help='leave out so much of the beginning',
+        help='skip this much of the beginning',
     )
     parser.add_argument(
         '--playback-duration',
         type=float,
         default=-1.0,
         metavar='SECONDS',
-        help='end after so much recorded time; below zero is no limit (default: no limit)',
+        help='stop after this much recorded time; negative for no limit (default: no limit)',
     )
 
 

@@ -65,7 +65,7 @@ def play(args: argparse.Namespace) -> None:
         offer_pause_services(node, switch)
         outlets.wait_for_subscribers(*([clock.publisher] if clock else []))
         if args.start_paused:
-            node.get_logger().info('Paused: SPACE or the service ~/resume starts.')
+            node.get_logger().info('Paused: press SPACE or call the service ~/resume to start.')
         player = Player(node, outlets, clock, switch, keyboard)
         _play_all(player, reader, outlets, node, args)
         outlets.wait_until_acked(args.wait_for_all_acked)
@@ -94,7 +94,7 @@ def _warn_of_unknown_topics(reader: BagReader, args: argparse.Namespace, logger:
     there = [*recorded, CLOCK_TOPIC] if args.clock else recorded
     for name in sorted({*remaps(args), *filter_of(args).excluded_topics}.difference(there)):
         logger.warning(
-            f"'{args.bag_path}' has no topic '{name}' to rename or to leave out. "
+            f"'{args.bag_path}' has no topic '{name}' to remap or to exclude. "
             f'{did_you_mean(name, recorded)}'.rstrip()
         )
 
@@ -112,7 +112,7 @@ def _play_all(
         messages = _messages(reader, outlets.topics, start_ns, end_ns)
         count = player.play(islice(messages, args.num_messages), pacing)
         if not count:
-            raise BagError(f"'{args.bag_path}' has no messages in what was chosen")
+            raise BagError(f"'{args.bag_path}' has no messages in this selection")
         if not args.loop:
             node.get_logger().info(f'Played {count} messages.')
             return

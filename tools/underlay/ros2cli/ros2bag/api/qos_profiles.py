@@ -92,8 +92,8 @@ def read_overrides(path: str | None) -> dict[str, QoSProfile]:
         return {topic: _profile(OfferedQos.from_dict(each)) for topic, each in content.items()}
     except (OSError, yaml.YAMLError, AttributeError, KeyError, TypeError, ValueError) as error:
         raise BagError(
-            f"'{path}' is no file with the quality of service of topics "
-            f'({type(error).__name__}: {error}). It looks like: '
+            f"'{path}' is not a file with the quality of service of topics "
+            f'({type(error).__name__}: {error}). Expected format: '
             '{/topic: {reliability: best_effort, history: keep_last, depth: 5}}'
         ) from error
 

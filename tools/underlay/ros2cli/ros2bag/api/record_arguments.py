@@ -41,7 +41,7 @@ def add_record_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_choice(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group('what is recorded')
+    group = parser.add_argument_group('what to record')
     group.add_argument(
         'topics_positional', nargs='*', metavar='topic', help='a topic to record, as with --topics'
     )
@@ -84,7 +84,7 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         '--include-unpublished-topics',
         action='store_true',
-        help='keep topics that have subscribers only, in the list of the recorded ones',
+        help='include topics without publishers in the list of recorded topics',
     )
 
 
@@ -93,7 +93,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         '-o',
         '--output',
-        help='the folder that is made for the bag (default: rosbag2_ with the date and time)',
+        help='the folder to create for the bag (default: rosbag2_ with the date and time)',
     )
     group.add_argument(
         '-s', '--storage', choices=['mcap'], default='mcap', help='format of the files'
@@ -121,7 +121,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
         default=[],
         type=_key_and_value,
         metavar='KEY=VALUE',
-        help='texts that are kept in metadata.yaml',
+        help='entries to store in metadata.yaml',
     )
 
 
@@ -131,7 +131,7 @@ def _add_compression(parser: argparse.ArgumentParser) -> None:
         '--compression-mode',
         choices=['none', 'file', 'message'],
         default=None,
-        help='none, or one of the other two, which mean the same here',
+        help='none, or one of the other two, which are equivalent here',
     )
     group.add_argument(
         '--compression-format', choices=['zstd', 'lz4'], help='how chunks are compressed'
@@ -156,7 +156,7 @@ def _add_behaviour(parser: argparse.ArgumentParser) -> None:
         help='record nothing until SPACE is pressed or the service ~/resume called',
     )
     group.add_argument(
-        '--no-discovery', action='store_true', help='only topics that are there at the start'
+        '--no-discovery', action='store_true', help='only topics that exist at the start'
     )
     group.add_argument(
         '-p',
@@ -164,7 +164,7 @@ def _add_behaviour(parser: argparse.ArgumentParser) -> None:
         type=positive_number,
         default=100,
         metavar='MS',
-        help='time between looks for new topics, in milliseconds (default: %(default)s)',
+        help='time between searches for new topics, in milliseconds (default: %(default)s)',
     )
     group.add_argument(
         '--qos-profile-overrides-path',
@@ -240,9 +240,9 @@ def usage_error(args: argparse.Namespace) -> str:
     if args.all and any(chosen):
         return 'Name topics, types or a regular expression, or all topics with -a, but not both.'
     if not args.all and not any(chosen):
-        return 'Nothing is chosen: name topics after --topics, or record all of them with -a.'
+        return 'Nothing to record: name topics after --topics, or record all of them with -a.'
     if args.output == '':
-        return 'The name of the output folder is empty: name one after -o, or leave -o out.'
+        return 'The name of the output folder is empty: give one after -o, or omit -o.'
     if args.compression_mode in ('file', 'message') and not args.compression_format:
         return 'Choose the compression as well: --compression-format zstd or lz4.'
     return ''

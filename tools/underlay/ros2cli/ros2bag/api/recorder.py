@@ -147,7 +147,7 @@ class Recorder:
         others = [each for each in types if each != topic.type_name]
         if others:
             self._node.get_logger().warning(
-                f"Of topic '{topic.name}' only {topic.type_name} is recorded: "
+                f"Only {topic.type_name} is recorded on topic '{topic.name}': "
                 f'it now has {", ".join(others)} as well'
             )
 

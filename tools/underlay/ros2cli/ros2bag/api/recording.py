@@ -133,9 +133,11 @@ def _run(
 ) -> None:
     logger = node.get_logger()
     logger.info(
-        'Paused: SPACE or the service ~/resume starts.' if args.start_paused else 'Recording...'
+        'Paused: press SPACE or call the service ~/resume to start.'
+        if args.start_paused
+        else 'Recording...'
     )
-    patience = Patience('a topic that is to be recorded', lambda: _missing_text(node, recorder))
+    patience = Patience('a topic to record', lambda: _missing_text(node, recorder))
     # Without discovery the topics are read once, when the graph is complete.
     period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
     node.watch.settled()

@@ -69,4 +69,6 @@ def regular_expression(text: str) -> re.Pattern[str]:
     try:
         return re.compile(text)
     except re.error as error:
-        raise argparse.ArgumentTypeError(f'{text!r} is no regular expression: {error}') from error
+        raise argparse.ArgumentTypeError(
+            f'{text!r} is not a regular expression: {error}'
+        ) from error

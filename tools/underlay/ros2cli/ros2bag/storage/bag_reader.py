@@ -162,7 +162,7 @@ def _no_metadata_text(folder: str) -> str:
     if any(name.endswith('.mcap') for name in os.listdir(folder)):
         return (
             f"'{folder}' has no {FILE_NAME}: its recording is still running or was not finished. "
-            f'What it has can be saved: ros2 bag recover {folder}'
+            f'Recover its contents with: ros2 bag recover {folder}'
         )
     return f"'{folder}' is not the folder of a recording: it has no {FILE_NAME}"
 
@@ -182,7 +182,7 @@ def _foreign_text(path: str, metadata: BagMetadata) -> str:
         else f"in the format '{metadata.storage_identifier}'"
     )
     return (
-        f"'{path}' is {what}, and only plain MCAP is read here. Convert it first: "
+        f"'{path}' is {what}, but only plain MCAP is supported here. Convert it first: "
         f'rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
         '--dst-storage mcap'
     )

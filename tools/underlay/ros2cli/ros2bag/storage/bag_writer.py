@@ -219,8 +219,8 @@ class BagWriter:
 
 def _advice(error: OSError, folder: str) -> str:
     if error.errno == errno.EFBIG:
-        return f'ros2 bag recover {folder}, and the next time split the recording with -b BYTES'
-    return f'make room, and then ros2 bag recover {folder}'
+        return f'run ros2 bag recover {folder}, and next time split the recording with -b BYTES'
+    return f'free some space, then run ros2 bag recover {folder}'
 
 
 def _not_writable(folder: str, error: OSError) -> BagError:

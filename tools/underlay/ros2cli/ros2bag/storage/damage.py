@@ -119,8 +119,8 @@ def size_objection(chunk: Chunk) -> str:
     if size <= min(LARGEST_BYTES, max(HARMLESS_BYTES, LARGEST_RATIO * packed)):
         return ''
     return (
-        f'a chunk of {packed / 1000:.0f} kB would take {size / 10**6:.0f} MB of memory, as no '
-        'recording does: it is damaged, or made to do harm'
+        f'a chunk of {packed / 1000:.0f} kB would take {size / 10**6:.0f} MB of memory, which no '
+        'recording does: it is damaged or malicious'
     )
 
 
@@ -139,7 +139,7 @@ def _unpacked(chunk: Chunk) -> bytes:
     unpack = _unpack_zstd if chunk.compression == 'zstd' else _unpack_lz4
     data = unpack(chunk.data, size)
     if len(data) != size:
-        raise ValueError(f'a chunk with other than the {size} bytes that it says')
+        raise ValueError(f'a chunk whose size is not the {size} bytes that it declares')
     return data
 
 
@@ -230,7 +230,7 @@ def damage_told(path: str) -> Iterator[None]:
         raise _broken(path, error) from error
     except ChunkTooLarge as error:
         raise BrokenFile(
-            f"'{path}' is not read: {error}. What else it has can be saved: "
+            f"'{path}' is not read: {error}. Recover the rest with: "
             f'ros2 bag recover {os.path.dirname(path) or path}'
         ) from error
     except DAMAGE as error:
@@ -242,5 +242,5 @@ def damage_told(path: str) -> Iterator[None]:
 def _broken(path: str, error: BaseException) -> BrokenFile:
     return BrokenFile(
         f"'{path}' was not finished, or is damaged ({type(error).__name__}). "
-        f'What it has can be saved: ros2 bag recover {os.path.dirname(path) or path}'
+        f'Recover its contents with: ros2 bag recover {os.path.dirname(path) or path}'
     )

@@ -189,12 +189,13 @@ def metadata_from_text(text: str, where: str) -> BagMetadata:
     except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
         reason = ' '.join(f'{type(error).__name__}: {error}'.split())
         raise BagError(
-            f"'{where}' is no metadata of a recording ({reason}). Make it anew from the files: "
+            f"'{where}' is not metadata of a recording ({reason}). Recreate it from the files: "
             f'ros2 bag recover {os.path.dirname(where) or "FOLDER"}'
         ) from error
     if version > VERSION:
         raise BagError(
-            f"'{where}' has version {version}; versions up to {VERSION} (ROS 2 Jazzy) are known"
+            f"'{where}' has version {version}; only versions up to {VERSION} (ROS 2 Jazzy) are "
+            'supported'
         )
     return metadata
 
@@ -274,12 +275,12 @@ def _topic(content: dict[str, Any]) -> TopicInformation:
 def _text(value: Any) -> str:
     """Return a string, or raise TypeError."""
     if not isinstance(value, str):
-        raise TypeError(f'{value!r} is no text')
+        raise TypeError(f'{value!r} is not a string')
     return value
 
 
 def _whole(value: Any) -> int:
     """Return an integer, or raise TypeError."""
     if not isinstance(value, int):
-        raise TypeError(f'{value!r} is no whole number')
+        raise TypeError(f'{value!r} is not an integer')
     return value

@@ -147,7 +147,7 @@ def _recover_file(path: str, progress: Callable[[str, float], None]) -> Recovere
     except OSError as error:
         _remove(new_path)
         raise BagError(
-            f"'{new_path}' cannot be written: {error.strerror}. The recording is as it was"
+            f"'{new_path}' cannot be written: {error.strerror}. The recording is unchanged"
         ) from error
     kept_path = _free_path(f'{path}{BROKEN_SUFFIX}')
     os.replace(path, kept_path)

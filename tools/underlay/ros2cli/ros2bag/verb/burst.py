@@ -35,7 +35,7 @@ class BurstVerb(VerbExtension):
             '-n',
             '--num-messages',
             type=positive_int,
-            help='end after so many messages (default: all)',
+            help='stop after this many messages (default: all)',
         )
         parser.set_defaults(**AS_FAST_AS_POSSIBLE)
 

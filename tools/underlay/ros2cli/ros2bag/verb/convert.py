@@ -8,14 +8,14 @@ import argparse
 from ros2bag.verb import VerbExtension
 
 ADVICE = (
-    'Bags are not converted here. The program rosbags-convert does it, between ROS 1, sqlite3 '
-    'and MCAP, and is installed with this:\n  '
+    'This command converts nothing itself. Use rosbags-convert, which is installed as well and '
+    'converts between ROS 1, sqlite3 and MCAP:\n  '
     'rosbags-convert --src OLD --dst NEW --dst-storage mcap'
 )
 
 
 class ConvertVerb(VerbExtension):
-    """Say how a bag is turned into another format."""
+    """Show how to convert a bag to another format."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """

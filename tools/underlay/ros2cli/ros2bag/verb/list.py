@@ -16,7 +16,7 @@ KNOWN = {
 
 
 class ListVerb(VerbExtension):
-    """Print the formats that are known."""
+    """Print the supported formats."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
@@ -28,10 +28,8 @@ class ListVerb(VerbExtension):
             As for `VerbExtension.add_arguments`.
 
         """
-        parser.add_argument('plugin_type', choices=list(KNOWN), help='what is listed')
-        parser.add_argument(
-            '-v', '--verbose', action='store_true', help='say what is done with each'
-        )
+        parser.add_argument('plugin_type', choices=list(KNOWN), help='what to list')
+        parser.add_argument('-v', '--verbose', action='store_true', help='describe each of them')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """

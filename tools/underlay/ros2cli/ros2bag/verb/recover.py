@@ -61,7 +61,7 @@ def _recover_and_report(folder: str) -> None:
     outcomes = recover(folder, _Progress())
     for each in outcomes:
         if each.objection:
-            print(f'{each.path}: left out {each.objection}', file=sys.stderr)
+            print(f'{each.path}: skipped {each.objection}', file=sys.stderr)
         print(_outcome_text(each))
     total = sum(each.message_count for each in outcomes)
     print(f'{folder}: {total} messages; metadata.yaml is written')
@@ -69,14 +69,14 @@ def _recover_and_report(folder: str) -> None:
 
 def _outcome_text(outcome: RecoveredFile) -> str:
     if not outcome.was_broken:
-        return f'{outcome.path}: whole, {outcome.message_count} messages'
+        return f'{outcome.path}: intact, {outcome.message_count} messages'
     if outcome.damaged_parts:
-        damage, advice = f', {outcome.damaged_parts} damaged parts left out', ''
+        damage, advice = f', {outcome.damaged_parts} damaged parts skipped', ''
     else:
         damage, advice = '', ', which can be deleted'
     return (
-        f'{outcome.path}: recovered {outcome.message_count} messages{damage}; what it was is '
-        f'in {outcome.kept_path}{advice}'
+        f'{outcome.path}: recovered {outcome.message_count} messages{damage}; the original '
+        f'is kept as {outcome.kept_path}{advice}'
     )
 
 

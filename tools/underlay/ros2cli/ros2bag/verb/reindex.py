@@ -10,7 +10,7 @@ from ros2bag.verb import VerbExtension
 
 
 class ReindexVerb(VerbExtension):
-    """Write the metadata of a bag anew from its files."""
+    """Recreate the metadata of a bag from its files."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """

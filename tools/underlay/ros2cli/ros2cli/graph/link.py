@@ -149,8 +149,8 @@ def _address(peer: str) -> str:
         return socket.gethostbyname(peer)
     except (OSError, UnicodeError) as error:
         raise RuntimeError(
-            f"ROS_STATIC_PEERS names '{peer}', whose address cannot be found ({error}), so that "
-            'no node can start, either; write its address, or: unset ROS_STATIC_PEERS'
+            f"ROS_STATIC_PEERS names '{peer}', which cannot be resolved ({error}), so no "
+            'node can start, either; use its IP address, or: unset ROS_STATIC_PEERS'
         ) from error
 
 

@@ -53,8 +53,8 @@ def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
     """
     if environment.get('ROS_DISCOVERY_SERVER'):
         raise RuntimeError(
-            'ROS_DISCOVERY_SERVER is set, but these commands ask the nodes themselves and know '
-            'no discovery server; start the nodes without it, after: unset ROS_DISCOVERY_SERVER'
+            'ROS_DISCOVERY_SERVER is set, but these commands query the nodes directly and do '
+            'not support it; start the nodes without it, after: unset ROS_DISCOVERY_SERVER'
         )
     reach = Reach(_domain_id(environment), _extent(environment))
     return reach if reach.is_local else reach._replace(peers=_peers(environment))
@@ -65,7 +65,7 @@ def _domain_id(environment: Mapping[str, str]) -> int:
     if not text.isdecimal() or int(text) > MAX_DOMAIN_ID:
         raise RuntimeError(
             f"ROS_DOMAIN_ID is '{text}', which is not a number from 0 to {MAX_DOMAIN_ID}; "
-            'set it anew, or remove it with: unset ROS_DOMAIN_ID'
+            'correct it, or remove it with: unset ROS_DOMAIN_ID'
         )
     return int(text)
 

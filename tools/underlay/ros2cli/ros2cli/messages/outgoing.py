@@ -182,7 +182,7 @@ def _cast_scalar(type_name: str, value: Any) -> Any:
 
 def _needed(type_name: str) -> str:
     if _is_text(type_name):
-        return 'a text'
+        return 'a string'
     if type_name in NEEDED:
         return NEEDED[type_name]
     lowest, highest = _limits(type_name)

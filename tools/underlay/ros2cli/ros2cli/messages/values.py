@@ -56,7 +56,7 @@ def _parse_yaml(text: str) -> dict[str, Any]:
     try:
         values = yaml.safe_load(text)
     except (yaml.YAMLError, LookupError, TypeError, ValueError) as error:  # of values as !!int ''
-        raise RuntimeError(f'The passed value is no YAML: {error}') from error
+        raise RuntimeError(f'The passed value is not valid YAML: {error}') from error
     if values is None:
         return {}
     if not isinstance(values, dict):
@@ -204,4 +204,6 @@ def _read_stdin() -> str:
     try:
         return sys.stdin.read()
     except UnicodeDecodeError as error:
-        raise RuntimeError(f'--stdin reads text, and standard input is none: {error}') from error
+        raise RuntimeError(
+            f'--stdin reads text, but standard input is not text: {error}'
+        ) from error

@@ -102,7 +102,7 @@ def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = fl
     if not wait_until(node, is_over, Patience(f"the answer of '{name}'"), timeout_s):
         raise RuntimeError(f"The service '{name}' has not answered within {timeout_s:g} s")
     if not future.done():
-        raise RuntimeError(f"The service '{name}' has gone away before it answered")
+        raise RuntimeError(f"The service '{name}' disappeared before it answered")
     return future.result()
 
 
@@ -141,8 +141,8 @@ def call(
         patience = Patience(f"the service '{name}'")
         if not wait_until(node, client.service_is_ready, patience, CONNECTION_TIMEOUT_S):
             raise RuntimeError(
-                f"The service '{name}' does not connect within {CONNECTION_TIMEOUT_S:g} s: "
-                'its process may be stopped, or just be ending'
+                f"The service '{name}' did not connect within {CONNECTION_TIMEOUT_S:g} s: "
+                'its process may be stopped or shutting down'
             )
         return wait_for_response(node, client, client.call_async(request), timeout_s)
     finally:

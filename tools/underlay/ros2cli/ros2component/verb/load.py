@@ -118,7 +118,7 @@ def _add_lists(parser: argparse.ArgumentParser) -> None:
 
 def _log_level(text: str) -> int:
     if text.lower() not in LOG_LEVELS:
-        raise argparse.ArgumentTypeError(f'{text!r} is none of {", ".join(LOG_LEVELS)}')
+        raise argparse.ArgumentTypeError(f'{text!r} is not one of {", ".join(LOG_LEVELS)}')
     return LOG_LEVELS[text.lower()]
 
 

@@ -35,7 +35,7 @@ class UnloadVerb(VerbExtension):
             '-q',
             '--quiet',
             action='store_true',
-            help='Say nothing of components that are unloaded',
+            help='Do not report unloaded components',
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:

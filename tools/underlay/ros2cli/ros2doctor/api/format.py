@@ -58,7 +58,7 @@ def finding_text(category: str, finding: Finding) -> str:
         lines.append(f'{INDENT}why it matters: {finding.why}')
     if finding.mend:
         mend = finding.mend.replace('\n', f'\n{INDENT}')
-        lines.append(f'{INDENT}to mend it: {mend}')
+        lines.append(f'{INDENT}to fix it: {mend}')
     return '\n'.join(lines)
 
 

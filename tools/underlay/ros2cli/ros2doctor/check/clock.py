@@ -52,8 +52,8 @@ def clock_findings(nodes: Collection[str]) -> Iterator[Finding]:
     if nodes:
         yield Finding(
             Severity.ERROR,
-            f'use_sim_time is true, but nobody publishes /clock: {", ".join(nodes)}',
-            'the time of these nodes stands still: what they do at times, they never do, and '
+            f'use_sim_time is true, but there is no publisher on /clock: {", ".join(nodes)}',
+            'the time of these nodes stands still: their timers do not fire, and the '
             'transforms that they publish do not change',
             'start the simulator, or play the bag with --clock; without one, start these nodes '
             'without use_sim_time, or set it back: ros2 param set NODE use_sim_time false',

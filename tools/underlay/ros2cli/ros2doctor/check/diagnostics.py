@@ -54,6 +54,6 @@ def diagnostics_findings(complaints: Iterable[Complaint]) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING if each.level == WARN else Severity.ERROR,
             f"'{each.name}' says: {each.message}",
-            'what this part of the robot does may not be what is expected of it',
-            'to see it as it changes: ros2 topic echo /diagnostics',
+            'this part of the robot may not behave as expected',
+            'watch it with: ros2 topic echo /diagnostics',
         )

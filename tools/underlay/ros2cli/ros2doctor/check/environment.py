@@ -170,8 +170,8 @@ def _current_folder(facts: Environment) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             'the current folder of this terminal has been deleted',
-            'relative paths lead nowhere, and many programs end with an error',
-            'cd (if it has been made anew: cd "$PWD")',
+            'relative paths do not work, and many programs fail',
+            'cd (if it has been created again: cd "$PWD")',
         )
 
 
@@ -189,7 +189,7 @@ def _distribution(facts: Environment) -> Iterator[Finding]:
     if middleware != MIDDLEWARE:
         yield Finding(
             Severity.ERROR,
-            f"RMW_IMPLEMENTATION is '{middleware}', of which PyPI has no wheel",
+            f"RMW_IMPLEMENTATION is '{middleware}', for which PyPI has no wheel",
             'no node can start',
             f'export RMW_IMPLEMENTATION={MIDDLEWARE}',
         )

@@ -13,8 +13,8 @@ from ros2doctor.check.listening import STATIC_SUFFIX, Transform, TRANSFORM_TYPE
 FRAMES_OF_WORLD = ('earth', 'world', 'map', 'odom')  # the order of REP-105
 
 AFTER_CLOCK = (
-    'let somebody publish /clock first, without which nodes publish no transforms of what moves; '
-    'then ask again'
+    'start a publisher of /clock first: without it, nodes publish no transforms of moving parts; '
+    'then check again'
 )
 Parents = dict[str, set[str]]
 
@@ -159,7 +159,7 @@ def _below(found: list[str], parents: Parents) -> set[str]:
 def _loop(topic: str, frames: set[str]) -> Finding:
     return Finding(
         Severity.ERROR,
-        f"on '{topic}', the frames go round in a circle: {', '.join(sorted(frames))}",
+        f"on '{topic}', the frames form a loop: {', '.join(sorted(frames))}",
         'no transform between them can be looked up',
         f'stop one of the nodes that publish them: ros2 topic info --verbose {topic}',
     )

@@ -191,7 +191,7 @@ def client_library_findings(why_not: str, install_again: str) -> Iterator[Findin
             Severity.ERROR,
             f'rclpy does not start: {why_not}',
             'no Python node can start; the running nodes were not examined',
-            f'mend the errors above first; if there are none: {install_again}',
+            f'fix the errors above first; if there are none: {install_again}',
         )
 
 

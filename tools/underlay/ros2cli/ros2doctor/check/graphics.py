@@ -92,8 +92,8 @@ def graphics_findings(facts: Graphics) -> Iterator[Finding]:
         if not is_accessible:
             yield Finding(
                 Severity.WARNING,
-                f"this user may not use the graphics card '{device}'",
-                'the processor draws instead, several times slower',
+                f"this user has no permission to use the graphics card '{device}'",
+                'the CPU renders instead, several times slower',
                 'sudo usermod -aG render,video "$USER", then log in again',
             )
 
@@ -106,7 +106,7 @@ def _backend(facts: Graphics) -> Iterator[Finding]:
     if library is None:
         yield Finding(
             Severity.WARNING,
-            f"MUJOCO_GL is '{name}', which is none of {', '.join(BACKENDS)}",
+            f"MUJOCO_GL is '{name}', which is not one of {', '.join(BACKENDS)}",
             'the simulator does not start, or renders nothing',
             'export MUJOCO_GL=egl',
         )

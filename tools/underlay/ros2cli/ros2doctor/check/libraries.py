@@ -116,8 +116,8 @@ def library_findings(facts: Libraries, set_up: str) -> Iterator[Finding]:
                 Severity.WARNING,
                 f"LD_LIBRARY_PATH names '{folder.path}', which has its own "
                 f'{", ".join(folder.system_libraries)}',
-                'programs of the system and the wheels may not fit these (conda does this, for '
-                'example)',
+                'programs of the system and the wheels may not be compatible with these (conda '
+                'does this, for example)',
                 _without(folder.path),
             )
 

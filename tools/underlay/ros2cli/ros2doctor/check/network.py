@@ -158,7 +158,7 @@ def _range(facts: Network) -> Iterator[Finding]:
     if found not in RANGES:
         yield Finding(
             Severity.ERROR,
-            f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{found}', which is none of {', '.join(RANGES)}",
+            f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{found}', which is not one of {', '.join(RANGES)}",
             'nodes look for others on this machine only, as with LOCALHOST, but their DDS profile '
             'is not read with it, so that other machines still reach them',
             'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, or LOCALHOST',
@@ -210,7 +210,7 @@ def _domain(facts: Network) -> Iterator[Finding]:
     if not text.isdigit() or int(text) > MAX_DOMAIN_ID:
         yield Finding(
             Severity.ERROR,
-            f"ROS_DOMAIN_ID is '{text}', which is no whole number from 0 to {MAX_DOMAIN_ID}",
+            f"ROS_DOMAIN_ID is '{text}', which is not a whole number from 0 to {MAX_DOMAIN_ID}",
             'no node can start',
             'export ROS_DOMAIN_ID=0',
         )

@@ -66,7 +66,7 @@ def name_findings(names: Iterable[str]) -> Iterator[Finding]:
                 f"{count} nodes have the name '{name}'",
                 'calls to its services and parameters reach any of them; often one is left over '
                 'from an earlier start',
-                f'end the one that is not meant (pgrep -af {last} may show the processes), or '
+                f'stop the one that is not needed (pgrep -af {last} may show the processes), or '
                 f'start it under another name: ros2 run ... --ros-args -r __node:={last}_2',
             )
 
@@ -137,8 +137,8 @@ class NeighboursCheck(GraphCheck):
         if graph.elsewhere and graph.domain_id == DEFAULT_DOMAIN:
             yield Finding(
                 Severity.WARNING,
-                f'nodes of other machines are in domain {DEFAULT_DOMAIN}, which everybody has '
-                f'who has not chosen one: {listing(list(graph.elsewhere))}',
+                f'nodes of other machines are in domain {DEFAULT_DOMAIN}, which is the default '
+                f'for everyone who has not chosen one: {listing(list(graph.elsewhere))}',
                 'your commands may move the robot of a neighbour, and theirs may move yours',
                 'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, or agree on a domain: '
                 'export ROS_DOMAIN_ID=42',

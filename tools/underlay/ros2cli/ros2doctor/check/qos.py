@@ -147,7 +147,7 @@ def _other_type(publisher: Endpoint, subscription: Endpoint) -> Finding:
         Severity.ERROR,
         f"on '{publisher.topic}', '{publisher.node}' publishes {publisher.type_name}, but "
         f"'{subscription.node}' subscribes to {subscription.type_name}",
-        f"'{subscription.node}' receives nothing of it, without any message",
+        f"'{subscription.node}' receives none of it, without any error message",
         'use one type in both nodes, or remap one of the topics: --ros-args -r '
         f'{publisher.topic}:=/another_name',
     )
@@ -158,7 +158,7 @@ def _other_qos(publisher: Endpoint, subscription: Endpoint, reason: str) -> Find
         Severity.ERROR,
         f"on '{publisher.topic}', what '{publisher.node}' offers is not what "
         f"'{subscription.node}' asks for ({reason})",
-        f"'{subscription.node}' receives nothing from '{publisher.node}', without any message",
+        f"'{subscription.node}' receives nothing from '{publisher.node}', without any error",
         "give both the same QoS profile: the subscription may ask for less ('best effort', "
         "'volatile'), or the publisher offer more. To see both: "
         f'ros2 topic info --verbose {publisher.topic}',

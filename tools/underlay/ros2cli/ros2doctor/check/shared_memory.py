@@ -95,14 +95,14 @@ def shared_memory_findings(facts: SharedMemory | None) -> Iterator[Finding]:
     if facts is None:
         yield _too_little('is missing or cannot be written', 'sudo mount -t tmpfs tmpfs /dev/shm')
     elif facts.free < ENOUGH_BYTES:
-        mend = CLEAN_UP if facts.orphans else 'end nodes that are not needed'
+        mend = CLEAN_UP if facts.orphans else 'stop nodes that are not needed'
         yield _too_little(f'has {facts.free // 10**6} MB left', mend)
     elif facts.orphan_bytes > TOO_MANY_BYTES:
         yield Finding(
             Severity.WARNING,
             f'/dev/shm holds {facts.orphan_bytes // 10**6} MB of {facts.orphans} processes that '
             'were killed',
-            'it is memory that nobody uses, and stays taken until the machine starts anew',
+            'this memory is unused, but stays allocated until the machine restarts',
             CLEAN_UP,
         )
 

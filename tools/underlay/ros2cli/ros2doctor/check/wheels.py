@@ -203,7 +203,7 @@ def wheel_findings(facts: Wheels) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             f'wheels are missing: {listing(missing)}',
-            'what needs them ends with an ImportError',
+            'programs that need them fail with an ImportError',
             facts.install_again,
         )
     yield from _other_versions(facts)
@@ -229,7 +229,7 @@ def _other_versions(facts: Wheels) -> Iterator[Finding]:
     if rest:
         yield Finding(
             Severity.WARNING,
-            f'wheels have other versions than the tested ones: {listing(rest)}',
+            f'wheels have versions other than the tested ones: {listing(rest)}',
             'builds and programs may behave differently from those of other people',
             facts.install_again,
         )

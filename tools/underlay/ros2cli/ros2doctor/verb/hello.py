@@ -69,7 +69,7 @@ class HelloVerb(VerbExtension):
             default=1,
             help='Hops of multicast; 1 stays in the local network (%(default)s)',
         )
-        add('-1', '--once', action='store_true', help='Print one table and end')
+        add('-1', '--once', action='store_true', help='Print one table and exit')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """

@@ -79,5 +79,5 @@ def _type_or_stdin(text: str) -> str:
         )
     name = sys.stdin.readline().strip()
     if not name:
-        raise RuntimeError('Standard input has no name of an interface in its first line')
+        raise RuntimeError('Standard input has no interface name in its first line')
     return name

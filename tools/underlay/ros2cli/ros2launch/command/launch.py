@@ -64,7 +64,7 @@ class LaunchCommand(CommandExtension):
 
         prefix = _prefix_arguments(args)
         if args.json and not args.dry_run:
-            raise RuntimeError('--json says how --dry-run shows it: give both')
+            raise RuntimeError('--json requires --dry-run')
         path, arguments = find_target(
             args.package_name, args.launch_file_name, args.launch_arguments
         )
@@ -162,7 +162,7 @@ def _add_launch_options(parser: argparse.ArgumentParser) -> None:
     add(
         '--allow-unknown-args',
         action='store_true',
-        help='Accept arguments that no launch file declares, without a word',
+        help='Accept arguments that no launch file declares, without a warning',
     )
     add(
         '--dry-run',
@@ -173,7 +173,7 @@ def _add_launch_options(parser: argparse.ArgumentParser) -> None:
     add(
         '--no-preflight',
         action='store_true',
-        help='Start what there is, also if some programs are missing',
+        help='Start what is available, even if some programs are missing',
     )
     add(
         '--scoped-location',

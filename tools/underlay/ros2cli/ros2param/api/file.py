@@ -98,9 +98,9 @@ def _read(path: str) -> Mapping[Any, Any]:
     except UnicodeDecodeError as error:
         raise _Mistake(f'cannot be read: {error}') from error
     except yaml.YAMLError as error:
-        raise _Mistake(f'is no YAML: {error}') from error
+        raise _Mistake(f'is not valid YAML: {error}') from error
     if not isinstance(document, Mapping):
-        raise _Mistake('has no names of nodes')
+        raise _Mistake('has no node names')
     return document
 
 

@@ -158,13 +158,13 @@ def _refusal(args: argparse.Namespace, package_folder: str) -> str:
         )
     if os.sep in args.package_name:
         return (
-            f"'{args.package_name}' is a path and no name of a package. Give the folder in which "
+            f"'{args.package_name}' is a path, not a package name. Give the folder in which "
             'to create the package with --destination-directory.'
         )
     if not re.fullmatch(r'[A-Za-z][A-Za-z0-9_-]*', args.package_name):
         return (
-            f"'{args.package_name}' is no name of a package: use letters, digits and underscores, "
-            f"with a letter first, for example '{_better_name(args.package_name)}'."
+            f"'{args.package_name}' is not a valid package name: use letters, digits and "
+            f"underscores, with a letter first, for example '{_better_name(args.package_name)}'."
         )
     if args.build_type == 'cmake':
         return (
@@ -202,16 +202,16 @@ def _module_problem(what: str, name: str) -> str:
     """Check whether a name is valid for a Python module; return the problem, or ''."""
     if not name.isidentifier():
         return (
-            f"{what} '{name}' is no name of a Python module: use letters, digits and underscores "
-            f"only, for example '{_better_name(name)}'."
+            f"{what} '{name}' is not a valid Python module name: use letters, digits and "
+            f"underscores only, for example '{_better_name(name)}'."
         )
     if keyword.iskeyword(name):
-        why = f"'{name}' is a word of the language Python, so that nobody could import it"
+        why = f"'{name}' is a Python keyword, so it could not be imported"
     elif what == 'package' and name in sys.stdlib_module_names:
         why = f"Python has a module '{name}' of its own, which is imported instead"
     else:
         return ''
-    return f"{what} '{name}' cannot be: {why}. Choose another name, for example 'my_{name}'."
+    return f"{what} '{name}' cannot be used: {why}. Choose another name, for example 'my_{name}'."
 
 
 def _better_name(name: str) -> str:

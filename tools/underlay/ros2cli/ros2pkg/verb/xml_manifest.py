@@ -53,7 +53,7 @@ class XmlVerb(VerbExtension):
         try:
             root = ElementTree.parse(manifest).getroot()
         except ElementTree.ParseError as error:
-            return f"'{manifest}' is no XML: {error}"
+            return f"'{manifest}' is not valid XML: {error}"
         if args.tag is None:
             print(ElementTree.tostring(root, encoding='unicode'))
             return None

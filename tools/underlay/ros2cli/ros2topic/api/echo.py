@@ -48,11 +48,11 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
 
     def hint() -> str:
         if listener.has_received:
-            return 'Messages come, but none passes the filter.'
+            return 'Messages arrive, but none passes the filter.'
         graph = node.graph
         if graph.count_publishers(topic):
             return ''
-        return f'Nobody publishes it. {closest_topic(graph, topic)}'
+        return f'It has no publisher. {closest_topic(graph, topic)}'
 
     listener.listen(end, Patience(f"a message on '{topic}'", hint))
 

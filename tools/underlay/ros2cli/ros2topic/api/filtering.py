@@ -26,7 +26,7 @@ def _of_numbers(operate: Callable[..., Any]) -> Callable[..., Any]:
     def operate_on_numbers(*operands: Any) -> Any:
         for operand in operands:
             if not isinstance(operand, Number):
-                raise TypeError(f'only numbers can be calculated with, not {operand!r}')
+                raise TypeError(f'arithmetic needs numbers, not {operand!r}')
         return operate(*operands)
 
     return operate_on_numbers
@@ -88,14 +88,14 @@ class MessageFilter:
         try:
             self._condition = _compile(ast.parse(text.strip(), mode='eval').body, {'m'})
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-            raise argparse.ArgumentTypeError(f'{text!r} is no expression: {error}') from error
+            raise argparse.ArgumentTypeError(f'{text!r} is not an expression: {error}') from error
 
     def __call__(self, message: Any) -> bool:
         """Evaluate the condition; raise RuntimeError if it does not fit the message."""
         try:
             return bool(self._condition({'m': message}))
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-            raise RuntimeError(f'The filter {self._text!r} does not fit: {error}') from error
+            raise RuntimeError(f'The filter {self._text!r} cannot be applied: {error}') from error
 
 
 def _compile(node: ast.AST, known: set[str]) -> Part:
@@ -123,7 +123,7 @@ def _name(node: ast.Name, known: set[str]) -> Part:
 def _attribute(node: ast.Attribute, known: set[str]) -> Part:
     value, name = _compile(node.value, known), node.attr
     if name.startswith('_'):
-        raise argparse.ArgumentTypeError(f'{ast.unparse(node)!r} is no field of a message')
+        raise argparse.ArgumentTypeError(f'{ast.unparse(node)!r} is not a field of a message')
     return lambda names: _field(value(names), name)
 
 
@@ -186,7 +186,7 @@ def _call(node: ast.Call, known: set[str]) -> Part:
     name = node.func.id if isinstance(node.func, ast.Name) else ''
     if name not in FUNCTIONS or node.keywords:
         raise argparse.ArgumentTypeError(
-            f'{ast.unparse(node)!r} is no call that a filter allows: ' + ', '.join(FUNCTIONS)
+            f'{ast.unparse(node)!r} is not a call that a filter allows: ' + ', '.join(FUNCTIONS)
         )
     function, arguments = FUNCTIONS[name], [_compile(each, known) for each in node.args]
     return lambda names: function(*(argument(names) for argument in arguments))

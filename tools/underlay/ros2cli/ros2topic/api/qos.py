@@ -228,7 +228,7 @@ class Incompatibility:
         ends = [f"'/{self._node.get_name()}'", f"'{_full_name(info)}'"]
         publisher, subscriber = ends if self._publishes else reversed(ends)
         cure = 'Change the --qos options' + (
-            '.' if self._publishes else ', or leave them away to follow the publisher.'
+            '.' if self._publishes else ', or omit them to follow the publisher.'
         )
         return (
             f'WARNING: no message passes from {publisher} to {subscriber} on '

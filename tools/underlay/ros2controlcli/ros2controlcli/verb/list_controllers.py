@@ -37,7 +37,7 @@ class ListControllersVerb(VerbExtension):
         for part, text in PARTS.items():
             parser.add_argument(f'--{part.replace("_", "-")}', action='store_true', help=text)
         parser.add_argument(
-            '-v', '--verbose', action='store_true', help='List all of that of each controller'
+            '-v', '--verbose', action='store_true', help='List all of these for each controller'
         )
         add_manager_arguments(parser)
 

@@ -36,7 +36,7 @@ class SwitchControllersVerb(VerbExtension):
                 help=f'Name of the controllers to be {verb}d',
             )
         parser.add_argument(
-            '--strict', action='store_true', help='Switch all of them, or none if one cannot be'
+            '--strict', action='store_true', help='Switch all of them, or none if one fails'
         )
         parser.add_argument(
             '--activate-asap', action='store_true', help='Activate as soon as that is possible'
@@ -66,7 +66,7 @@ class SwitchControllersVerb(VerbExtension):
 
         """
         if not args.activate and not args.deactivate:
-            return 'Name controllers: --activate NAME, --deactivate NAME, or both'
+            return 'Choose controllers: --activate NAME, --deactivate NAME, or both'
         from builtin_interfaces.msg import Duration
 
         seconds = int(args.switch_timeout)
