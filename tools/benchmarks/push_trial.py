@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from humanoid_control.walking.sides import NAMES
+from humanoid_control.walking.planar import NAMES
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.model import Physics

@@ -14,7 +14,7 @@ import multiprocessing
 import sys
 
 from arguments import in_range
-from humanoid_control.walking.sides import NAMES, SIDES
+from humanoid_control.walking.planar import NAMES, SIDES
 from push_trial import DIRECTIONS, PushTrial, stands_after
 
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
-from humanoid_control.controllers.commands import CommandError, JointNames, Silence
+from humanoid_control.controllers.command_controllers import Silence
+from humanoid_control.controllers.commands import CommandError, JointNames
 from humanoid_control.testing import JOINTS
 import pytest
 

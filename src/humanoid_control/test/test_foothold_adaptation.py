@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 from humanoid_control.walking import WalkParameters
-from humanoid_control.walking.foothold_adaptation import FootholdAdaptation
 from humanoid_control.walking.footing import Foothold, Footing, SoleReading
-from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.planar import GroundPlane, LEFT, PlanarPose, RIGHT
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.terrain import GroundPlane
+from humanoid_control.walking.terrain import FootholdAdaptation
 from humanoid_description.robot import Robot
 import pytest
 

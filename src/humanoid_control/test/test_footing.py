@@ -5,10 +5,8 @@ from __future__ import annotations
 
 from humanoid_control.walking.footing import Foothold, Footing, loads_for
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
+from humanoid_control.walking.planar import GroundPlane, LEFT, PlanarPose, RIGHT, SIDES
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.terrain import GroundPlane
 from humanoid_description.robot import Robot
 import numpy as np
 import pytest

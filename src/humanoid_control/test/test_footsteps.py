@@ -8,8 +8,7 @@ import math
 
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.sides import LEFT, other, outwards, RIGHT
+from humanoid_control.walking.planar import LEFT, other, outwards, PlanarPose, RIGHT
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest

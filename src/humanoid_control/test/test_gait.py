@@ -10,11 +10,17 @@ from humanoid_control.walking.gait import Gait
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
-from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.sides import LEFT, other, outwards, SIDES
+from humanoid_control.walking.planar import (
+    GroundPlane,
+    LEFT,
+    LEVEL,
+    other,
+    outwards,
+    PlanarPose,
+    SIDES,
+)
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.swing_foot import SoleMotion
-from humanoid_control.walking.terrain import GroundPlane, LEVEL
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest

@@ -6,15 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_control.dynamics import BodyState
-from humanoid_control.walking.foothold_adaptation import footing_below
-from humanoid_control.walking.footing import Footing, Loads, loads_for
-from humanoid_control.walking.inverse_dynamics import ground_efforts, GroundReaction, hip_efforts
+from humanoid_control.walking.footing import Footing, GroundReaction, Loads, loads_for
+from humanoid_control.walking.inverse_dynamics import ground_efforts, hip_efforts
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
-from humanoid_control.walking.planar import Turning
-from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.planar import SIDES, Turning
 from humanoid_control.walking.state_estimator import Attitude, base_on, RobotState
 from humanoid_control.walking.support_polygon import FootShape, SupportPolygon
+from humanoid_control.walking.terrain import footing_below
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot

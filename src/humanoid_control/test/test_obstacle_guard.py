@@ -8,8 +8,7 @@ import math
 
 from humanoid_control.walking.obstacle_guard import ExternalForces, LegInAir, ObstacleGuard
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
 from humanoid_control.walking.touch import ForceObserver
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from humanoid_control.dynamics import BodyModel, BodyState
-from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planned_acceleration import (
+from humanoid_control.walking.inverse_dynamics import (
     leg_maps,
     PlannedAcceleration,
     whole_acceleration,
     within,
 )
-from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import LEFT, RIGHT
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot

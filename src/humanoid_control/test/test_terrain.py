@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.walking.sides import LEFT, other
-from humanoid_control.walking.terrain import GroundLevel, GroundPlane, LevelFloor, tilt_of
+from humanoid_control.walking.planar import GroundPlane, LEFT, other, tilt_of
+from humanoid_control.walking.terrain import GroundLevel, LevelFloor
 from humanoid_description.rotations import from_rpy
 import numpy as np
 import pytest

@@ -7,8 +7,7 @@ import math
 
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import Point
-from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.planar import LEFT, Point, RIGHT
 from humanoid_control.walking.state_estimator import Attitude, RobotState
 from humanoid_control.walking.touch import TouchObserver
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot

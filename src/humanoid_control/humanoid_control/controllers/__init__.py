@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Controllers, which compute the joint targets for the backend in each control period."""
 
+from humanoid_control.controllers.command_controllers import Follower, TrajectoryRunner
 from humanoid_control.controllers.commands import CommandError, JointNames, PartialTargets
-from humanoid_control.controllers.follower import Follower
 from humanoid_control.controllers.goal_controller import GoalController
 from humanoid_control.controllers.gripper_controller import (
     Grip,
@@ -25,7 +25,6 @@ from humanoid_control.controllers.trajectory_goal import (
     TrajectoryGoal,
     TrajectoryRequest,
 )
-from humanoid_control.controllers.trajectory_runner import TrajectoryRunner
 
 __all__ = [
     'ClaimingController',

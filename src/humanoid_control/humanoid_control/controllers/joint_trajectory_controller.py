@@ -9,9 +9,8 @@ from enum import IntEnum
 
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_control.controllers.goal_controller import GoalController
-from humanoid_control.controllers.spline import Spline
+from humanoid_control.controllers.spline import Spline, spline_from
 from humanoid_control.controllers.trajectory_goal import TrajectoryGoal
-from humanoid_control.controllers.trajectory_runner import spline_from
 
 REACHED = 'Goal reached.'
 LIMBS = {

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Spline interpolation of several joints through points."""
+"""Spline interpolation of several joints through points, such as those of a trajectory."""
 
 from __future__ import annotations
 
-from humanoid_control.backends import Array
+from humanoid_control.backends import Array, JointTargets
+from humanoid_control.controllers.trajectory import Trajectory
 import numpy as np
 
 
@@ -148,3 +149,43 @@ def inner_velocities(times_s: Array, positions: Array) -> Array:
     velocities = np.zeros_like(positions)
     velocities[1:-1] = np.where(onwards, 2.0 * before * after / sum_of, 0.0)
     return velocities
+
+
+def spline_from(trajectory: Trajectory, held: JointTargets) -> Spline:
+    """
+    Build the spline from the last targets of joints through the points of a trajectory.
+
+    Parameters
+    ----------
+    trajectory
+        Trajectory of m joints; its times count from now.
+    held
+        Last targets of all joints of the robot. The spline starts at their positions and
+        velocities, unless the trajectory has a point at time zero or before.
+
+    Returns
+    -------
+    Spline
+        Spline of the m joints; it ends at rest if the points have no velocities.
+
+    """
+    times_s, positions_rad = trajectory.times_s, trajectory.positions_rad
+    velocities_rad_s, accelerations = trajectory.velocities_rad_s, trajectory.accelerations_rad_s2
+    begins = times_s[0] > 0.0
+    if begins:
+        times_s = np.concatenate(([0.0], times_s))
+        positions_rad = _led_by(held.positions_rad[trajectory.indices], positions_rad)
+    if velocities_rad_s is None:
+        velocities_rad_s = inner_velocities(times_s, positions_rad)
+        if begins:
+            velocities_rad_s[0] = held.velocities_rad_s[trajectory.indices]
+    elif begins:
+        velocities_rad_s = _led_by(held.velocities_rad_s[trajectory.indices], velocities_rad_s)
+    if accelerations is not None and begins:
+        accelerations = _led_by(np.zeros_like(accelerations[0]), accelerations)
+    return Spline(times_s, positions_rad, velocities_rad_s, accelerations)
+
+
+def _led_by(first: Array, rows: Array) -> Array:
+    """Prepend a row."""
+    return np.vstack([first, rows])

@@ -3,19 +3,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 import time
+from typing import Protocol
 
 from humanoid_common.diagnostics import Diagnostics, Level, PartStatus
 from humanoid_control.hosting.host import Host
-from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 SLOW_SHARE = 0.9
 PATIENCE_S = 5.0
 DUPLICATES_PERIOD_S = 3.0
+
+
+@dataclass(frozen=True)
+class RobotHealth:
+    """Health of a robot."""
+
+    mode: str
+    walk: str
+    trouble: str
+    """The reason why the mode cannot work as it should; empty if it can."""
+    is_blocked: bool
+    """Whether something is in its way."""
+    holds_because: str
+    claimed: Mapping[str, str]
+    """The joints that controllers have claimed from the mode, and these controllers."""
+
+
+class MonitoredRobots(Protocol):
+    """Robots of a node whose health is reported."""
+
+    time_s: float
+    """Time of the newest observation."""
+
+    def health(self) -> Mapping[str, RobotHealth]:
+        """Return the health of each robot, by name."""
 
 
 class HostDiagnostics:
@@ -41,7 +66,7 @@ class HostDiagnostics:
         self,
         node: Node,
         host: Host,
-        robots: HostedRobots,
+        robots: MonitoredRobots,
         speed: Callable[[], Speed | None] = lambda: None,
     ) -> None:
         self._host, self._robots, self._speed = host, robots, speed

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 from geometry_msgs.msg import Pose, Twist
 from humanoid_common.qos import COMMAND
@@ -15,6 +14,7 @@ from humanoid_control.errors import WalkingError
 from humanoid_control.hosting.controller_actions import ControllerActions
 from humanoid_control.hosting.controller_services import ControllerServices
 from humanoid_control.hosting.conversions import body_pose_of, points_of, velocity_of
+from humanoid_control.hosting.diagnostics import RobotHealth
 from humanoid_control.hosting.pacing import RateLimiter
 from humanoid_control.hosting.parameters import HostParameters, WALKING
 from humanoid_control.hosting.reports import FallReport, ObstacleReport, Refusals
@@ -35,21 +35,6 @@ from trajectory_msgs.msg import JointTrajectory
 
 BLOCKED = 'blocked'
 """Walking state of a robot that an obstacle blocks, whether it steps back or stands."""
-
-
-@dataclass(frozen=True)
-class RobotHealth:
-    """Health of a robot, for diagnostics."""
-
-    mode: str
-    walk: str
-    trouble: str
-    """The reason why the mode cannot work as it should; empty if it can."""
-    is_blocked: bool
-    """Whether something is in its way."""
-    holds_because: str
-    claimed: Mapping[str, str]
-    """The joints that controllers have claimed from the mode, and these controllers."""
 
 
 class HostedRobots:

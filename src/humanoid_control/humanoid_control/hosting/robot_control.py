@@ -23,7 +23,7 @@ from humanoid_control.controllers import (
     TrajectoryRequest,
     TrajectoryRunner,
 )
-from humanoid_control.controllers.commands import Clock, Silence
+from humanoid_control.controllers.command_controllers import Clock, Silence
 from humanoid_control.controllers.gripper_controller import gripper_controllers
 from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
 from humanoid_control.controllers.modes import Still

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from humanoid_control.backends import ImuNoise, JointTargets, Observation
 from humanoid_control.controllers import follow_mode, hold_mode
-from humanoid_control.controllers.commands import Clock
+from humanoid_control.controllers.command_controllers import Clock
 from humanoid_control.controllers.modes import Mode
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.limits import JointLimits

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import limited, PlanarPose, Point
-from humanoid_control.walking.sides import other, outwards
+from humanoid_control.walking.planar import limited, other, outwards, PlanarPose, Point
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.rotations import wrap_angle
 

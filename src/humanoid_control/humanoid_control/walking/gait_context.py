@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Context shared by the phases of the gait, with their input and their output."""
+"""Interface of the phases of the gait, with their input, their output and their shared context."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from humanoid_control.walking.footing import Footing, SoleReading
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
@@ -16,8 +18,7 @@ from humanoid_control.walking.obstacle_guard import (
 )
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import BalanceReference, DcmPlan, Pendulum, ZmpSegment
-from humanoid_control.walking.planar import PlanarPose, Point, Turning
-from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.planar import PlanarPose, Point, SIDES, Turning
 from humanoid_control.walking.step_adjustment import StepAdjuster
 from humanoid_control.walking.swing_foot import Swing
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
@@ -54,6 +55,88 @@ class GaitOutput:
     swing: Swing | None
     sides: tuple[int, ...]
     """Sides of the feet that carry the robot."""
+
+
+class Phase(Protocol):
+    """Interface of a phase of the gait."""
+
+    @property
+    def name(self) -> str:
+        """Return the name shown to users."""
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """Return the sides of the feet that carry the robot."""
+
+    @property
+    def turning(self) -> Turning:
+        """Return the target heading of the pelvis."""
+
+    @property
+    def footsteps(self) -> Sequence[Footstep]:
+        """Return the planned footsteps."""
+
+    def replan(self, now: GaitInput) -> None:
+        """
+        Replan for a velocity that has changed abruptly.
+
+        Parameters
+        ----------
+        now
+            Estimates and measurements of this control period.
+
+        """
+
+    def leg_in_air(self, now: GaitInput) -> LegInAir | None:
+        """
+        Get the leg that swings freely, and the push on it.
+
+        Parameters
+        ----------
+        now
+            Estimates and measurements of this control period.
+
+        Returns
+        -------
+        LegInAir or None
+            None unless a foot is in the air that only an obstacle can push.
+
+        """
+
+    def advance(self, now: GaitInput) -> Phase:
+        """
+        Advance the gait by one control period.
+
+        Parameters
+        ----------
+        now
+            Estimates and measurements of this control period.
+
+        Returns
+        -------
+        Phase
+            The present phase: this one or its successor.
+
+        """
+
+    def reference(self, now: GaitInput) -> BalanceReference:
+        """
+        Compute the reference of the DCM and of the ZMP; call it after `advance`.
+
+        Parameters
+        ----------
+        now
+            Estimates and measurements of this control period.
+
+        Returns
+        -------
+        BalanceReference
+            Both points in the plane of the odom frame, in m.
+
+        """
+
+    def swing(self) -> Swing | None:
+        """Compute the swing foot target, or None without one; call it once per control period."""
 
 
 @dataclass

@@ -1,20 +1,59 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Planar geometry: points, vectors, poses and headings in the ground plane.
+Planar geometry: points, poses and headings in the ground plane, the sides, planes below the feet.
 
 A point or vector of the plane is a complex number x + iy: the equations of the pendulum are the
-same for both axes, and one expression covers both. A rotation is a factor of magnitude one.
+same for both axes, and one expression covers both. A rotation is a factor of magnitude one. The
+sides are indices of pairs, left first, as in observations.
 """
 
 from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
+import math
 
-from humanoid_description.rotations import wrap_angle
+from humanoid_description.rotations import about_z, wrap_angle
+import numpy as np
+from numpy.typing import NDArray
 
+Array = NDArray[np.float64]
 Point = complex
 """x + iy; the unit is stated where it is used."""
+LEFT, RIGHT = 0, 1
+SIDES = (LEFT, RIGHT)
+NAMES = ('left', 'right')
+
+
+def other(side: int) -> int:
+    """
+    Get the opposite side.
+
+    Parameters
+    ----------
+    side
+        `LEFT` or `RIGHT`.
+
+    """
+    return 1 - side
+
+
+def outwards(side: int) -> float:
+    """
+    Get the direction away from the body along y.
+
+    Parameters
+    ----------
+    side
+        `LEFT` or `RIGHT`.
+
+    Returns
+    -------
+    float
+        1 for the left side, -1 for the right one.
+
+    """
+    return 1.0 if side == LEFT else -1.0
 
 
 def dot(a: Point, b: Point) -> float:
@@ -182,3 +221,82 @@ def smooth_turn(from_rad: float, to_rad: float, time_s: float, duration_s: float
         from_rad + turn_rad * share**2 * (3.0 - 2.0 * share),
         turn_rad * 6.0 * share * (1.0 - share) / duration_s,
     )
+
+
+@dataclass(frozen=True)
+class GroundPlane:
+    """Ground plane below a foot, or the plane of a sole."""
+
+    height_m: float = 0.0
+    """Height of the origin of a sole that stands on it."""
+    tilt: Point = 0j
+    """Horizontal part of its unit normal, which points downhill."""
+
+    def rotation(self, yaw_rad: float) -> Array:
+        """
+        Compute the rotation of a sole that stands flat on the plane.
+
+        Parameters
+        ----------
+        yaw_rad
+            Heading of the sole before it is tilted, in the odom frame.
+
+        Returns
+        -------
+        Array
+            Rotation matrix (3, 3) from the sole to the odom frame.
+
+        """
+        x, y = self.tilt.real, self.tilt.imag
+        z = math.sqrt(max(0.0, 1.0 - x * x - y * y))
+        k = 1.0 / (1.0 + z)
+        # The shortest rotation from the vertical to the normal (Rodrigues).
+        leaning = np.array(
+            [[1.0 - k * x * x, -k * x * y, x], [-k * x * y, 1.0 - k * y * y, y], [-x, -y, z]]
+        )
+        rotation: Array = leaning @ about_z(yaw_rad)
+        return rotation
+
+    def height_beside(self, offset_m: Point, tilt: Point) -> float:
+        """
+        Extrapolate the height of the ground to a point beside the plane's origin.
+
+        Parameters
+        ----------
+        offset_m
+            Horizontal offset of the point, in the axes of the odom frame.
+        tilt
+            Tilt of the ground between the two, as `GroundPlane.tilt`.
+
+        Returns
+        -------
+        float
+            Height in m, with the same zero as that of the plane.
+
+        """
+        return self.height_m - dot(tilt, offset_m)
+
+
+LEVEL = GroundPlane()
+
+
+def tilt_of(rotation: Array, most_rad: float) -> Point:
+    """
+    Compute the tilt of a sole, clamped to the maximum slope of the ground.
+
+    Parameters
+    ----------
+    rotation
+        Rotation matrix (3, 3) from the sole to the odom frame.
+    most_rad
+        Greatest angle between the sole and the horizontal.
+
+    Returns
+    -------
+    Point
+        As `GroundPlane.tilt`, in the axes of the odom frame.
+
+    """
+    tilt = complex(rotation[0, 2], rotation[1, 2])
+    size = abs(tilt)
+    return tilt * min(1.0, math.sin(most_rad) / size) if size > 0.0 else tilt

@@ -8,7 +8,7 @@ import math
 
 from humanoid_control.backends import Array, JointTargets
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.sides import NAMES, outwards, SIDES
+from humanoid_control.walking.planar import NAMES, outwards, SIDES
 from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 import numpy as np

@@ -13,8 +13,7 @@ from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.errors import DynamicsError, WalkingError
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion
-from humanoid_control.walking.planar import limited, Point
-from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.planar import limited, Point, SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_description.rotations import about_z, from_quaternion, to_rpy, yaw_of
 import numpy as np

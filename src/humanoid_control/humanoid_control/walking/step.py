@@ -8,11 +8,17 @@ from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gait_context import GaitContext, GaitInput
 from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.pendulum import BalanceReference, DcmPlan
-from humanoid_control.walking.planar import PlanarPose, Point, smooth_turn, Turning
-from humanoid_control.walking.sides import other, SIDES
+from humanoid_control.walking.planar import (
+    GroundPlane,
+    other,
+    PlanarPose,
+    Point,
+    SIDES,
+    smooth_turn,
+    Turning,
+)
 from humanoid_control.walking.step_adjustment import Residual
 from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
-from humanoid_control.walking.terrain import GroundPlane
 
 _INSTANT_S = 1e-4
 """Until the foot has landed, the plan is evaluated no later than this before the step ends."""

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from humanoid_control.errors import WalkingError
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import cross, dot, limited, PlanarPose, Point
-from humanoid_control.walking.sides import outwards
+from humanoid_control.walking.planar import cross, dot, limited, outwards, PlanarPose, Point
 from humanoid_description.geometry import convex_hull, outline
 from humanoid_description.kinematics import chain, pose_along
 from humanoid_description.robot import Array, Robot

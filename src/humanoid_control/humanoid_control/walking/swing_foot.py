@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.terrain import GroundPlane, LEVEL
+from humanoid_control.walking.planar import GroundPlane, LEVEL, PlanarPose, Point
 from humanoid_description.rotations import wrap_angle
 import numpy as np
 from numpy.typing import NDArray

@@ -5,15 +5,10 @@ from __future__ import annotations
 
 from humanoid_control.backends import JointTargets
 from humanoid_control.walking.body_pose import BodyPose, BodyPoseFollower, UPRIGHT
-from humanoid_control.walking.foothold_adaptation import (
-    FootholdAdaptation,
-    footing_below,
-    soles_below,
-)
 from humanoid_control.walking.footing import Footing, loads_for, SoleReading
-from humanoid_control.walking.gait import Gait
+from humanoid_control.walking.gait import Gait, STAND
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
-from humanoid_control.walking.inverse_dynamics import InverseDynamics
+from humanoid_control.walking.inverse_dynamics import InverseDynamics, PlannedAcceleration, within
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import (
@@ -23,10 +18,7 @@ from humanoid_control.walking.pendulum import (
     Motion,
     Pendulum,
 )
-from humanoid_control.walking.phases import STAND
-from humanoid_control.walking.planar import Point
-from humanoid_control.walking.planned_acceleration import PlannedAcceleration, within
-from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.planar import Point, SIDES
 from humanoid_control.walking.state_estimator import (
     base_on,
     BaseEstimate,
@@ -35,7 +27,13 @@ from humanoid_control.walking.state_estimator import (
     RobotState,
 )
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.terrain import GroundLevel, LevelFloor
+from humanoid_control.walking.terrain import (
+    FootholdAdaptation,
+    footing_below,
+    GroundLevel,
+    LevelFloor,
+    soles_below,
+)
 from humanoid_control.walking.touch import ForceObserver, TouchObserver
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot

@@ -11,9 +11,8 @@ from humanoid_control.walking.body_pose import BodyPose, UPRIGHT
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
 from humanoid_control.walking.recovery import Recovery, StandingState
-from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.state_estimator import RobotState, StateEstimator
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand

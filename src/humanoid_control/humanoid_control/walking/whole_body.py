@@ -14,8 +14,7 @@ from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion
-from humanoid_control.walking.planar import Turning
-from humanoid_control.walking.sides import LEFT, NAMES, RIGHT, SIDES
+from humanoid_control.walking.planar import LEFT, NAMES, RIGHT, SIDES, Turning
 from humanoid_control.walking.state_estimator import BaseEstimate, BaseMotion
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot

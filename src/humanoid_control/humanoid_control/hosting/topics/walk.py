@@ -11,7 +11,7 @@ from humanoid_control.backends import Array
 from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector, topic
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry as WalkOdometry
-from humanoid_control.walking.sides import LEFT, outwards, SIDES
+from humanoid_control.walking.planar import LEFT, outwards, SIDES
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.walker import WalkStatus
 from humanoid_description.rotations import about_z, from_quaternion, quaternion_of
