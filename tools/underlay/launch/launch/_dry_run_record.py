@@ -26,18 +26,15 @@ target_container, composable_nodes
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import chain
 import os
 import shlex
 import textwrap
-from typing import Any, Optional, TYPE_CHECKING
+from typing import Any, Optional
 
 from launch._checks.failures import CallSite
-
-if TYPE_CHECKING:
-    from launch.launch_description_entity import LaunchDescriptionEntity
 
 _WIDTH = 80
 _STEP = '  '
@@ -86,97 +83,6 @@ class Record:
                 for event, records in self.waiting
             ]
         return data
-
-
-class VisitObserver:
-    """Observer of visited entities; this base class ignores all notifications."""
-
-    def enter(self, entity: LaunchDescriptionEntity) -> None:
-        """
-        Handle the start of the visit of an entity.
-
-        Parameters
-        ----------
-        entity
-            The entity that is about to be visited.
-
-        """
-
-    def leave(self, entity: LaunchDescriptionEntity) -> None:
-        """
-        Handle the end of the visit of an entity, unless it has failed.
-
-        Parameters
-        ----------
-        entity
-            The entity, which has been visited with all its sub-entities.
-
-        """
-
-    def expanded(self, text: str) -> None:
-        """
-        Handle the expansion of the expression of a condition.
-
-        Parameters
-        ----------
-        text
-            The expanded expression.
-
-        """
-
-    def decided(self, entity: LaunchDescriptionEntity, value: bool) -> None:
-        """
-        Handle the evaluation of the condition of an entity.
-
-        Parameters
-        ----------
-        entity
-            The entity that has the condition.
-        value
-            Whether the condition is fulfilled.
-
-        """
-
-    def note(self, **facts: Any) -> None:
-        """
-        Handle facts about the entity that is being visited.
-
-        Parameters
-        ----------
-        **facts
-            The facts by name; the module docstring lists the names.
-
-        """
-
-    def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
-        """
-        Handle the entities that the visited entity leaves waiting for an event.
-
-        Parameters
-        ----------
-        event
-            A description of the event.
-        entities
-            The entities that are visited on the event.
-
-        """
-
-    def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
-        """
-        Compare the environment of a process with that at the start of the visit.
-
-        Parameters
-        ----------
-        environment
-            The variables of the process.
-
-        Returns
-        -------
-        dict
-            The variables that differ, None for those that are unset; always empty here.
-
-        """
-        return {}
 
 
 def tree_lines(record: Record) -> Iterator[str]:

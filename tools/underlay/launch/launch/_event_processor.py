@@ -191,7 +191,7 @@ class EventProcessor:
             from launch._checks.preflight import check_what_waits
 
             check_what_waits(self._context)
-        checks.run(self._context)
+        checks.run(self._context, self._logger)
 
     # Futures.
 

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, NamedTuple, Optional, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
 from launch._checks.before_start import note_file
-from launch._checks.failures import CallSite
+from launch._checks.failures import CallSite, OpenFile
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.substitution import SubstitutionFailure
 
@@ -22,15 +22,6 @@ _RELATIVE = (
     'is $(dirname)/..., or ThisLaunchFileDir() in Python; in a package it is '
     '$(find-pkg-share PACKAGE)/..., or FindPackageShare().'
 )
-
-
-class OpenFile(NamedTuple):
-    """Entry of the include stack: a launch file, the including line, and the state then."""
-
-    path: str
-    call_site: Optional[CallSite]
-    configurations: dict[str, Any]
-    environment: Optional[dict[str, str]]
 
 
 class CircularIncludeError(RuntimeError):

@@ -43,9 +43,7 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Optional[Condition] = None, **unknown: Any) -> None:
         if unknown:
-            from launch._checks.arguments import unknown_keyword
-
-            raise unknown_keyword(type(self), next(iter(unknown)))
+            raise _unknown_keyword(type(self), next(iter(unknown)))
         if condition is not None and not hasattr(condition, 'evaluate'):
             raise TypeError(
                 "the argument 'condition' must be a condition such as IfCondition(...), but it is "
@@ -189,3 +187,17 @@ class Action(LaunchDescriptionEntity):
         raise NotImplementedError(
             f"the action class '{type(self).__name__}' does not define execute(context)"
         )
+
+
+def _unknown_keyword(owner: type, keyword: str) -> TypeError:
+    """Create the error for an unknown keyword argument, with a suggestion."""
+    from ros_environment.suggestions import did_you_mean
+
+    known = {
+        name
+        for each in owner.__mro__
+        for name in getattr(each.__init__, '__kwdefaults__', None) or ()  # type: ignore[misc]
+    }
+    hint = did_you_mean(keyword, known)
+    text = f"{owner.__name__}() got an unexpected keyword argument '{keyword}'"
+    return TypeError(f'{text}. {hint}' if hint else text)

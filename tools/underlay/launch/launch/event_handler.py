@@ -10,7 +10,7 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from launch._include_stack import OpenFile
+    from launch._checks.failures import OpenFile
     from launch.event import Event
     from launch.launch_context import LaunchContext
 

@@ -3,17 +3,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Optional, TYPE_CHECKING
+from collections.abc import Container, Iterable
+from typing import Any, Optional, Protocol, TYPE_CHECKING
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from launch.actions.declare_launch_argument import DeclareLaunchArgument
-    from launch.actions.include_launch_description import IncludeLaunchDescription
+    from launch._checks.failures import CallSite
     from launch.launch_context import LaunchContext
+    from launch.substitution import Substitution
 
-    ArgumentWithIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]
+    ArgumentWithIncludes = tuple['DeclaredArgument', list['Inclusion']]
+
+
+class DeclaredArgument(Protocol):
+    """The declaration of a launch argument, such as the action `DeclareLaunchArgument`."""
+
+    call_site: Optional[CallSite]
+    _conditionally_included: bool
+
+    @property
+    def name(self) -> str:
+        """Return the name of the argument."""
+
+    @property
+    def default_value(self) -> Optional[list[Substitution]]:
+        """Return the default as a list of substitutions, or None if the argument must be given."""
+
+    @property
+    def description(self) -> str:
+        """Return the description of the argument."""
+
+    @property
+    def choices(self) -> Optional[Container[str]]:
+        """Return the allowed values, or None if all are allowed."""
+
+    @property
+    def condition(self) -> Any:
+        """Return the condition of the declaration, or None if there is none."""
+
+
+class Inclusion(Protocol):
+    """An include of a launch description, such as the action `IncludeLaunchDescription`."""
+
+    call_site: Optional[CallSite]
+
+    @property
+    def launch_description_source(self) -> Any:
+        """Return the source, which tells its location."""
+
+    def given_names(self) -> list[str]:
+        """List the names of the launch arguments that are given, as far as they are known."""
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -104,7 +144,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     def get_launch_arguments(
         self,
         conditional_inclusion: bool = False,
-    ) -> list[DeclareLaunchArgument]:
+    ) -> list[DeclaredArgument]:
         """
         List the launch arguments declared here and in included descriptions.
 
@@ -115,7 +155,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
         Returns
         -------
-        list of DeclareLaunchArgument
+        list of DeclaredArgument
             The first declaration of each name.
 
         """
@@ -142,6 +182,78 @@ class LaunchDescription(LaunchDescriptionEntity):
             The first declaration of each name, and its includes, outermost first.
 
         """
-        from launch.launch_introspector import find_arguments
+        return _find_arguments(self.__entities, conditional_inclusion)
 
-        return find_arguments(self.__entities, conditional_inclusion)
+
+def _find_arguments(
+    entities: Iterable[LaunchDescriptionEntity],
+    conditional: bool,
+) -> list[ArgumentWithIncludes]:
+    """
+    Collect the launch arguments that a tree of entities declares.
+
+    The search is depth-first and goes into included descriptions. The first declaration of a name
+    counts. Entities that follow a `ResetLaunchConfigurations` in the same list are not searched.
+    Whether the entities are visited conditionally is recorded on the arguments declared directly
+    among them.
+    """
+    found: dict[str, ArgumentWithIncludes] = {}
+    _search(entities, conditional, [], found)
+    return list(found.values())
+
+
+def _search(
+    entities: Iterable[Any],
+    conditional: bool,
+    includes: list[Inclusion],
+    found: dict[str, ArgumentWithIncludes],
+) -> None:
+    """
+    Search depth-first; stop at a reset of the launch configurations.
+
+    Objects that are not entities are skipped here; visiting them raises an error.
+    """
+    for entity in entities:
+        if not isinstance(entity, LaunchDescriptionEntity):
+            continue
+        if entity.resets_configurations:
+            return
+        if entity.declares_argument:
+            _note(entity, conditional, includes, found)  # type: ignore[arg-type]
+        else:
+            _descend(entity, includes, found)
+
+
+def _note(
+    argument: DeclaredArgument,
+    conditional: bool,
+    includes: list[Inclusion],
+    found: dict[str, ArgumentWithIncludes],
+) -> None:
+    """Record a declaration unless its name has been declared before."""
+    if argument.name not in found:
+        argument._conditionally_included = conditional or argument.condition is not None
+        found[argument.name] = (argument, includes)
+
+
+def _descend(
+    entity: Any,
+    includes: list[Inclusion],
+    found: dict[str, ArgumentWithIncludes],
+) -> None:
+    """Search the sub-entities; only direct children under a condition count as conditional."""
+    if entity.includes_file:
+        if _is_inside_itself(entity, includes):
+            return
+        includes = [*includes, entity]
+    _search(entity.describe_sub_entities(), False, includes, found)
+    for _, children in entity.describe_conditional_sub_entities():
+        _search(children, True, includes, found)
+
+
+def _is_inside_itself(include: Inclusion, includes: list[Inclusion]) -> bool:
+    """Check whether an include refers to a file that is already being searched."""
+    location = include.launch_description_source.location_in_advance()
+    return location is not None and any(
+        each.launch_description_source.location_in_advance() == location for each in includes
+    )

@@ -20,10 +20,19 @@ class LaunchDescriptionEntity:
     ----------
     runs_code_of_the_user
         Whether a visit runs a function of the launch file, which may do anything.
+    declares_argument
+        Whether it declares a launch argument, as `DeclareLaunchArgument` does.
+    includes_file
+        Whether its sub-entities are read from a launch file, as by `IncludeLaunchDescription`.
+    resets_configurations
+        Whether it removes launch configurations, as `ResetLaunchConfigurations` does.
 
     """
 
     runs_code_of_the_user = False
+    declares_argument = False
+    includes_file = False
+    resets_configurations = False
 
     def visit(
         self,

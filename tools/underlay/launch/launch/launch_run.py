@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
-from typing import Any, Optional, TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Optional, Protocol, TYPE_CHECKING
 
 from launch._context_state import ContextLocals, EnvironmentScopes
 
@@ -13,11 +13,187 @@ if TYPE_CHECKING:
     import asyncio
 
     from launch._checks.before_start import BeforeStart
-    from launch._dry_run_record import VisitObserver
-    from launch._include_stack import OpenFile
-    from launch._supervision.process_registry import ProcessRegistry
+    from launch._checks.failures import OpenFile
+    from launch._supervision.member import Member
+    from launch._supervision.program import Child, Program
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
+    from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class VisitObserver:
+    """Observer of visited entities; this base class ignores all notifications."""
+
+    def enter(self, entity: LaunchDescriptionEntity) -> None:
+        """
+        Handle the start of the visit of an entity.
+
+        Parameters
+        ----------
+        entity
+            The entity that is about to be visited.
+
+        """
+
+    def leave(self, entity: LaunchDescriptionEntity) -> None:
+        """
+        Handle the end of the visit of an entity, unless it has failed.
+
+        Parameters
+        ----------
+        entity
+            The entity, which has been visited with all its sub-entities.
+
+        """
+
+    def expanded(self, text: str) -> None:
+        """
+        Handle the expansion of the expression of a condition.
+
+        Parameters
+        ----------
+        text
+            The expanded expression.
+
+        """
+
+    def decided(self, entity: LaunchDescriptionEntity, value: bool) -> None:
+        """
+        Handle the evaluation of the condition of an entity.
+
+        Parameters
+        ----------
+        entity
+            The entity that has the condition.
+        value
+            Whether the condition is fulfilled.
+
+        """
+
+    def note(self, **facts: Any) -> None:
+        """
+        Handle facts about the entity that is being visited.
+
+        Parameters
+        ----------
+        **facts
+            The facts by name; `launch._dry_run_record` lists the names.
+
+        """
+
+    def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
+        """
+        Handle the entities that the visited entity leaves waiting for an event.
+
+        Parameters
+        ----------
+        event
+            A description of the event.
+        entities
+            The entities that are visited on the event.
+
+        """
+
+    def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
+        """
+        Compare the environment of a process with that at the start of the visit.
+
+        Parameters
+        ----------
+        environment
+            The variables of the process.
+
+        Returns
+        -------
+        dict
+            The variables that differ, None for those that are unset; always empty here.
+
+        """
+        return {}
+
+
+class GroupLeader(Protocol):
+    """A process of the launch that leads a group of its own, as the registry knows it."""
+
+    @property
+    def pid(self) -> int:
+        """Return the id of the process, which is also that of its group."""
+
+    def kill_at_once(self) -> None:
+        """Kill the process group, and wait for the process to exit."""
+
+
+class RunningProcesses(Protocol):
+    """
+    The running processes of a launch, as the supervisor of one of them knows them.
+
+    `launch._supervision.process_registry` has them while the launch runs.
+    """
+
+    async def spawn(self, program: Program, stdout: int, stderr: int) -> Child:
+        """
+        Start a program.
+
+        Parameters
+        ----------
+        program
+            The program to start.
+        stdout, stderr
+            The file descriptors for its output.
+
+        """
+
+    def add(self, process: GroupLeader, sigterm_s: float, sigkill_s: float) -> None:
+        """
+        Register a process that was started.
+
+        Parameters
+        ----------
+        process
+            The process.
+        sigterm_s, sigkill_s
+            The time from SIGINT to SIGTERM and from SIGTERM to SIGKILL, in s.
+
+        """
+
+    def remove(self, process: GroupLeader) -> None:
+        """
+        Unregister a process that has exited with all of its group.
+
+        Parameters
+        ----------
+        process
+            The process.
+
+        """
+
+    def hurry(self) -> None:
+        """Start without delay what is still to be started."""
+
+    def end_remainder(self) -> None:
+        """Start to terminate processes that have left their process groups."""
+
+    def detaches(self, environment: Mapping[str, str]) -> bool:
+        """
+        Whether a process with this environment may outlive the launch.
+
+        Parameters
+        ----------
+        environment
+            Its variables.
+
+        """
+
+    def descendants(self, pid: int) -> list[Member]:
+        """
+        List the processes that a process has started, directly or indirectly.
+
+        Parameters
+        ----------
+        pid
+            The id of the process.
+
+        """
 
 
 class LaunchRun:
@@ -53,7 +229,7 @@ class LaunchRun:
     before_start
         The pre-start checks, None once they have run.
     processes
-        The registry of processes while the launch runs, else None.
+        The running processes while the launch runs, else None.
     first_failure
         The exit status of the first process that failed, as a shell reports it, or None.
 
@@ -72,7 +248,7 @@ class LaunchRun:
         self.warned_locations: set[tuple[str, str]] = set()
         self.observer: Optional[VisitObserver] = None
         self.before_start: Optional[BeforeStart] = None
-        self.processes: Optional[ProcessRegistry] = None
+        self.processes: Optional[RunningProcesses] = None
         self.first_failure: Optional[int] = None
         self._wake_up: Optional[Callable[[], None]] = None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base classes of substitutions, and the error of one that cannot be performed."""
+"""The base class of substitutions, and the error of one that cannot be performed."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from typing import Any, ClassVar, NoReturn, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
-    from launch.some_substitutions_type import SomeSubstitutionsType
-    from launch.substitutions.path_join_substitution import PathJoinSubstitution
 
 
 class Substitution:
@@ -88,16 +86,6 @@ class Substitution:
     def describe(self) -> str:
         """Return a short human-readable description."""
         return repr(self)
-
-
-class PathOperator(Substitution):
-    """Base class of substitutions of paths that can be joined with `/`."""
-
-    def __truediv__(self, other: SomeSubstitutionsType) -> PathJoinSubstitution:
-        """Return this path joined with another."""
-        from launch.substitutions.path_join_substitution import PathJoinSubstitution
-
-        return PathJoinSubstitution([self, other])
 
 
 class SubstitutionFailure(RuntimeError):

@@ -24,7 +24,7 @@ class IoHandler:
 
     def __init__(self) -> None:
         """Create a handler without processes."""
-        self._outputs: dict[ExecuteLocal, list[ProcessIO]] = {}
+        self._outputs: dict[Any, list[ProcessIO]] = {}  # by the actions of the processes
         self._all: list[ProcessIO] = []
 
     def track(self, process: ExecuteLocal) -> None:

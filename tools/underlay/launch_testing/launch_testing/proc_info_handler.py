@@ -22,7 +22,7 @@ class ProcInfoHandler:
 
     def __init__(self) -> None:
         """Create a handler without processes."""
-        self._infos: dict[ExecuteLocal, ProcessInfo] = {}
+        self._infos: dict[Any, ProcessInfo] = {}  # by the actions of the processes
 
     def append(self, process_info: ProcessInfo) -> None:
         """

@@ -156,35 +156,6 @@ def typed(keyword: str, value: Any, kind: Any, expected: str) -> Any:
         _refuse(keyword, expected, value)
 
 
-def unknown_keyword(owner: type, keyword: str) -> TypeError:
-    """
-    Create the error for an unknown keyword argument, with a suggestion.
-
-    Parameters
-    ----------
-    owner
-        The class that was to be constructed; its base classes are searched as well.
-    keyword
-        The unknown keyword.
-
-    Returns
-    -------
-    TypeError
-        The error, for the caller to raise.
-
-    """
-    from ros_environment.suggestions import did_you_mean
-
-    known = {
-        name
-        for each in owner.__mro__
-        for name in getattr(each.__init__, '__kwdefaults__', None) or ()  # type: ignore[misc]
-    }
-    hint = did_you_mean(keyword, known)
-    text = f"{owner.__name__}() got an unexpected keyword argument '{keyword}'"
-    return TypeError(f'{text}. {hint}' if hint else text)
-
-
 def _refuse(
     keyword: str,
     expected: str,

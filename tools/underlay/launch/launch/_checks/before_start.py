@@ -13,6 +13,8 @@ import os
 from typing import Any, TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
+    import logging
+
     from launch.launch_context import LaunchContext
 
 _SHARE = '/share/'
@@ -48,7 +50,7 @@ class BeforeStart:
         self.checks.append(added)
         return added  # type: ignore[no-any-return]
 
-    def run(self, context: LaunchContext) -> None:
+    def run(self, context: LaunchContext, logger: logging.Logger) -> None:
         """
         Run the added checks, then warn about installed files that are older than their source.
 
@@ -56,6 +58,8 @@ class BeforeStart:
         ----------
         context
             The context of the launch, whose first description has been visited.
+        logger
+            The logger for the warnings.
 
         Raises
         ------
@@ -67,7 +71,7 @@ class BeforeStart:
             check(context)
         installed = [path for path in self.files if _SHARE in path]
         if installed:
-            warn_of_stale_files(installed)
+            warn_of_stale_files(installed, logger)
 
     def explain_failure(self, context: LaunchContext) -> list[str]:
         """
@@ -103,7 +107,7 @@ def note_file(context: LaunchContext, path: str) -> None:
         context.run.before_start.files[path] = None
 
 
-def warn_of_stale_files(paths: Iterable[str]) -> None:
+def warn_of_stale_files(paths: Iterable[str], logger: logging.Logger) -> None:
     """
     Warn about installed files whose source is newer and differs.
 
@@ -111,16 +115,17 @@ def warn_of_stale_files(paths: Iterable[str]) -> None:
     ----------
     paths
         The paths of the installed files.
+    logger
+        The logger for the warnings.
 
     """
-    from launch.logging import get_logger
     from ros_environment.source_tree import StaleFiles
 
     files = StaleFiles()
     for path in paths:
         source = files.newer_source(path)
         if source:
-            get_logger('launch').warning(
+            logger.warning(
                 "'%s' is newer than the installed '%s', which is used; run colcon build",
                 source,
                 path,

@@ -8,15 +8,13 @@ reported with the error.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import os
 import sys
 from typing import Any, NamedTuple, Optional, TYPE_CHECKING
 
 if TYPE_CHECKING:
     import logging
-
-    from launch.launch_context import LaunchContext
-    from launch.launch_description_entity import LaunchDescriptionEntity
 
 _OWN_PACKAGES = frozenset(
     (
@@ -50,6 +48,15 @@ class CallSite(NamedTuple):
     def __str__(self) -> str:
         """Format the file name and the line number."""
         return f"'{self.file_name}'" + (f', line {self.line}' if self.line else '')
+
+
+class OpenFile(NamedTuple):
+    """Entry of the include stack: a launch file, the including line, and the state then."""
+
+    path: str
+    call_site: Optional[CallSite]
+    configurations: dict[str, Any]
+    environment: Optional[dict[str, str]]
 
 
 def calling_line() -> Optional[CallSite]:
@@ -175,8 +182,8 @@ def note_line(
 
 def note_place(
     error: BaseException,
-    entity: LaunchDescriptionEntity,
-    context: LaunchContext,
+    entity: object,
+    include_stack: Sequence[OpenFile],
 ) -> None:
     """
     Record on an error which entity failed, with all includes that led to it.
@@ -189,8 +196,8 @@ def note_place(
         The exception to annotate.
     entity
         The entity whose visit raised it.
-    context
-        The context of the launch, which knows the files that are being read.
+    include_stack
+        The launch files that are being read, each included by the previous one.
 
     """
     if getattr(error, 'launch_place_is_complete', False):
@@ -199,39 +206,39 @@ def note_place(
     inner = place_of(error)
     if inner is None:
         line = raising_line(error) if _runs_code_of_the_user(entity) else None
-        place = _place_of_entity(line or created, type(entity).__name__, context)
+        place = _place_of_entity(line or created, type(entity).__name__, include_stack)
     else:
-        outer = _includes(inner.call_site, created, context)
+        outer = _includes(inner.call_site, created, include_stack)
         place = inner._replace(includes=tuple(dict.fromkeys((*inner.includes, *outer))))
     if place is not None:
         _set(error, place)
         error.launch_place_is_complete = True  # type: ignore[attr-defined]
 
 
-def _runs_code_of_the_user(entity: LaunchDescriptionEntity) -> bool:
+def _runs_code_of_the_user(entity: object) -> bool:
     return getattr(entity, 'runs_code_of_the_user', False)
 
 
 def _place_of_entity(
     call_site: Optional[CallSite],
     action: str,
-    context: LaunchContext,
+    include_stack: Sequence[OpenFile],
 ) -> Optional[FailurePlace]:
     """Return the origin of an entity; without a line, use the launch file being read."""
-    if call_site is None and context.run.include_stack:
-        call_site = CallSite(context.run.include_stack[-1].path, 0)
+    if call_site is None and include_stack:
+        call_site = CallSite(include_stack[-1].path, 0)
     if call_site is None:
         return None
-    return FailurePlace(call_site, action, _includes(call_site, None, context))
+    return FailurePlace(call_site, action, _includes(call_site, None, include_stack))
 
 
 def _includes(
     call_site: CallSite,
     including: Optional[CallSite],
-    context: LaunchContext,
+    include_stack: Sequence[OpenFile],
 ) -> tuple[CallSite, ...]:
     """Return the lines of the includes that led to a line, innermost first."""
-    lines = [including, *(each.call_site for each in reversed(context.run.include_stack))]
+    lines = [including, *(each.call_site for each in reversed(include_stack))]
     return tuple(dict.fromkeys(each for each in lines if each is not None and each != call_site))
 
 

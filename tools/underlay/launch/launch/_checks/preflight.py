@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+import os
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch._checks.failures import note_place
+from launch._checks.programs import explain_missing_program, is_there, ProgramNotFoundError
 from launch.substitution import Substitution
 
 if TYPE_CHECKING:
@@ -81,6 +83,38 @@ def constant_text(parts: Any, context: LaunchContext) -> Optional[str]:
     return perform_substitutions(context, substitutions)
 
 
+def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
+    """
+    Check the program of a process that waits for an event, as far as it is known.
+
+    A missing path only causes a warning, as it may be created before the start.
+
+    Parameters
+    ----------
+    parts
+        The substitutions of the program.
+    env
+        The complete environment of the process; nothing is checked unless it is None.
+    context
+        The context in which the substitutions are performed.
+
+    Raises
+    ------
+    ProgramNotFoundError
+        A program given by name is not on the PATH.
+
+    """
+    program = constant_text(parts, context)
+    if program is None or env is not None or is_there(program, None, None):
+        return
+    text = explain_missing_program(program)
+    if not os.path.dirname(program):
+        raise ProgramNotFoundError(text)
+    from launch.logging import get_logger
+
+    get_logger('launch').warning('%s (it waits for an event and may be made until then)', text)
+
+
 def may_look_up(name: str, context: LaunchContext) -> bool:
     """
     Whether an entity that waits for an event may look up a launch configuration.
@@ -142,15 +176,13 @@ def _check_all(
             entity.check_in_advance(context)
             _check_all(_inside(entity), context, seen)
         except Exception as error:
-            note_place(error, entity, context)
+            note_place(error, entity, context.run.include_stack)
             raise
 
 
 def _inside(entity: LaunchDescriptionEntity) -> list[LaunchDescriptionEntity]:
     """Return the sub-entities of an entity without reading any file."""
-    from launch.actions.include_launch_description import IncludeLaunchDescription
-
-    if isinstance(entity, IncludeLaunchDescription):
+    if getattr(entity, 'includes_file', False):
         return []
     later = entity.describe_conditional_sub_entities()
     return [*entity.describe_sub_entities(), *(each for _, group in later for each in group)]

@@ -7,10 +7,7 @@ from collections.abc import Mapping, Sequence
 import errno
 import os
 import shlex
-from typing import Any, Optional, TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+from typing import Any, Optional
 
 
 class ProgramNotFoundError(FileNotFoundError):
@@ -50,40 +47,6 @@ def _warn_of_folder(label: str, folder: str) -> None:
     get_logger('launch').warning(
         "the folder '%s', in which process[%s] is to be started, %s", folder, label, missing
     )
-
-
-def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
-    """
-    Check the program of a process that waits for an event, as far as it is known.
-
-    A missing path only causes a warning, as it may be created before the start.
-
-    Parameters
-    ----------
-    parts
-        The substitutions of the program.
-    env
-        The complete environment of the process; nothing is checked unless it is None.
-    context
-        The context in which the substitutions are performed.
-
-    Raises
-    ------
-    ProgramNotFoundError
-        A program given by name is not on the PATH.
-
-    """
-    from launch._checks.preflight import constant_text
-
-    program = constant_text(parts, context)
-    if program is None or env is not None or is_there(program, None, None):
-        return
-    text = explain_missing_program(program)
-    if not os.path.dirname(program):
-        raise ProgramNotFoundError(text)
-    from launch.logging import get_logger
-
-    get_logger('launch').warning('%s (it waits for an event and may be made until then)', text)
 
 
 def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str]]) -> bool:

@@ -84,7 +84,7 @@ def _remove(file: str) -> None:
 if __name__ == '__main__':
     folder = os.path.dirname(os.path.abspath(__file__))
     sys.path.insert(0, os.path.dirname(os.path.dirname(folder)))
-    import launch
+    import launch._supervision
 
     del sys.path[:2]
     from launch._supervision.family import Family

@@ -12,7 +12,6 @@ from launch.events.process import ProcessStdin, ProcessTargetedEvent, SignalProc
 
 if TYPE_CHECKING:
     from launch._supervision.supervisor import Supervisor
-    from launch.actions.execute_local import ExecuteLocal
     from launch.launch_context import LaunchContext
 
 _EVENTS = (ProcessTargetedEvent, ProcessStdin, Shutdown)
@@ -31,7 +30,7 @@ class ProcessControl(BaseEventHandler):
 
     """
 
-    def __init__(self, action: ExecuteLocal, supervisor: Supervisor) -> None:
+    def __init__(self, action: object, supervisor: Supervisor) -> None:
         super().__init__(matcher=self.matches)
         self._action = action
         self._supervisor = supervisor

@@ -12,6 +12,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch.utilities.type_utils import perform_typed_substitution
 
 if TYPE_CHECKING:
+    from launch._supervision.program import PerformedOptions
     from launch.launch_context import LaunchContext
 
 
@@ -54,6 +55,8 @@ class ProcessOptions:
             The launch configuration `emulate_tty` is not a boolean.
 
         """
+        from launch._supervision.program import PerformedOptions
+
         return PerformedOptions(
             shell=self.shell,
             emulate_tty=self._wants_tty(context),
@@ -84,38 +87,6 @@ class ProcessOptions:
         if not isinstance(self.output, list):
             return self.output
         return perform_substitutions(context, self.output)
-
-
-@dataclass(frozen=True)
-class PerformedOptions:
-    """Options of a process with performed substitutions; the timeouts remain strings."""
-
-    shell: bool
-    emulate_tty: bool
-    cached_output: bool
-    log_cmd: bool
-    output: Any
-    output_format: str
-    sigterm_timeout: str
-    sigkill_timeout: str
-    respawn: bool
-    detached: bool
-    respawn_delay: Optional[float]
-    respawn_max_retries: int
-
-    def may_respawn(self, respawned: int) -> bool:
-        """
-        Whether to respawn the process after it has exited.
-
-        Parameters
-        ----------
-        respawned
-            How many times it has already been respawned.
-
-        """
-        return self.respawn and (
-            self.respawn_max_retries < 0 or respawned < self.respawn_max_retries
-        )
 
 
 def _timeout(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Mapping
 from dataclasses import replace
 import os
 from typing import Optional, TYPE_CHECKING
@@ -14,9 +15,10 @@ from launch._supervision.program import Child, execute, Program
 from ros_environment.temporary_files import FileListening
 
 if TYPE_CHECKING:
+    from launch._supervision.member import Member
     from launch._supervision.prefork.prefork import Prefork
     from launch._supervision.remainder import Remainder
-    from launch._supervision.running_process import RunningProcess
+    from launch.launch_run import GroupLeader
 
 
 class ProcessRegistry:
@@ -39,7 +41,7 @@ class ProcessRegistry:
 
     def __init__(self, loop: asyncio.AbstractEventLoop, *, forks: bool = True) -> None:
         self.family = Family.of_new_run()
-        self._processes: set[RunningProcess] = set()
+        self._processes: set[GroupLeader] = set()
         self._guard = OrphanGuard(self.family, loop)
         self._files = FileListening(self._guard.add_file)
         self._remainder: Optional[Remainder] = None
@@ -90,7 +92,7 @@ class ProcessRegistry:
         if self._prefork is not None:
             self._prefork.close()
 
-    def add(self, process: RunningProcess, sigterm_s: float, sigkill_s: float) -> None:
+    def add(self, process: GroupLeader, sigterm_s: float, sigkill_s: float) -> None:
         """
         Register a process that was started.
 
@@ -108,7 +110,7 @@ class ProcessRegistry:
         self._processes.add(process)
         self._guard.add(process.pid)
 
-    def remove(self, process: RunningProcess) -> None:
+    def remove(self, process: GroupLeader) -> None:
         """
         Unregister a process that has exited with all of its group.
 
@@ -120,6 +122,30 @@ class ProcessRegistry:
         """
         self._processes.discard(process)
         self._guard.remove(process.pid)
+
+    def detaches(self, environment: Mapping[str, str]) -> bool:
+        """
+        Whether a process with this environment may outlive the launch.
+
+        Parameters
+        ----------
+        environment
+            Its variables.
+
+        """
+        return self.family.detaches(environment)
+
+    def descendants(self, pid: int) -> list[Member]:
+        """
+        List the processes that a process has started, directly or indirectly.
+
+        Parameters
+        ----------
+        pid
+            The id of the process.
+
+        """
+        return self.family.descendants(pid)
 
     def _groups(self) -> set[int]:
         groups = {process.pid for process in self._processes}

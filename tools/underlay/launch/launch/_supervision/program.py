@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Programs, and how to execute them."""
+"""Programs, how to execute them, and the options of their processes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 import subprocess
-from typing import IO, Optional, Protocol
+from typing import Any, IO, Optional, Protocol
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,49 @@ class Program:
     preloader: Optional[str] = None  # the module that imports what such a process needs
     detached: bool = False  # whether it outlives the launch
     marking: Callable[[], AbstractContextManager[None]] = nullcontext  # entered at its start
+
+
+@dataclass(frozen=True)
+class PerformedOptions:
+    """Options of a process with performed substitutions; the timeouts remain strings."""
+
+    shell: bool
+    emulate_tty: bool
+    cached_output: bool
+    log_cmd: bool
+    output: Any
+    output_format: str
+    sigterm_timeout: str
+    sigkill_timeout: str
+    respawn: bool
+    detached: bool
+    respawn_delay: Optional[float]
+    respawn_max_retries: int
+
+    def may_respawn(self, respawned: int) -> bool:
+        """
+        Whether to respawn the process after it has exited.
+
+        Parameters
+        ----------
+        respawned
+            How many times it has already been respawned.
+
+        """
+        return self.respawn and (
+            self.respawn_max_retries < 0 or respawned < self.respawn_max_retries
+        )
+
+
+class ProgramOwner(Protocol):
+    """Action that runs a program, as the supervisor of its process knows it."""
+
+    @property
+    def preloader(self) -> Optional[str]:
+        """Return the module that imports what the program needs; without it, none is forked."""
+
+    def description_of_process(self) -> dict[str, Any]:
+        """Return the final name, cmd, cwd and env."""
 
 
 class Child(Protocol):

@@ -11,18 +11,16 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch._checks.programs import explain_spawn_failure
 from launch._supervision.process_group import end_leftovers, Escalation
-from launch._supervision.process_options import PerformedOptions
 from launch._supervision.process_output import LineFormat, ProcessOutput
-from launch._supervision.program import execute, Program
+from launch._supervision.program import execute, PerformedOptions, Program, ProgramOwner
 from launch._supervision.running_process import RunningProcess, start_process
 from launch.events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
 from launch.logging import get_logger, launch_config
 
 if TYPE_CHECKING:
-    from launch._supervision.family import Family
     from launch._supervision.member import Member
-    from launch.actions.execute_local import ExecuteLocal
     from launch.launch_context import LaunchContext
+    from launch.launch_run import RunningProcesses
 
 
 class Supervisor:
@@ -53,7 +51,7 @@ class Supervisor:
 
     def __init__(
         self,
-        action: ExecuteLocal,
+        action: ProgramOwner,
         options: PerformedOptions,
         context: LaunchContext,
         loop: asyncio.AbstractEventLoop,
@@ -187,7 +185,7 @@ class Supervisor:
 
     def _is_detached_by_environment(self) -> bool:
         processes = self._run.processes
-        return processes is not None and processes.family.detaches(self._details['env'])
+        return processes is not None and processes.detaches(self._details['env'])
 
     async def _ends_before_launch(self, process: RunningProcess) -> bool:
         """Wait for a process or the launch to end; on the latter, let go and return False."""
@@ -309,7 +307,7 @@ class Supervisor:
         if processes is None:  # the launch itself terminates all processes outside the groups
             process.send_signal(number)
             return
-        self._note_escaped(process, processes.family, number)
+        self._note_escaped(process, processes, number)
         process.send_signal(number)
         if self._escaped:
             from launch._supervision.member import send
@@ -318,7 +316,7 @@ class Supervisor:
                 send(member, number)
 
     def _note_escaped(
-        self, process: RunningProcess, family: Family, number: signal.Signals
+        self, process: RunningProcess, processes: RunningProcesses, number: signal.Signals
     ) -> None:
         """Record the descendants outside the group while their ancestry is known."""
         from launch._supervision.member import is_alive
@@ -326,7 +324,7 @@ class Supervisor:
         with_nested = number == signal.SIGKILL
         news = (
             member
-            for member in family.descendants(process.pid)
+            for member in processes.descendants(process.pid)
             if member.group != process.pid and (with_nested or not member.is_nested)
         )
         self._escaped = list(dict.fromkeys([*filter(is_alive, self._escaped), *news]))

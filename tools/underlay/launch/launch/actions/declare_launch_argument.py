@@ -45,6 +45,8 @@ class DeclareLaunchArgument(Action):
 
     """
 
+    declares_argument = True
+
     def __init__(
         self,
         name: str,

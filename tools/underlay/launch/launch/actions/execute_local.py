@@ -17,10 +17,11 @@ from launch.substitutions.launch_configuration import LaunchConfiguration
 if TYPE_CHECKING:
     import asyncio
 
-    from launch._dry_run_record import VisitObserver
-    from launch._supervision.process_options import PerformedOptions, ProcessOptions
+    from launch._supervision.process_options import ProcessOptions
+    from launch._supervision.program import PerformedOptions
     from launch._supervision.supervisor import Supervisor
     from launch.launch_context import LaunchContext
+    from launch.launch_run import VisitObserver
 
 OnExit = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
 Output = Union[SomeSubstitutionsType, dict[str, Any]]
@@ -321,7 +322,7 @@ class ExecuteLocal(Action):
             The program does not exist.
 
         """
-        from launch._checks.programs import require_later_program
+        from launch._checks.preflight import require_later_program
 
         description = self.__process_description
         if not self.shell and description.cmd:

@@ -14,6 +14,23 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
 
+# Attributes with substitutions, and the constructor arguments that they become.
+_TEXTS = {
+    'cwd': 'cwd',
+    'launch-prefix': 'prefix',
+    'name': 'name',
+    'output': 'output',
+}
+# Typed attributes that may have substitutions.
+_LATER_TYPED = {
+    'detached': bool,
+    'respawn': bool,
+    'sigkill_timeout': float,
+    'sigterm_timeout': float,
+}
+# Typed attributes without substitutions.
+_TYPED = {'emulate_tty': bool, 'respawn_delay': float, 'respawn_max_retries': int, 'shell': bool}
+
 
 class ExecuteProcess(ExecuteLocal):
     """
@@ -76,9 +93,49 @@ class ExecuteProcess(ExecuteLocal):
         tuple
             The class, and the keyword arguments for its constructor.
 
-        """
-        from launch.frontend._attributes import parse_process
+        Raises
+        ------
+        ValueError
+            The attribute `on_exit` is not `shutdown`.
 
+        """
         _, kwargs = super().parse(entity, parser)
-        kwargs.update(parse_process(entity, parser, frozenset(ignore or ())))
+        kwargs.update(_parse_process(entity, parser, frozenset(ignore or ())))
         return cls, kwargs
+
+
+def _parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> dict[str, Any]:
+    """Read the attributes of an element that describes a process, except for the ignored ones."""
+    from launch.frontend._attributes import parse_command, parse_pairs, parse_texts
+
+    kwargs = parse_texts(
+        entity, parser, {name: kw for name, kw in _TEXTS.items() if name not in ignored}
+    )
+    for name, data_type in {**_TYPED, **_LATER_TYPED}.items():
+        if name not in ignored:
+            later = name in _LATER_TYPED
+            value = entity.get_attr(name, data_type=data_type, optional=True, can_be_str=later)
+            if value is not None:
+                kwargs[name] = parser.parse_if_substitutions(value)
+    if 'cmd' not in ignored:
+        kwargs['cmd'] = parse_command(entity.get_attr('cmd'), parser)
+    if 'on_exit' not in ignored:
+        kwargs.update(_parse_on_exit(entity))
+    if 'env' not in ignored:
+        pairs = parse_pairs(entity, parser, 'env')
+        kwargs.update({'additional_env': dict(pairs)} if pairs else {})
+    return kwargs
+
+
+def _parse_on_exit(entity: Entity) -> dict[str, Any]:
+    reaction = entity.get_attr('on_exit', optional=True)
+    if reaction is None:
+        return {}
+    if reaction != 'shutdown':
+        raise ValueError(
+            f"Attribute on_exit of Entity {entity.type_name} must be 'shutdown', the only "
+            f"reaction that a launch file can name there, but it is '{reaction}'"
+        )
+    from launch.actions.shutdown_action import Shutdown
+
+    return {'on_exit': [Shutdown()]}

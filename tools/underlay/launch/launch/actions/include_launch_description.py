@@ -11,14 +11,13 @@ from launch._checks.arguments import list_like, text_like
 from launch._include_stack import enter_launch_file, missing_launch_file, open_file
 from launch.action import Action
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
-from launch.launch_description import LaunchDescription
+from launch.launch_description import DeclaredArgument, Inclusion, LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from launch.actions.declare_launch_argument import DeclareLaunchArgument
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -45,6 +44,8 @@ class IncludeLaunchDescription(Action):
         An argument has the wrong type; the error names it.
 
     """
+
+    includes_file = True
 
     def __init__(
         self,
@@ -204,13 +205,14 @@ class IncludeLaunchDescription(Action):
     def _note_lines(
         self,
         error: RuntimeError,
-        argument: DeclareLaunchArgument,
-        includes: list[IncludeLaunchDescription],
+        argument: DeclaredArgument,
+        includes: list[Inclusion],
     ) -> None:
         """Record the line of the innermost include, which must pass the missing argument."""
         from launch._checks.failures import note_line
 
-        lines = [each.call_site for each in reversed([self, *includes]) if each.call_site]
+        way: list[Inclusion] = [self, *includes]
+        lines = [each.call_site for each in reversed(way) if each.call_site]
         if lines:
             note_line(error, lines[0], type(self).__name__, tuple(lines[1:]))
         else:

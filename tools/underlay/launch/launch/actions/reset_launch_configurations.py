@@ -30,6 +30,8 @@ class ResetLaunchConfigurations(Action):
 
     """
 
+    resets_configurations = True
+
     def __init__(
         self,
         launch_configurations: Optional[

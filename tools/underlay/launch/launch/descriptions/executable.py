@@ -17,8 +17,8 @@ from launch.substitution import Substitution
 from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
-    from launch.action import Action
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 Variables = list[tuple[list[Substitution], list[Substitution]]]
 SomeVariables = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
@@ -134,7 +134,7 @@ class Executable:
     def prepare(
         self,
         context: LaunchContext,
-        action: Optional[Action] = None,
+        action: Optional[LaunchDescriptionEntity] = None,
         *,
         extra_arguments: Iterable[str] = (),
         shell: bool = False,

@@ -12,7 +12,6 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from launch.action import Action
     from launch.launch_context import LaunchContext
 
 Reaction = Union[SomeEntitiesType, Callable[..., Optional[SomeEntitiesType]]]
@@ -46,10 +45,10 @@ class OnActionEventBase(BaseEventHandler):
     def __init__(
         self,
         *,
-        action_matcher: Optional[Union[Callable[[Action], bool], Action]],
+        action_matcher: Optional[Union[Callable[[Any], bool], LaunchDescriptionEntity]],
         on_event: Reaction,
         target_event_cls: type[Any],
-        target_action_cls: type[Action],
+        target_action_cls: type[LaunchDescriptionEntity],
         **kwargs: Any,
     ) -> None:
         if not (
@@ -88,9 +87,7 @@ class OnActionEventBase(BaseEventHandler):
             return False
         if self.__action_matcher is None or event.action is self.__action_matcher:
             return True
-        from launch.action import Action
-
-        if isinstance(self.__action_matcher, Action):
+        if isinstance(self.__action_matcher, LaunchDescriptionEntity):
             return False
         return bool(self.__action_matcher(event.action))
 

@@ -10,11 +10,9 @@ from launch.event import Event
 from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
-    from launch.action import Action
-    from launch.actions.execute_local import ExecuteLocal
-    from launch.actions.timer_action import TimerAction
     from launch.events import process
     from launch.launch_description import LaunchDescription
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 __all__ = [
     'ExecutionComplete',
@@ -39,11 +37,11 @@ class ExecutionComplete(Event):
 
     name = 'launch.events.ExecutionComplete'
 
-    def __init__(self, *, action: Action) -> None:
+    def __init__(self, *, action: LaunchDescriptionEntity) -> None:
         self.__action = action
 
     @property
-    def action(self) -> Action:
+    def action(self) -> LaunchDescriptionEntity:
         """Return the completed action."""
         return self.__action
 
@@ -118,16 +116,16 @@ class TimerEvent(Event):
 
     name = 'launch.events.TimerEvent'
 
-    def __init__(self, *, timer_action: TimerAction) -> None:
+    def __init__(self, *, timer_action: LaunchDescriptionEntity) -> None:
         self.__timer_action = timer_action
 
     @property
-    def timer_action(self) -> TimerAction:
+    def timer_action(self) -> LaunchDescriptionEntity:
         """Return the timer."""
         return self.__timer_action
 
 
-def matches_action(target_action: ExecuteLocal) -> Callable[[Any], bool]:
+def matches_action(target_action: LaunchDescriptionEntity) -> Callable[[Any], bool]:
     """
     Create a matcher of one action.
 

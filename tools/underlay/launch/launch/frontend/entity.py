@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import count
-from typing import Any, Optional, TYPE_CHECKING
+from typing import Any, get_args, get_origin, Optional, TYPE_CHECKING
 
-from launch.frontend.type_utils import check_is_list_entity
 from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
@@ -145,6 +144,22 @@ class Entity:
     def _left(self) -> list[tuple[str, list[str]]]:
         """Return the names of attributes and children that have not been read, by kind."""
         raise NotImplementedError
+
+
+def check_is_list_entity(data_type: Any) -> bool:
+    """
+    Whether a type is a list of elements, such as `List[Entity]`.
+
+    Parameters
+    ----------
+    data_type
+        Any type, or None.
+
+    """
+    if get_origin(data_type) is not list:
+        return False
+    (item,) = get_args(data_type)
+    return isinstance(item, type) and issubclass(item, Entity)
 
 
 def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]) -> str:

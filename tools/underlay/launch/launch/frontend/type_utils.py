@@ -5,7 +5,16 @@ from __future__ import annotations
 
 from typing import Any, get_args, get_origin
 
+from launch.frontend.entity import check_is_list_entity
 from launch.utilities.type_utils import coerce_to_type, has_type, type_name, uniform_or_raise
+
+__all__ = [
+    'check_is_list_entity',
+    'checked_value',
+    'get_data_type_from_identifier',
+    'value_of_text',
+    'value_of_texts',
+]
 
 _TYPES: dict[str, Any] = {
     'bool': bool,
@@ -22,24 +31,6 @@ _TYPES: dict[str, Any] = {
     'list_of_strs': list[str],
     'yaml': None,
 }
-
-
-def check_is_list_entity(data_type: Any) -> bool:
-    """
-    Whether a type is a list of elements, such as `List[Entity]`.
-
-    Parameters
-    ----------
-    data_type
-        Any type, or None.
-
-    """
-    from launch.frontend.entity import Entity
-
-    if get_origin(data_type) is not list:
-        return False
-    (item,) = get_args(data_type)
-    return isinstance(item, type) and issubclass(item, Entity)
 
 
 def get_data_type_from_identifier(type_name: str) -> Any:

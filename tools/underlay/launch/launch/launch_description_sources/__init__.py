@@ -10,8 +10,6 @@ from ros_environment.lazy import lazy_exports
 if TYPE_CHECKING:
     from launch.launch_description_sources.any_launch_description_source import (
         AnyLaunchDescriptionSource,
-    )
-    from launch.launch_description_sources.any_launch_file_utilities import (
         get_launch_description_from_any_launch_file,
     )
     from launch.launch_description_sources.frontend_launch_description_source import (
@@ -42,7 +40,7 @@ __all__ = [
 
 _ELSEWHERE = {
     'InvalidPythonLaunchFileError': 'python_launch_file_utilities',
-    'get_launch_description_from_any_launch_file': 'any_launch_file_utilities',
+    'get_launch_description_from_any_launch_file': 'any_launch_description_source',
     'get_launch_description_from_frontend_launch_file': 'frontend_launch_file_utilities',
     'get_launch_description_from_python_launch_file': 'python_launch_file_utilities',
     'load_python_launch_file_as_module': 'python_launch_file_utilities',

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.substitution import PathOperator
+from launch.substitutions.path_join_substitution import PathOperator
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

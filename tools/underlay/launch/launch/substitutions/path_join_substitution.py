@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of a path, joined."""
+"""The parts of a path, joined, and what can be joined with `/`."""
 
 from __future__ import annotations
 
@@ -8,11 +8,19 @@ import os
 from typing import TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import PathOperator, Substitution
+from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+
+
+class PathOperator(Substitution):
+    """Base class of substitutions of paths that can be joined with `/`."""
+
+    def __truediv__(self, other: SomeSubstitutionsType) -> PathJoinSubstitution:
+        """Return this path joined with another."""
+        return PathJoinSubstitution([self, other])
 
 
 class PathJoinSubstitution(PathOperator):

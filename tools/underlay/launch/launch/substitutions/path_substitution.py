@@ -6,7 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import PathOperator, Substitution
+from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import PathOperator
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

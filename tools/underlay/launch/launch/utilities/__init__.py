@@ -186,7 +186,7 @@ def visit_into(
     except Exception as error:
         from launch._checks.failures import note_place
 
-        note_place(error, entity, context)
+        note_place(error, entity, context.run.include_stack)
         raise
     if observer is not None:
         observer.leave(entity)

@@ -33,9 +33,9 @@ from launch_ros.utilities.parameters_and_remappings import (
 from launch_ros.utilities.track_node_names import warn_of_same_names
 
 if TYPE_CHECKING:
-    from launch._dry_run_record import VisitObserver
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
+    from launch.launch_run import VisitObserver
 
 __all__ = ['Node', 'NodeActionExtension']
 

@@ -8,7 +8,8 @@ from typing import ClassVar
 
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import PathOperator, Substitution
+from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import PathOperator
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 

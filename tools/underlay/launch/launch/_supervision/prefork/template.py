@@ -21,7 +21,7 @@ def _serve() -> Callable[[], tuple[Any, ...]]:
     if not getattr(sys.flags, 'safe_path', False):
         del sys.path[0]
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(folder))))
-    import launch
+    import launch._supervision
 
     del sys.path[0]
     from launch._supervision.prefork.service import serve

@@ -11,11 +11,11 @@ from launch.event import Event
 from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
-    from launch.actions.execute_local import ExecuteLocal
     from launch.events.process.process_matchers import (
         matches_executable,
         matches_name,
         matches_pid,
+        ProcessAction,
     )
 
 __all__ = [
@@ -61,7 +61,7 @@ class RunningProcessEvent(Event):
     def __init__(
         self,
         *,
-        action: ExecuteLocal,
+        action: ProcessAction,
         name: str,
         cmd: list[str],
         cwd: Optional[str],
@@ -76,12 +76,12 @@ class RunningProcessEvent(Event):
         self.__pid = pid
 
     @property
-    def action(self) -> ExecuteLocal:
+    def action(self) -> ProcessAction:
         """Return the action that started the process."""
         return self.__action
 
     @property
-    def execute_process_action(self) -> ExecuteLocal:
+    def execute_process_action(self) -> ProcessAction:
         """Return the action that started the process (the older name)."""
         return self.__action
 
@@ -255,11 +255,11 @@ class ProcessTargetedEvent(Event):
 
     name = 'launch.events.process.ProcessTargetedEvent'
 
-    def __init__(self, *, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+    def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
         self.__process_matcher = process_matcher
 
     @property
-    def process_matcher(self) -> Callable[[ExecuteLocal], bool]:
+    def process_matcher(self) -> Callable[[Any], bool]:
         """Return the matcher."""
         return self.__process_matcher
 
@@ -296,7 +296,7 @@ class SignalProcess(ProcessTargetedEvent):
         self,
         *,
         signal_number: Union[str, signal.Signals, int],
-        process_matcher: Callable[[ExecuteLocal], bool],
+        process_matcher: Callable[[Any], bool],
     ) -> None:
         super().__init__(process_matcher=process_matcher)
         self.__signal = (

@@ -1,17 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Matchers of processes."""
+"""Matchers of processes, and what events tell about the actions that run them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 import os
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from launch.actions.execute_local import ExecuteLocal
+from typing import Any, Optional, Protocol
 
 
-def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
+class ProcessAction(Protocol):
+    """An action that runs a process, such as `ExecuteLocal`, as the events of it know it."""
+
+    @property
+    def name(self) -> Any:
+        """Return the label of the process once it is known."""
+
+    @property
+    def process_details(self) -> Optional[dict[str, Any]]:
+        """Return name, cmd, cwd, env and pid of the process, None before the execution."""
+
+
+def matches_pid(pid: int) -> Callable[[ProcessAction], bool]:
     """
     Create a matcher of a process by its id.
 
@@ -29,7 +38,7 @@ def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
     return lambda action: bool((action.process_details or {}).get('pid') == pid)
 
 
-def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
+def matches_name(name: str) -> Callable[[ProcessAction], bool]:
     """
     Create a matcher of processes by label.
 
@@ -47,7 +56,7 @@ def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
     return lambda action: bool(action.name == name)
 
 
-def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
+def matches_executable(executable: str) -> Callable[[ProcessAction], bool]:
     """
     Create a matcher of processes by the program that they run.
 
@@ -63,7 +72,7 @@ def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
 
     """
 
-    def matches(action: ExecuteLocal) -> bool:
+    def matches(action: ProcessAction) -> bool:
         command = (action.process_details or {}).get('cmd') or ['']
         return bool(os.path.basename(command[0]) == executable)
 
