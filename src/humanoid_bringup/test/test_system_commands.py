@@ -29,6 +29,11 @@ def test_it_is_ready_once(told: ToldRobot):
     assert told.said == ['I am ready.']
 
 
+def test_it_says_what_it_did_not_understand(told: ToldRobot):
+    told.tell('fly to the moon')
+    told.wait_for('I did not understand "fly to the moon".')
+
+
 def test_it_goes_looks_and_tells(told: ToldRobot):
     told.tell(STORY)
     told.wait_for('I see the red mug on the kitchen table.')
@@ -41,15 +46,17 @@ def test_it_goes_looks_and_tells(told: ToldRobot):
     assert 'blue mug' in said
 
 
-def test_it_takes_a_thing(told: ToldRobot):
+def test_it_takes_a_thing_and_no_second_one(told: ToldRobot):
     told.forget()
-    told.tell('pick up the red mug')
+    told.tell('go to the kitchen and pick up the red mug')
     told.wait_for_the_end()
     assert told.has_succeeded, told.said
     x, y, z = told.entities.position_m('red_mug')
     assert z > 0.8 and abs(complex(x, y) - told.robot.pose.position_m) < 0.6
     told.tell('where is it')
     told.wait_for('I hold the red mug.')
+    told.tell('pick up the blue mug')
+    told.wait_for('my hand would not be empty.')
 
 
 def test_it_stops_at_once(told: ToldRobot):
@@ -64,10 +71,3 @@ def test_it_stops_at_once(told: ToldRobot):
     robot.wait(2.0)
     assert abs(robot.pose.position_m - place) < 0.05
     assert robot.stands
-
-
-def test_it_says_what_it_cannot_do(told: ToldRobot):
-    told.tell('pick up the blue mug')
-    told.wait_for('my hand would not be empty.')
-    told.tell('fly to the moon')
-    told.wait_for('I did not understand "fly to the moon".')
