@@ -10,7 +10,7 @@ import sys
 import threading
 from typing import Any
 
-from humanoid_common.executing import create_async_service, make_executor, spin_until
+from humanoid_common.executing import create_async_service, destroy, make_executor, spin_until
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 import pytest
 from rcl_interfaces.msg import Log, ParameterEvent
@@ -75,6 +75,26 @@ def test_timers_in_simulated_time(ros: RosSandbox) -> None:
         tell(clock, time_s)
         ros.wait_until(lambda: node.get_clock().now().nanoseconds == time_s * 10**9)  # noqa: B023
     ros.wait_until(lambda: bool(ticks) and ticks[-1] < 10.0)
+
+
+def test_a_timer_that_was_called_too_often_is_restarted() -> None:
+    """Each call puts the next one off by a period, here to more than a minute from now."""
+    context = Context()
+    context.init()
+    node = Node('hurried', context=context)
+    executor = make_executor(context)
+    executor.add_node(node)
+    end: Future[None] = Future()
+    late = node.create_timer(10.0, lambda: end.set_exception(TimeoutError()), clock=steady())
+    timer = node.create_timer(0.05, lambda: end.set_result(None), clock=steady())
+    for _ in range(1500):
+        timer.handle.call_timer()
+    assert timer.time_until_next_call() > 60e9
+    spin_until(executor, end, context)
+    assert end.exception() is None
+    assert not late.is_canceled() and late.time_until_next_call() < 10e9
+    destroy(node)
+    context.try_shutdown()
 
 
 def test_timers_change(ros: RosSandbox) -> None:

@@ -223,9 +223,7 @@ class ObjectMemoryNode(Node):
             *self._own_m(told, stamp),
         )
 
-    def _own_m(
-        self, told: MemoryParameters, stamp: Time
-    ) -> tuple[dict[str, Array], list[Array]]:
+    def _own_m(self, told: MemoryParameters, stamp: Time) -> tuple[dict[str, Array], list[Array]]:
         """
         Compute the positions of held objects, by id, and of the hands, in the memory frame.
 

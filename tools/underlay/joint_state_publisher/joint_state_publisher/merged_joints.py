@@ -182,9 +182,7 @@ class MergedJoints:
         """
         for name in settings.zeros:
             if name not in self.free:
-                why = (
-                    'follows another joint' if name in self._leaders else 'is not a moving joint'
-                )
+                why = 'follows another joint' if name in self._leaders else 'is not a moving joint'
                 yield (
                     f"The parameter 'zeros.{name}' is not used: '{name}' {why} of this robot. "
                     f'{did_you_mean(name, self.free, 0.75)}'.rstrip()

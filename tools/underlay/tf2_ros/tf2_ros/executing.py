@@ -4,8 +4,9 @@ Executor of the programs of this environment: rclpy's EventsExecutor, made relia
 
 It needs a third of the CPU time of SingleThreadedExecutor, but is experimental in Jazzy: it
 rejects guard conditions, fails if a callback requests message info, ignores callback groups,
-fires no timers while it waits without a timeout, crashes when a task of its only node fails, and
-uses an entire CPU core while a coroutine waits.
+fires no timers while it waits without a timeout, may leave a timer on a simulated clock silent for
+minutes, crashes when a task of its only node fails, and uses an entire CPU core while a coroutine
+waits.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ['make_executor', 'spin_until']
 
-_WAIT_S = 1.0
+_WAIT_S = 0.5
 
 
 class _NoNode:
@@ -111,3 +112,18 @@ def spin_until(executor: Executor, stop: Future[None], context: Context | None =
     """
     while not stop.done() and rclpy.ok(context=context):
         executor.spin_until_future_complete(stop, timeout_sec=_WAIT_S)
+        _wake_timers(executor)
+
+
+def _wake_timers(executor: Executor) -> None:
+    """
+    Restart the timers that would be late.
+
+    If the events executor is busy when a timer on a simulated clock is due, it may dispatch it many
+    times in a row. Each time puts the next call off by a period, in the end by minutes.
+    """
+    for node in executor.get_nodes():
+        for timer in node.timers:
+            left_ns = None if timer.is_canceled() else timer.time_until_next_call()
+            if left_ns is not None and left_ns > timer.timer_period_ns:
+                timer.reset()
