@@ -171,8 +171,16 @@ def test_ends_well(probe: Probe, programs: Programs, arm: str, number: int) -> N
     [
         (['/no/arm.urdf'], {}, "The URDF '/no/arm.urdf' cannot be read: No such file"),
         ([], {'rate': '0'}, "The parameter 'rate' must be from 0.001"),
-        ([], {'source_list': "['a b']"}, "names 'a b', which can be no topic: topic name must"),
-        ([], {'source_list': "['{zz}']"}, "names '{zz}', which can be no topic: unknown subst"),
+        (
+            [],
+            {'source_list': "['a b']"},
+            "names 'a b', which is not a valid topic: topic name must",
+        ),
+        (
+            [],
+            {'source_list': "['{zz}']"},
+            "names '{zz}', which is not a valid topic: unknown subst",
+        ),
         ([], {'source_list': '[joint_states]'}, "'source_list' names /joint_states, which is"),
         ([], {'robot_description': '<robot/>'}, 'robot_description:1: There is no attribute'),
     ],

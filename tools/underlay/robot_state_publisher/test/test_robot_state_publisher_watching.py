@@ -105,8 +105,8 @@ def test_unknown_positions_are_told_once_a_joint() -> None:
     """Whoever sends no number is told what comes of it; other robots' joints do not matter."""
     watch = StateWatch(HAND)
     assert list(watch.unknown(['index', 'wheel'])) == [
-        "The position of joint 'index' in a joint state is not a number, which means that nobody "
-        'knows it: the joint keeps its last pose.'
+        "The position of joint 'index' in a joint state is not a number, which means that it is "
+        'unknown: the joint keeps its last pose.'
     ]
     assert len(list(watch.unknown(['index', 'left_thumb']))) == 1
     assert watch.missing == ['left_thumb', 'index']
