@@ -119,8 +119,8 @@ def _wake_timers(executor: Executor) -> None:
     """
     Restart the timers that would be late.
 
-    If the events executor is busy when a timer on a simulated clock is due, it may dispatch it many
-    times in a row. Each time puts the next call off by a period, in the end by minutes.
+    If the events executor is busy when a timer on a simulated clock is due, it may dispatch it
+    many times in a row. Each time puts the next call off by a period, in the end by minutes.
     """
     for node in executor.get_nodes():
         for timer in node.timers:
