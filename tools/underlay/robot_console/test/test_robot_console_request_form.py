@@ -38,7 +38,7 @@ def test_filled() -> None:
 @pytest.mark.parametrize(
     ('text', 'reason'),
     [
-        ('data: [', 'no YAML'),
+        ('data: [', 'is not valid YAML'),
         ('true', 'dictionary'),
         ('dat: true', 'data'),
         ('data: {a: 1}', 'true or false'),
