@@ -230,11 +230,25 @@ class ObjectMemory:
         if not costs.size:
             return costs
         places = np.array([thing.position_m for thing in self._all])
+        doubts_m2 = [self._doubt_m2(thing) for thing in self._all]
         for row, (sighting, noise) in enumerate(zip(sightings, noises_m2, strict=True)):
             away_m = np.linalg.norm(places - sighting.position_m, axis=1)
             for column in np.flatnonzero(away_m < _FAR_M):
-                costs[row, column] = _cost(self._all[column], sighting, noise)
+                doubtful_m2 = noise + doubts_m2[column]
+                costs[row, column] = _cost(self._all[column], sighting, doubtful_m2)
         return costs
+
+    def _doubt_m2(self, thing: RememberedThing) -> Array:
+        """
+        Compute the covariance (3, 3) that corrections of the localisation add to a position.
+
+        It is not known when the error began that they make up for: the object is where it was
+        seen, or where they would take it.
+        """
+        assert self._anchor is not None
+        off = np.zeros(3)
+        off[:2] = _offset_m(shift_between(thing.anchor, self._anchor), thing.position_m)
+        return np.outer(off, off)
 
     def _miss(self, view: View, seen: Sequence[RememberedThing]) -> None:
         """Lower the log odds of objects that should have been detected."""
@@ -379,11 +393,15 @@ def _gain(score: float) -> float:
 
 def _is_jump(shift: Pose2, at_m: Array) -> bool:
     """Whether a motion of a frame, at a point (3,), is more than a correction of drift."""
+    return math.hypot(*_offset_m(shift, at_m)) > _JUMP_M or abs(shift[2]) > _JUMP_RAD
+
+
+def _offset_m(shift: Pose2, at_m: Array) -> tuple[float, float]:
+    """Compute how far in x and y a motion of a frame takes a point (3,)."""
     x, y, yaw = shift
     c, s = math.cos(yaw), math.sin(yaw)
     dx = c * at_m[0] - s * at_m[1] + x - at_m[0]
-    dy = s * at_m[0] + c * at_m[1] + y - at_m[1]
-    return math.hypot(dx, dy) > _JUMP_M or abs(yaw) > _JUMP_RAD
+    return float(dx), float(s * at_m[0] + c * at_m[1] + y - at_m[1])
 
 
 def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:

@@ -352,6 +352,20 @@ def test_small_corrections_move_nothing() -> None:
     assert np.linalg.norm(thing.position_m - MIDDLE) < 0.03
 
 
+@pytest.mark.parametrize(('correction', 'count'), [((0.0, 0.0, 0.0), 2), ((0.14, 0.0, 0.0), 1)])
+def test_what_a_correction_displaces_is_no_second_thing(
+    correction: tuple[float, float, float], count: int
+) -> None:
+    """A mug beside where one was is that one, if the robot was mistaken about where it stands."""
+    memory, world = ObjectMemory(), BoxWorld([TABLE, WALL, mug()])
+    watch(memory, world, 10)
+    world.boxes[-1] = mug(x=0.25)
+    for _ in range(5):  # a turning camera does not show that the old place is empty
+        view = world.view((1.3, 0.0, 1.2), MIDDLE, turn_rad_s=0.6)
+        memory.look(view, world.sightings(view), correction)
+    assert len(memory.things) == count
+
+
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_shift_takes_one_pose_to_the_other(seed: int) -> None:
     """A point that is fixed in the frame that moved moves with it."""
