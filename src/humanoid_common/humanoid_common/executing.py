@@ -30,8 +30,17 @@ from rclpy.node import Node
 from rclpy.service import Service
 from rclpy.task import Future
 
-__all__ = ['create_async_service', 'destroy', 'make_executor', 'spin_until']
+__all__ = ['RESULT_TIMEOUT_S', 'create_async_service', 'destroy', 'make_executor', 'spin_until']
 
+RESULT_TIMEOUT_S = 900.0001
+"""
+Time for which action servers keep results; no step of a simulated clock meets its end.
+
+With rclpy's default of 900 s one does: rcl_action keeps a result that is exactly as old as the
+timeout, and sets its timer to the remaining 0 s. Until the next step of the clock that timer is
+due again and again, and EventsExecutor dispatches it and all other timers of the clock thousands
+of times.
+"""
 _WAIT_S = 0.5
 _EventsExecutor: Any = getattr(_rclpy, 'EventsExecutor', object)
 AsyncCallback = Callable[[Any, Any], Awaitable[Any]]

@@ -9,6 +9,7 @@ import traceback
 from typing import Any
 
 from humanoid_common.client_goals import cancel_goal, ResultRequest
+from humanoid_common.executing import RESULT_TIMEOUT_S
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.clock import Clock, ClockType
@@ -253,6 +254,7 @@ class SingleGoal:
                 goal_callback=consider,
                 handle_accepted_callback=accept,
                 cancel_callback=cancel,
+                result_timeout=RESULT_TIMEOUT_S,
             )
         )
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from humanoid_common.executing import create_async_service
+from humanoid_common.executing import create_async_service, RESULT_TIMEOUT_S
 from humanoid_control.hosting.conversions import seconds
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_interfaces.srv import ApplyWrench
@@ -127,6 +127,7 @@ class SimulationServices:
             '~/simulate_steps',
             self._simulate_steps,
             cancel_callback=lambda _: CancelResponse.ACCEPT,
+            result_timeout=RESULT_TIMEOUT_S,
             callback_group=MutuallyExclusiveCallbackGroup(),
         )
         node.create_service(ApplyWrench, '~/apply_wrench', partial(_answer, self._push))

@@ -6,6 +6,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Any, Generic, TypeVar
 
+from humanoid_common.executing import RESULT_TIMEOUT_S
 from humanoid_control.controllers import CommandError, GoalController
 from humanoid_control.hosting.reports import Refusals
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
@@ -61,6 +62,7 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
             goal_callback=self._check,
             handle_accepted_callback=self._start,
             cancel_callback=self._cancel,
+            result_timeout=RESULT_TIMEOUT_S,
         )
 
     @abstractmethod

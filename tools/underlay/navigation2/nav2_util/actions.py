@@ -13,6 +13,7 @@ import rclpy.action
 from rclpy.action import CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.task import Future
+from tf2_ros.executing import RESULT_MARGIN_S
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -20,14 +21,6 @@ if TYPE_CHECKING:
 __all__ = ['ActionServer', 'GoalCanceled']
 
 _REPLACED = 'A newer goal took its place.'
-_BEYOND_A_STEP_S = 1e-4
-"""
-What is added to the time for which results are kept, so that no step of a simulated clock meets it.
-
-At its very end rcl_action does not yet drop a result, and sets its timer to the remaining 0 s. Until
-the next step of the clock that timer is due again and again, and rclpy's events executor dispatches
-it, and all others of this clock, ever more often: in the end thousands of times.
-"""
 
 
 class GoalCanceled(Exception):
@@ -87,7 +80,7 @@ class ActionServer:
             goal_callback=self._consider,
             handle_accepted_callback=self._accept,
             cancel_callback=lambda _: CancelResponse.ACCEPT,
-            result_timeout=result_timeout_s + _BEYOND_A_STEP_S,
+            result_timeout=result_timeout_s + RESULT_MARGIN_S,
         )
 
     def set_work(

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from pathlib import Path
 import sys
-from typing import Any
+from typing import Any, cast
 
 from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from lifecycle_msgs.msg import State
 from nav2_msgs.action import ComputePathToPose
 from nav2_util import ActionAborted, LifecycleNode, sleep
+from nav2_util.actions import ActionServer
 from nav2_util.timing import give_way
 import pytest
 
@@ -263,3 +264,26 @@ def test_winding_up_ends_goals(ros, rig):
     assert running.end.done()
     assert rig.end(running) == (ABORTED, Result.UNKNOWN, "'work' was deactivated.")
     assert rig.node.state == 'inactive'
+
+
+@pytest.mark.parametrize('step_ms', [1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 100.0])
+def test_no_step_of_a_simulated_clock_meets_the_result_timeout(
+    monkeypatch: pytest.MonkeyPatch, step_ms: float
+) -> None:
+    """Whatever the parameter says: rclpy dispatches timers without end when one does."""
+    timeouts_s: list[float] = []
+    monkeypatch.setattr(
+        'rclpy.action.ActionServer',
+        lambda *_, result_timeout, **__: timeouts_s.append(result_timeout),
+    )
+    for result_timeout_s in (10.0, 2.5, 900.0):
+        ActionServer(
+            cast(Any, None),
+            ComputePathToPose,
+            'work',
+            cast(Any, None),
+            result_timeout_s=result_timeout_s,
+        )
+    steps = [1e3 * timeout_s / step_ms for timeout_s in timeouts_s]
+    assert len(steps) == 3
+    assert all(abs(count - round(count)) * step_ms > 0.05 for count in steps)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 _NAME = 'tf2_buffer_server'
 _CACHE_S = 120.0
+_RESULT_TIMEOUT_S = 900.0
 
 
 class BufferServer:
@@ -37,6 +38,7 @@ class BufferServer:
         from rclpy.action import ActionServer
         from rclpy.callback_groups import ReentrantCallbackGroup
         from tf2_msgs.action import LookupTransform
+        from tf2_ros.executing import RESULT_MARGIN_S
 
         self._buffer = buffer
         self._node = node
@@ -49,6 +51,7 @@ class BufferServer:
             ns,
             self._execute,
             cancel_callback=self._cancel,
+            result_timeout=_RESULT_TIMEOUT_S + RESULT_MARGIN_S,
             callback_group=self._group,
         )
 

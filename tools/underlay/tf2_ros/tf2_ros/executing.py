@@ -25,8 +25,16 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.executors import Executor
 
-__all__ = ['make_executor', 'spin_until']
+__all__ = ['RESULT_MARGIN_S', 'make_executor', 'spin_until']
 
+RESULT_MARGIN_S = 1e-4
+"""
+Time that action servers add to their result timeout: then no step of a simulated clock meets it.
+
+rcl_action keeps a result that is exactly as old as the timeout, and sets its timer to the
+remaining 0 s. Until the next step of the clock that timer is due again and again, and the events
+executor dispatches it and all other timers of the clock thousands of times.
+"""
 _WAIT_S = 0.5
 
 
