@@ -94,6 +94,18 @@ def test_an_entity_goes_where_it_is_put(world: MujocoBackend) -> None:
     assert world.entities == ('robot', 'ball', 'wall')
 
 
+def test_a_robot_that_is_put_somewhere_moves_as_one_body(world: MujocoBackend) -> None:
+    """Its joints rest, whatever they did before, and keep their positions."""
+    world.apply_wrench('torso', (300.0, 100.0, 0.0), duration_s=0.2)
+    run(world, 0.2)
+    before = world.observe()['']
+    assert np.abs(before.velocities_rad_s).max() > 0.1
+    world.set_entity_state('robot', EntityState(np.array([1.0, 2.0, 3.0]), LEVEL))
+    after = world.observe()['']
+    assert after.velocities_rad_s == pytest.approx(np.zeros(len(after.velocities_rad_s)), abs=1e-2)
+    assert after.positions_rad == pytest.approx(before.positions_rad, abs=1e-2)
+
+
 @pytest.mark.parametrize(
     ('entity', 'position', 'orientation', 'sentence'),
     [

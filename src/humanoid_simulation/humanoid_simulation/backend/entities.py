@@ -40,6 +40,8 @@ class Entities:
         }
         self._bodies = {name: names.number(names.body(name)) for name in names.floating}
         self._bodies |= {name: names.number(name) for name in names.fixed}
+        roots = model.body_rootid[model.dof_bodyid]
+        self._velocities = {name: roots == self._bodies[name] for name in names.floating}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -123,6 +125,8 @@ class Entities:
         """
         Set the pose and velocity of an entity; derived quantities are not recomputed.
 
+        The entity moves as one rigid body: the joints of a robot keep their positions, and rest.
+
         Parameters
         ----------
         name
@@ -142,6 +146,7 @@ class Entities:
         orientation = state.orientation.copy()
         mujoco.mju_normalize4(orientation)
         qpos[at.position], qpos[at.orientation] = state.position_m, orientation
+        qvel[self._velocities[name]] = 0.0
         qvel[at.linear] = state.linear_velocity_m_s
         qvel[at.angular] = rotated(state.angular_velocity_rad_s, inverse(orientation))
 

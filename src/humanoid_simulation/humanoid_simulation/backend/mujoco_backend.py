@@ -190,7 +190,9 @@ class MujocoBackend(MujocoWorld):
 
     def set_entity_state(self, entity: str, state: EntityState) -> None:
         """
-        Set the pose and velocity of a robot or an object; the joints of a robot keep their state.
+        Set the pose and velocity of a robot or an object, which moves as one rigid body.
+
+        The joints of a robot keep their positions, and rest.
 
         Parameters
         ----------
