@@ -28,7 +28,7 @@ NODES = {
     'humanoid_perception object_memory': 'humanoid_perception.object_memory.MemoryParameters',
     'humanoid_perception gaze': 'humanoid_perception.gaze.GazeParameters',
     'humanoid_manipulation manipulator': (
-        'humanoid_manipulation.manipulator.ManipulatorParameters'
+        'humanoid_manipulation.manipulation_node.ManipulatorParameters'
     ),
     'llm_planner task_planner': 'llm_planner.task_planner.PlannerParameters',
     'llm_planner skill_executor': 'llm_planner.knowledge.KnowledgeParameters',

@@ -5,17 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.held_things import carrying, HANGING
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.motion_planning import BlockedError, plan, timed
 from humanoid_manipulation.upper_body import OutOfReachError, Reach
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['ArmMotions', 'abort_on_planning_error']
 
@@ -34,7 +31,7 @@ class ArmMotions:
 
     """
 
-    def __init__(self, node: Manipulator) -> None:
+    def __init__(self, node: ManipulationNode) -> None:
         self._node = node
 
     def at_ease(self) -> dict[str, Reach]:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_description.robot import Array
@@ -12,12 +12,10 @@ from humanoid_manipulation.arm_motions import abort_on_planning_error
 from humanoid_manipulation.handling import ManipulationAction, unsound_side
 from humanoid_manipulation.hands import LEAST_SHARE
 from humanoid_manipulation.held_things import Held
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.motion_planning import plan
 from humanoid_manipulation.upper_body import Reach
 import numpy as np
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['Giving']
 
@@ -44,7 +42,7 @@ class Giving(ManipulationAction):
 
     """
 
-    def __init__(self, node: Manipulator) -> None:
+    def __init__(self, node: ManipulationNode) -> None:
         super().__init__(node, HandOver.Feedback)
 
     def unsound(self, request: Any) -> str:

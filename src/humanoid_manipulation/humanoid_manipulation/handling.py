@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from humanoid_common.single_goal import RunningGoal
 from humanoid_description.drives import SIDES
 from humanoid_manipulation.arm_motions import ArmMotions
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.positioning import Positioning
 from humanoid_manipulation.reaching import Reaching
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['ManipulationAction', 'unsound_side']
 
@@ -41,7 +39,7 @@ class ManipulationAction:
 
     """
 
-    def __init__(self, node: Manipulator, feedback: Any) -> None:
+    def __init__(self, node: ManipulationNode, feedback: Any) -> None:
         self.node, self._feedback = node, feedback
         self.hands, self.motions = node.hands, ArmMotions(node)
         self.reaching = Reaching(node, self.motions)

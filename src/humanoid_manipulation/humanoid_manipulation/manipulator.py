@@ -3,16 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 import math
 import sys
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
-from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.inhibition import Inhibition
-from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.parameters import parameter
 from humanoid_common.qos import LATCHED
 from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
@@ -21,49 +17,23 @@ from humanoid_description.drives import SIDES
 from humanoid_description.rotations import from_quaternion, quaternion_of
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction
-from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.errors import ManipulationError
-from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.giving import Giving
 from humanoid_manipulation.handling import unsound_side
-from humanoid_manipulation.hands import Hands
-from humanoid_manipulation.held_things import held_objects, HeldThings
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
 from humanoid_manipulation.picking import Picking
 from humanoid_manipulation.placing import Placing
-from humanoid_manipulation.surroundings import Surroundings
 from humanoid_manipulation.upper_body import OutOfReachError, Reach
-from humanoid_perception.transforms import Transforms
 import numpy as np
-from rclpy.node import Node
-from std_msgs.msg import Header, String
-from vision_msgs.msg import Detection3DArray
+from std_msgs.msg import String
 
-__all__ = ['Manipulator', 'ManipulatorParameters', 'main']
+__all__ = ['Manipulator', 'main']
 
 _LONGEST_APPROACH_M = 0.3
 
 
-@dataclass(frozen=True)
-class ManipulatorParameters:
-    """The parameters of the node."""
-
-    base_frame: str = parameter('base_link', 'The pelvis.', read_only=True)
-    places_file: str = parameter(
-        '',
-        'Named places, whose surfaces the arms avoid: a file, or the name of one in '
-        'humanoid_perception; empty for none.',
-        read_only=True,
-    )
-    max_velocity: float = parameter(
-        1.0, 'Speed limit of the arm joints (rad/s).', at_least=0.05, at_most=6.0
-    )
-    clearance: float = parameter(
-        0.01, 'Smallest distance of the arms to obstacles (m).', at_least=0.0, at_most=0.1
-    )
-
-
-class Manipulator(Node):
+class Manipulator(ManipulationNode):
     """
     Action server that moves the arms and manipulates objects.
 
@@ -75,18 +45,9 @@ class Manipulator(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        super().__init__('manipulator', **options)
-        self.parameters = NodeParameters(self, ManipulatorParameters)
-        told = self.parameters.current
+        super().__init__(**options)
         self._inhibition = Inhibition()
-        self._guard = GoalGuard(self)
-        self.arms, self.transforms = Arms(self, self._guard), Transforms(self)
-        self.surroundings = Surroundings(self, self.transforms, told.base_frame, told.places_file)
         self.goals = SingleGoal(self, lambda: self._inhibition.reason)
-        self.feet = Feet(self, self.transforms, told.base_frame, self._guard)
-        self._held = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
-        self.held = HeldThings(self._tell_held)
-        self.hands = Hands(self, self.arms, self.held)
         picking, placing, giving = Picking(self), Placing(self), Giving(self)
         self.goals.offer(ReachAction, 'reach', self._reach, _unsound)
         self.goals.offer(Pick, 'pick', picking.work, picking.unsound)
@@ -100,18 +61,6 @@ class Manipulator(Node):
             self.create_subscription(
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
-
-    def destroy_node(self) -> None:
-        """Destroy the node, and cancel the goals that other nodes still run for it."""
-        self._guard.close()
-        super().destroy_node()
-
-    def _tell_held(self) -> None:
-        """Publish the held objects."""
-        header = Header(frame_id=self.parameters.current.base_frame)
-        header.stamp = self.get_clock().now().to_msg()
-        grippers = {side: arm.gripper for side, arm in self.arms.body.arms.items()}
-        self._held.publish(held_objects(self.held, grippers, header))
 
     async def _reach(self, goal: RunningGoal) -> None:
         with self.transforms.listening(), self.arms.listening():

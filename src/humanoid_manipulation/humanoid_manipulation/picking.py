@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import math
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from control_msgs.action import PointHead
 from humanoid_common.single_goal import GoalAborted, RunningGoal
@@ -16,12 +16,10 @@ from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp, grasps_of
 from humanoid_manipulation.handling import ManipulationAction, unsound_side
 from humanoid_manipulation.held_things import Held
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.stances import LIFT_M, Stance, stances_for
 from humanoid_manipulation.surroundings import Remembered
 from rclpy.action import ActionClient
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['Picking', 'held_by']
 
@@ -43,7 +41,7 @@ class Picking(ManipulationAction):
 
     """
 
-    def __init__(self, node: Manipulator) -> None:
+    def __init__(self, node: ManipulationNode) -> None:
         super().__init__(node, Pick.Feedback)
         self._look = ActionClient(node, PointHead, 'look_at')
 

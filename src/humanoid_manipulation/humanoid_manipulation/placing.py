@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 import math
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from humanoid_common.naming import did_you_mean
 from humanoid_common.single_goal import GoalAborted, RunningGoal
@@ -16,12 +16,10 @@ from humanoid_interfaces.action import Place
 from humanoid_manipulation.grasps import Grasp
 from humanoid_manipulation.handling import ManipulationAction, unsound_side
 from humanoid_manipulation.held_things import Held
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.stances import Stance, stances_for
 from humanoid_perception.places import Surface
 import numpy as np
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['Placing', 'free_spots']
 
@@ -48,7 +46,7 @@ class Placing(ManipulationAction):
 
     """
 
-    def __init__(self, node: Manipulator) -> None:
+    def __init__(self, node: ManipulationNode) -> None:
         super().__init__(node, Place.Feedback)
 
     def unsound(self, request: Any) -> str:

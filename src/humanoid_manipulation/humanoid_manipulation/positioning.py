@@ -5,15 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Iterable, Sequence
 import math
-from typing import TYPE_CHECKING
 
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_manipulation.arm_motions import ArmMotions
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.stances import BENDS, Stance
 from humanoid_manipulation.upper_body import Reach
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['Positioning']
 
@@ -49,7 +46,7 @@ class Positioning:
     """
 
     def __init__(
-        self, node: Manipulator, motions: ArmMotions, tell: Callable[[RunningGoal, str], None]
+        self, node: ManipulationNode, motions: ArmMotions, tell: Callable[[RunningGoal, str], None]
     ) -> None:
         self._node, self._motions, self._tell = node, motions, tell
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
@@ -12,13 +11,11 @@ from humanoid_description.robot import Array
 from humanoid_manipulation.arm_motions import abort_on_planning_error, ArmMotions
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp
+from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.motion_planning import approach, BlockedError
 from humanoid_manipulation.stances import base_of, Bend, BENDS, effort, grasp_reaches
 from humanoid_manipulation.upper_body import OutOfReachError, Reach
 import numpy as np
-
-if TYPE_CHECKING:
-    from humanoid_manipulation.manipulator import Manipulator
 
 __all__ = ['Reaching']
 
@@ -44,7 +41,7 @@ class Reaching:
 
     """
 
-    def __init__(self, node: Manipulator, motions: ArmMotions) -> None:
+    def __init__(self, node: ManipulationNode, motions: ArmMotions) -> None:
         self._node, self._motions = node, motions
 
     async def choose(
