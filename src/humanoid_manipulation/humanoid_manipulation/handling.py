@@ -7,10 +7,9 @@ from typing import Any
 
 from humanoid_common.single_goal import RunningGoal
 from humanoid_description.drives import SIDES
-from humanoid_manipulation.arm_motions import ArmMotions
+from humanoid_manipulation.arm_motions import ArmMotions, Reaching
 from humanoid_manipulation.manipulation_node import ManipulationNode
 from humanoid_manipulation.positioning import Positioning
-from humanoid_manipulation.reaching import Reaching
 
 __all__ = ['ManipulationAction', 'unsound_side']
 
