@@ -237,7 +237,7 @@ class Arm:
             The posture that supplies the free joint at a singularity; zero by default.
 
         """
-        (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = gripper.rotation.tolist()
+        rotation: list[list[float]] = gripper.rotation.tolist()
         wx, wy, wz = self._to_shoulder_m(gripper)
         upper, fore = self.upper_m, self.fore_m
         given = near or (0.0,) * _COUNT
@@ -246,30 +246,8 @@ class Arm:
             for wrist_yaw in _wrist_yaws(back, wy, given[4]):
                 ahead = back * math.cos(wrist_yaw)
                 wrist_pitch = math.atan2(wz, wx) - math.atan2(up, ahead)
-                # The rotation of the upper arm is that of the hand, with the joints below undone.
-                c6, s6 = math.cos(wrist_pitch), math.sin(wrist_pitch)
-                c5, s5 = math.cos(wrist_yaw), math.sin(wrist_yaw)
-                c4, s4 = math.cos(elbow), math.sin(elbow)
-                # Its columns: those of Ry(-wrist_pitch) Rz(-wrist_yaw) Ry(-elbow).
-                m00, m01, m02 = c6 * c5 * c4 - s6 * s4, c6 * s5, -c6 * c5 * s4 - s6 * c4
-                m10, m11, m12 = -s5 * c4, c5, s5 * s4
-                m20, m21, m22 = s6 * c5 * c4 + c6 * s4, s6 * s5, -s6 * c5 * s4 + c6 * c4
-                u02 = r00 * m02 + r01 * m12 + r02 * m22
-                u10 = r10 * m00 + r11 * m10 + r12 * m20
-                u11 = r10 * m01 + r11 * m11 + r12 * m21
-                u12 = r10 * m02 + r11 * m12 + r12 * m22
-                u22 = r20 * m02 + r21 * m12 + r22 * m22
-                level = math.hypot(u02, u22)
-                for cosine_roll in (level, -level):
-                    roll = math.atan2(-u12, cosine_roll)
-                    if level > _COINCIDING:
-                        pitch = math.atan2(u02 / cosine_roll, u22 / cosine_roll)
-                        yaw = math.atan2(u10 / cosine_roll, u11 / cosine_roll)
-                    else:
-                        u00 = r00 * m00 + r01 * m10 + r02 * m20
-                        u01 = r00 * m01 + r01 * m11 + r02 * m21
-                        pitch = given[0]
-                        yaw = math.copysign(1.0, -u12) * pitch + math.atan2(-u01, u00)
+                below = elbow, wrist_yaw, wrist_pitch
+                for pitch, roll, yaw in _shoulders(rotation, below, given[0]):
                     yield (
                         pitch,
                         roll,
@@ -335,6 +313,39 @@ def _wrist_yaws(back: float, across: float, given: float) -> tuple[float, ...]:
         return (given,)
     turn = math.asin(max(-1.0, min(1.0, -across / back)))
     return turn, math.pi - turn
+
+
+def _shoulders(
+    rotation: Sequence[Sequence[float]], below: tuple[float, float, float], given: float
+) -> Iterator[tuple[float, float, float]]:
+    """Yield the pitch, roll and yaw of the shoulder that give the hand its rotation."""
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
+    elbow, wrist_yaw, wrist_pitch = below
+    # The rotation of the upper arm is that of the hand, with the joints below undone.
+    c6, s6 = math.cos(wrist_pitch), math.sin(wrist_pitch)
+    c5, s5 = math.cos(wrist_yaw), math.sin(wrist_yaw)
+    c4, s4 = math.cos(elbow), math.sin(elbow)
+    # Its columns: those of Ry(-wrist_pitch) Rz(-wrist_yaw) Ry(-elbow).
+    m00, m01, m02 = c6 * c5 * c4 - s6 * s4, c6 * s5, -c6 * c5 * s4 - s6 * c4
+    m10, m11, m12 = -s5 * c4, c5, s5 * s4
+    m20, m21, m22 = s6 * c5 * c4 + c6 * s4, s6 * s5, -s6 * c5 * s4 + c6 * c4
+    u02 = r00 * m02 + r01 * m12 + r02 * m22
+    u10 = r10 * m00 + r11 * m10 + r12 * m20
+    u11 = r10 * m01 + r11 * m11 + r12 * m21
+    u12 = r10 * m02 + r11 * m12 + r12 * m22
+    u22 = r20 * m02 + r21 * m12 + r22 * m22
+    level = math.hypot(u02, u22)
+    for cosine_roll in (level, -level):
+        roll = math.atan2(-u12, cosine_roll)
+        if level > _COINCIDING:
+            pitch = math.atan2(u02 / cosine_roll, u22 / cosine_roll)
+            yaw = math.atan2(u10 / cosine_roll, u11 / cosine_roll)
+        else:
+            u00 = r00 * m00 + r01 * m10 + r02 * m20
+            u01 = r00 * m01 + r01 * m11 + r02 * m21
+            pitch = given
+            yaw = math.copysign(1.0, -u12) * pitch + math.atan2(-u01, u00)
+        yield pitch, roll, yaw
 
 
 def _gripper(robot: Robot, side: str) -> str:
