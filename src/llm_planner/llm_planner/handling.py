@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from humanoid_interfaces.action import HandOver, Pick, Place
-from llm_planner.plan_tree import SkillRun
 from llm_planner.recall import Recall
 from llm_planner.robot import RobotInterface
+from llm_planner.skills import SkillRun
 from llm_planner.world import ObjectDescription
 from llm_planner.world_watch import WorldWatch
 

@@ -9,9 +9,9 @@ from typing import Any
 
 from control_msgs.action import PointHead
 from humanoid_interfaces.action import ScanRoom
-from llm_planner.plan_tree import SkillError, SkillRun
 from llm_planner.recall import Recall
 from llm_planner.robot import RobotInterface
+from llm_planner.skills import SkillError, SkillRun
 from llm_planner.walking import Walking
 from llm_planner.wording import where_is
 from llm_planner.world import base_name, in_words, listed, ObjectDescription

@@ -2,43 +2,23 @@
 """
 Behaviour tree that executes a plan: steps in sequence, with guards, timeouts and retries.
 
-A skill is a generator: it yields once per tick while it is running, returns on success, and raises
-SkillError on failure. Closing it cancels pending work, such as a goal that was sent.
+Its leaves advance the generator of a skill once per tick: see `skills.SkillRun`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from llm_planner.plan import Plan, Step, words_for
-from llm_planner.skills import Skill, Skills
+from llm_planner.skills import Skill, SkillError, SkillRun, Skills
 import py_trees
 from py_trees.behaviour import Behaviour
 from py_trees.common import ParallelPolicy, Status
 
-__all__ = ['Progress', 'SkillError', 'SkillRun', 'StepNews', 'make_tree']
+__all__ = ['Progress', 'StepNews', 'make_tree']
 
-SkillRun = Generator[None, None, None]
 Start = Callable[[Step], SkillRun]
-
-
-class SkillError(Exception):
-    """
-    A skill has failed; the message tells the user why.
-
-    Attributes
-    ----------
-    code
-        The name of an error code of the `ExecutePlan` result.
-    is_final
-        Whether a retry is pointless.
-
-    """
-
-    def __init__(self, text: str, code: str = 'FAILED', *, is_final: bool = False) -> None:
-        super().__init__(text)
-        self.code, self.is_final = code, is_final
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from llm_planner.plan_tree import SkillError
+from llm_planner.skills import SkillError
 from llm_planner.wording import capital
 from llm_planner.world import KnownObject, ObjectDescription
 from llm_planner.world_watch import WorldWatch

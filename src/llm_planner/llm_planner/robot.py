@@ -10,7 +10,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from humanoid_common.client_goals import cancel_goal, ResultRequest
 from humanoid_common.qos import EVENT
-from llm_planner.plan_tree import SkillError, SkillRun
+from llm_planner.skills import SkillError, SkillRun
 from rclpy.action import ActionClient
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node

@@ -21,9 +21,10 @@ from llm_planner.health import skills_status, work_status
 from llm_planner.knowledge import begin_watch, KnowledgeParameters
 from llm_planner.plan import check, Plan, PlanError, UnavailableError, words_for
 from llm_planner.plan_messages import plan_of
-from llm_planner.plan_tree import make_tree, Progress, SkillError, StepNews
+from llm_planner.plan_tree import make_tree, Progress, StepNews
 from llm_planner.readiness import Readiness
 from llm_planner.robot import RobotInterface
+from llm_planner.skills import SkillError
 from py_trees.common import Status
 from rclpy.node import Node
 from std_msgs.msg import String

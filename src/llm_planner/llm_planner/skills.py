@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass, field
 import math
 from typing import Any
@@ -11,13 +11,38 @@ from typing import Any
 from llm_planner.phrases import Phrase
 
 __all__ = [
-    'LEAVES', 'NEEDS', 'TYPES', 'UNITS', 'Argument', 'Saying', 'Skill', 'SkillStep', 'Skills',
+    'LEAVES', 'NEEDS', 'TYPES', 'UNITS', 'Argument', 'Saying', 'Skill', 'SkillError', 'SkillRun',
+    'SkillStep', 'Skills',
 ]  # fmt: skip
 
 TYPES = ('place', 'places', 'object', 'objects', 'target', 'number', 'choice', 'text')
 NEEDS = ('standing', 'holding', 'empty_hand')
 LEAVES = ('holding', 'empty_hand')
 UNITS = ('metres', 'degrees', 'seconds')
+
+SkillRun = Generator[None, None, None]
+"""A running skill: it yields once per tick, returns on success and raises `SkillError` if not.
+
+Closing it cancels pending work, such as a goal that was sent.
+"""
+
+
+class SkillError(Exception):
+    """
+    A skill has failed; the message tells the user why.
+
+    Attributes
+    ----------
+    code
+        The name of an error code of the `ExecutePlan` result.
+    is_final
+        Whether a retry is pointless.
+
+    """
+
+    def __init__(self, text: str, code: str = 'FAILED', *, is_final: bool = False) -> None:
+        super().__init__(text)
+        self.code, self.is_final = code, is_final
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ import math
 from typing import Any
 
 from llm_planner.looking import Looking
-from llm_planner.plan_tree import SkillRun
 from llm_planner.recall import Recall
 from llm_planner.robot import RobotInterface
+from llm_planner.skills import SkillRun
 from llm_planner.walking import Walking
 from llm_planner.wording import capital, enumerated, NUMBERS, where_is, with_article
 from llm_planner.world import base_name, in_words, KnownObject, ObjectDescription

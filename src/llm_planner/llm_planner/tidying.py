@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from llm_planner.handling import Handling
 from llm_planner.looking import Looking
-from llm_planner.plan_tree import SkillError, SkillRun
 from llm_planner.robot import RobotInterface
+from llm_planner.skills import SkillError, SkillRun
 from llm_planner.walking import Walking
 from llm_planner.wording import capital
 from llm_planner.world import in_words, KnownObject, listed, ObjectDescription

@@ -9,9 +9,9 @@ from typing import Any
 
 from humanoid_navigation.arrival import stamped
 from llm_planner.plan import value_in_words
-from llm_planner.plan_tree import SkillError, SkillRun
 from llm_planner.recall import Recall
 from llm_planner.robot import RobotInterface
+from llm_planner.skills import SkillError, SkillRun
 from llm_planner.standing import Pose, stands_at_object, stands_at_surface, stands_in_room
 from llm_planner.world import in_words, KnownObject, listed, ObjectDescription
 from llm_planner.world_watch import WorldWatch

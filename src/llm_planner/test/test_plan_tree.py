@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from llm_planner.plan import Plan, Step
-from llm_planner.plan_tree import make_tree, Progress, SkillError, SkillRun, StepNews
+from llm_planner.plan_tree import make_tree, Progress, StepNews
+from llm_planner.skills import SkillError, SkillRun
 from llm_planner.skills_file import load_skills
 from py_trees.common import Status
 
