@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from humanoid_common.errors import NodeStartError
 from humanoid_common.parameters import parameter
 from humanoid_perception.places import load_places, Places, places_path, PlacesError
-from llm_planner.actions import Actions
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills, skills_path, SkillsError
 from llm_planner.world_watch import WorldWatch
@@ -31,7 +30,9 @@ class KnowledgeParameters:
     )
 
 
-def begin_watch(node: Node, told: KnowledgeParameters) -> tuple[RulePlanner, WorldWatch]:
+def begin_watch(
+    node: Node, told: KnowledgeParameters, implemented: frozenset[str]
+) -> tuple[RulePlanner, WorldWatch]:
     """
     Create the rule planner, and the observer of the world that it plans in.
 
@@ -41,6 +42,8 @@ def begin_watch(node: Node, told: KnowledgeParameters) -> tuple[RulePlanner, Wor
         The node that subscribes; its name appears in error messages.
     told
         The parameters with the files to load.
+    implemented
+        The names of the implemented skills; the robot cannot be asked for others.
 
     Raises
     ------
@@ -53,4 +56,4 @@ def begin_watch(node: Node, told: KnowledgeParameters) -> tuple[RulePlanner, Wor
         places = load_places(path) if path else Places()
     except (SkillsError, PlacesError) as error:
         raise NodeStartError(f'{node.get_name()} cannot start. {error}') from error
-    return RulePlanner(skills), WorldWatch(node, skills, places, Actions.IMPLEMENTED)
+    return RulePlanner(skills), WorldWatch(node, skills, places, implemented)

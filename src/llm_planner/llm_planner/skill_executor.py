@@ -54,7 +54,7 @@ class SkillExecutor(Node):
     def __init__(self, **options: Any) -> None:
         super().__init__('skill_executor', **options)
         told = NodeParameters(self, KnowledgeParameters).current
-        self._planner, self._watch = begin_watch(self, told)
+        self._planner, self._watch = begin_watch(self, told, Actions.IMPLEMENTED)
         self._robot = RobotInterface(self)
         self._actions = Actions(self._robot, self._watch, self._planner.skills)
         self._states = self.create_publisher(String, 'executor/state', LATCHED)

@@ -20,6 +20,7 @@ from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
 from humanoid_interfaces.msg import Plan as PlanMessage
 from humanoid_interfaces.srv import MakePlan
+from llm_planner.actions import Actions
 from llm_planner.dialogue import (
     answer_to,
     confirmation,
@@ -105,7 +106,7 @@ class TaskPlanner(Node):
     def __init__(self, **options: Any) -> None:
         super().__init__('task_planner', **options)
         told = NodeParameters(self, PlannerParameters).current
-        self._planner, self._watch = begin_watch(self, told)
+        self._planner, self._watch = begin_watch(self, told, Actions.IMPLEMENTED)
         self._model: ModelPlanner | None = None
         if told.backend == 'openai':
             # Imported only if needed: its HTTP library takes a while to import.

@@ -16,6 +16,7 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.running import run_node
+from llm_planner.actions import Actions
 from llm_planner.knowledge import begin_watch, KnowledgeParameters
 from rclpy.node import Node
 from robot_mcp.audit import AuditLog, default_path
@@ -89,7 +90,7 @@ class RobotMcp(Node):
         super().__init__('robot_mcp', **options)
         told = NodeParameters(self, McpParameters).current
         require_sdk()
-        planner, watch = begin_watch(self, told)
+        planner, watch = begin_watch(self, told, Actions.IMPLEMENTED)
         path = Path(told.audit_log).expanduser() if told.audit_log else default_path(os.environ)
         self._link = RobotLink(self, may_move=told.allow_motion)
         logger = self.get_logger()
