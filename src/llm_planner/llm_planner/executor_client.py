@@ -12,7 +12,6 @@ from humanoid_common.client_goals import cancel_goal
 from humanoid_common.qos import LATCHED
 from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan as PlanMessage
-from llm_planner.plan_messages import failure_of
 from llm_planner.replanning import Failure
 from rclpy.action import ActionClient
 from rclpy.clock import Clock, ClockType
@@ -26,6 +25,7 @@ _ACCEPT_S, _SENDINGS = 3.0, 3
 """How long to wait for the response to a goal, and how often the goal is sent."""
 _LOOK_S = 1.0
 """Period of the check whether the executor is still running."""
+_CODES = ('INVALID', 'UNAVAILABLE', 'FAILED', 'TIMEOUT', 'STOPPED', 'PREEMPTED')
 
 
 class _ExecutorLostError(Exception):
@@ -82,7 +82,7 @@ class ExecutorClient:
             return None
         if answer is None:
             return None
-        return failure_of(answer.result) if answer.status == GoalStatus.STATUS_ABORTED else None
+        return _failure_of(answer.result) if answer.status == GoalStatus.STATUS_ABORTED else None
 
     def stop(self) -> None:
         """Cancel the current goal, even if it has only just been sent."""
@@ -167,3 +167,10 @@ class ExecutorClient:
         for end in lost:
             end.set_exception(_ExecutorLostError(reason))
         return bool(lost)
+
+
+def _failure_of(result: ExecutePlan.Result) -> Failure:
+    """Convert the result of an aborted plan; an unknown error code becomes `UNKNOWN`."""
+    kind = type(result)
+    code = next((each for each in _CODES if getattr(kind, each) == result.error_code), 'UNKNOWN')
+    return Failure(code, result.failed_step, result.error_msg)

@@ -6,18 +6,14 @@ from __future__ import annotations
 from typing import Any
 
 from diagnostic_msgs.msg import KeyValue
-from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan as PlanMessage
 from humanoid_interfaces.msg import PlanStep
 from llm_planner.plan import Plan, PlanError, Step, words_for
-from llm_planner.replanning import Failure
 from llm_planner.rules import RulePlanner
 from llm_planner.skills import Argument
 from llm_planner.world import ObjectDescription, World
 
-__all__ = ['failure_of', 'plan_message', 'plan_of']
-
-_CODES = ('INVALID', 'UNAVAILABLE', 'FAILED', 'TIMEOUT', 'STOPPED', 'PREEMPTED')
+__all__ = ['plan_message', 'plan_of']
 
 
 def plan_message(plan: Plan, planner: RulePlanner) -> PlanMessage:
@@ -71,21 +67,6 @@ def plan_of(message: PlanMessage, planner: RulePlanner, world: World) -> Plan:
         }
         steps.append(Step(step.skill, arguments))
     return Plan(message.command, tuple(steps), message.source)
-
-
-def failure_of(result: ExecutePlan.Result) -> Failure:
-    """
-    Convert the result of an aborted plan to a `Failure`.
-
-    Parameters
-    ----------
-    result
-        The result of `execute_plan`; an unknown error code becomes `UNKNOWN`.
-
-    """
-    kind = type(result)
-    code = next((each for each in _CODES if getattr(kind, each) == result.error_code), 'UNKNOWN')
-    return Failure(code, result.failed_step, result.error_msg)
 
 
 def _text(value: Any) -> str:
