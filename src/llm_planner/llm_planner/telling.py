@@ -121,7 +121,8 @@ class Telling:
         target
             The name of a place, or the description of an object; empty for the current room.
         relation
-            `beside` or `at`; the kind of target decides: objects beside an object, or at a place.
+            `beside` or `at`. Only the plan in words has it: what is told are the objects beside an
+            object, or at a place, whatever was asked.
 
         """
         things = self._watch.things

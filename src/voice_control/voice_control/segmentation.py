@@ -58,11 +58,6 @@ class UtteranceSegmenter:
         self._frame_s = float(self._vad.frame_length)
         self.reset()
 
-    @property
-    def is_in_speech(self) -> bool:
-        """Whether an utterance is in progress."""
-        return bool(self._speech)
-
     def reset(self) -> None:
         """Discard the buffered audio, to start with a new stream."""
         self._rest = b''
