@@ -8,14 +8,13 @@ import math
 from typing import Any
 
 from control_msgs.action import FollowJointTrajectory
-from llm_planner.handling import Handling
+from llm_planner.handling import Handling, Tidying
 from llm_planner.looking import Looking
 from llm_planner.plan import Step, value_in_words
 from llm_planner.recall import HEAD_M, Recall
 from llm_planner.robot import RobotInterface
 from llm_planner.skills import SkillError, SkillRun, Skills
 from llm_planner.telling import Telling
-from llm_planner.tidying import Tidying
 from llm_planner.walking import Walking
 from llm_planner.world import ObjectDescription
 from llm_planner.world_watch import WorldWatch
