@@ -1,15 +1,98 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Periodic timer by the clock of its node."""
+"""Periodic timer by the clock of its node, which makes up for late calls."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
-from humanoid_common.ticks import Ticks
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
+LONGEST_DELAY_S = 1.0
 _NANOSECONDS = 1_000_000_000
+
+
+class Ticks:
+    """
+    Evenly spaced ticks of the time since the first reading of a clock.
+
+    On a busy computer, calls come late. All ticks that have passed meanwhile are due then, except
+    those older than `LONGEST_DELAY_S`, so that the mean rate is kept and no sample of a motion is
+    skipped. When the clock is set back, as by a simulator that restarts, the time continues from
+    where it was.
+
+    Parameters
+    ----------
+    rate_hz
+        Ticks per second of the clock.
+
+    """
+
+    def __init__(self, rate_hz: float) -> None:
+        self._period_ns = round(_NANOSECONDS / rate_hz)
+        self._origin_ns: int | None = None
+        self._clock_ns = 0
+        self._next_ns = 0
+
+    def due(self, clock_ns: int) -> Iterator[float]:
+        """
+        Yield the times of the ticks that are due and were not yielded before, oldest first.
+
+        Parameters
+        ----------
+        clock_ns
+            The clock, in nanoseconds. The first call yields 0.0.
+
+        Yields
+        ------
+        float
+            The time of the tick in seconds.
+
+        """
+        passed_ns = self._passed_ns(clock_ns)
+        late_ns = passed_ns - self._next_ns - round(LONGEST_DELAY_S * _NANOSECONDS)
+        if late_ns > 0:
+            self._next_ns += late_ns // self._period_ns * self._period_ns
+        while self._next_ns <= passed_ns:
+            yield self._next_ns / _NANOSECONDS
+            self._next_ns += self._period_ns
+
+    def passed_s(self, clock_ns: int) -> float:
+        """
+        Compute the time since the first call of `due`, in seconds; zero before it.
+
+        Parameters
+        ----------
+        clock_ns
+            The clock, in nanoseconds.
+
+        """
+        return 0.0 if self._origin_ns is None else self._passed_ns(clock_ns) / _NANOSECONDS
+
+    def set_rate(self, rate_hz: float, clock_ns: int) -> None:
+        """
+        Change the rate: the next tick is one new period from now.
+
+        Parameters
+        ----------
+        rate_hz
+            Ticks per second of the clock.
+        clock_ns
+            The clock, in nanoseconds.
+
+        """
+        self._period_ns = round(_NANOSECONDS / rate_hz)
+        if self._origin_ns is not None:
+            self._next_ns = self._passed_ns(clock_ns) + self._period_ns
+
+    def _passed_ns(self, clock_ns: int) -> int:
+        """Compute the time since the first reading of the clock; it never decreases."""
+        if self._origin_ns is None:
+            self._origin_ns = clock_ns
+        elif clock_ns < self._clock_ns:
+            self._origin_ns -= self._clock_ns - clock_ns
+        self._clock_ns = clock_ns
+        return clock_ns - self._origin_ns
 
 
 class PeriodicTimer:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_common.ticks import LONGEST_DELAY_S, Ticks
+from humanoid_common.periodic import LONGEST_DELAY_S, Ticks
 import pytest
 
 START_NS = 1_700_000_000_123_456_789
