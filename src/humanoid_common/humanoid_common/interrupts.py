@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Handling of SIGINT and SIGTERM in a node."""
+"""Stop request for a node, and its handling of SIGINT and SIGTERM, which make it."""
 
 from __future__ import annotations
 
@@ -11,13 +11,49 @@ import threading
 import time
 from types import FrameType
 
-from humanoid_common.stop_request import StopRequest
-
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 WAKE_S = 0.05
 """Time for the main thread to handle a signal before it is sent again."""
 JOIN_S = 1.0
 """Maximum wait for the thread at the end of a node; it has nothing left to do then."""
+
+
+class StopRequest:
+    """Stop request that is made once, from any thread, and wakes the waiting loop."""
+
+    def __init__(self) -> None:
+        self._made = threading.Event()
+        self._lock = threading.Lock()
+        self._wake: Callable[[], None] | None = None
+        self.at_once = False
+        """Whether to interrupt what runs rather than let it finish."""
+
+    @property
+    def is_made(self) -> bool:
+        """Whether the node is to stop."""
+        return self._made.is_set()
+
+    def make(self) -> None:
+        """Request the node to stop."""
+        with self._lock:
+            self._made.set()
+            if self._wake is not None:
+                self._wake()
+
+    def wake_with(self, wake: Callable[[], None] | None) -> None:
+        """
+        Set the callback of the stop request; it is called at once if the request was made already.
+
+        Parameters
+        ----------
+        wake
+            Called when the request is made, from the thread that makes it; None for nothing.
+
+        """
+        with self._lock:
+            self._wake = wake
+            if wake is not None and self._made.is_set():
+                wake()
 
 
 class PatientInterrupt:

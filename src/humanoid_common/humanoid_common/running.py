@@ -9,8 +9,7 @@ from typing import ParamSpec
 
 from humanoid_common.errors import NodeStartError
 from humanoid_common.executing import destroy, make_executor, spin_until
-from humanoid_common.interrupts import stop_on_signals
-from humanoid_common.stop_request import StopRequest
+from humanoid_common.interrupts import stop_on_signals, StopRequest
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context

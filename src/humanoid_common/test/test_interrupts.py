@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import signal
 
-from humanoid_common.interrupts import PatientInterrupt
-from humanoid_common.stop_request import StopRequest
+from humanoid_common.interrupts import PatientInterrupt, StopRequest
 import pytest
 
 

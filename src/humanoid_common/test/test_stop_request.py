@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_common.stop_request import StopRequest
+from humanoid_common.interrupts import StopRequest
 
 
 def test_request_wakes() -> None:
