@@ -7,11 +7,15 @@ Nothing here needs ROS; `humanoid_common.node_parameters` declares such a datacl
 
 from __future__ import annotations
 
-from humanoid_common.parameters.building import build, values_of
 from humanoid_common.parameters.errors import ParameterError, unknown_parameter_warnings
-from humanoid_common.parameters.fields import parameter, ParameterRules
-from humanoid_common.parameters.specs import ParameterSpec, specs_of
-from humanoid_common.parameters.values import checked_value, ParameterValue, widened
+from humanoid_common.parameters.specs import parameter, ParameterRules, ParameterSpec, specs_of
+from humanoid_common.parameters.values import (
+    build,
+    checked_value,
+    ParameterValue,
+    values_of,
+    widened,
+)
 
 __all__ = [
     'ParameterError',
