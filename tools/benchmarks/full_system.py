@@ -25,7 +25,7 @@ from bringup_run import cpu_by_process, process_name, pss_mb
 from domain_coordinator import domain_id
 from humanoid_common.executing import make_executor
 from humanoid_common.qos import EVENT
-from humanoid_common.testing.capture import Capture
+from humanoid_common.testing.processes import Capture
 import rclpy
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
