@@ -26,7 +26,7 @@ NODES = {
         'humanoid_perception.object_detector.DetectorParameters'
     ),
     'humanoid_perception object_memory': 'humanoid_perception.object_memory.MemoryParameters',
-    'humanoid_perception gaze': 'humanoid_perception.gaze.GazeParameters',
+    'humanoid_perception gaze': 'humanoid_perception.gaze_parameters.GazeParameters',
     'humanoid_manipulation manipulator': (
         'humanoid_manipulation.manipulation_node.ManipulatorParameters'
     ),

@@ -3,73 +3,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 import math
 import sys
 from typing import Any
 
 from control_msgs.action import PointHead
-from geometry_msgs.msg import Twist
 from humanoid_common.inhibition import Inhibition
 from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.parameters import parameter
-from humanoid_common.qos import COMMAND, LATCHED, SENSOR
+from humanoid_common.qos import LATCHED
 from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_interfaces.action import ScanRoom
+from humanoid_perception.gaze_parameters import GazeParameters
 from humanoid_perception.head import Head
 from humanoid_perception.room_scan import RoomScan
-from humanoid_perception.scanning import FieldOfView
 import numpy as np
 from rclpy.node import Node
-from sensor_msgs.msg import CameraInfo
 from std_msgs.msg import String
 
-__all__ = ['Gaze', 'GazeParameters', 'main']
+__all__ = ['Gaze', 'main']
 
 _LATE_S = 5.0
 """How much longer than planned a motion of the head may take."""
 _NEWS_RAD = 0.015
 """Smallest change of the joint angles for which a new motion is sent."""
-
-
-@dataclass(frozen=True)
-class GazeParameters:
-    """The parameters of the node."""
-
-    joints: tuple[str, ...] = parameter(
-        ('head_yaw', 'head_pitch'), 'The neck joints, from the body to the head.', read_only=True
-    )
-    controller: str = parameter(
-        'head_controller', 'The trajectory controller of the neck joints.', read_only=True
-    )
-    odom_frame: str = parameter('odom', 'The frame in which the body turns.')
-    camera_frame: str = parameter(
-        'camera_optical_frame', 'The frame to point with if a goal names none.'
-    )
-    max_velocity: float = parameter(
-        1.5, 'Speed limit of the neck joints (rad/s).', at_least=0.05, at_most=12.0
-    )
-    tolerance_rad: float = parameter(
-        0.05, 'Pointing tolerance (rad).', at_least=0.001, at_most=1.0
-    )
-    scan_up_rad: float = parameter(
-        0.15, 'Highest elevation of a room scan (rad).', at_least=-1.0, at_most=1.5
-    )
-    scan_down_rad: float = parameter(
-        0.85, 'Largest depression angle of a room scan (rad).', at_least=-1.0, at_most=1.5
-    )
-    looks_per_view: int = parameter(
-        4, 'Images to wait for at each stop of a scan.', at_least=1, at_most=100
-    )
-    turn_rate_rad_s: float = parameter(
-        0.5, 'Turn rate of the body during a scan (rad/s).', at_least=0.05, at_most=2.0
-    )
-    turn_with: str = parameter(
-        'auto',
-        'What turns the body: spin of Nav2, which checks for collisions, or cmd_vel.',
-        choices=('auto', 'spin', 'cmd_vel'),
-    )
 
 
 class Gaze(Node):
@@ -88,12 +45,11 @@ class Gaze(Node):
         self.parameters = NodeParameters(self, GazeParameters)
         told = self.parameters.current
         self._inhibition = Inhibition()
-        self.head = Head(self, told.joints, told.controller)
-        self.velocities = self.create_publisher(Twist, 'cmd_vel', COMMAND)
-        self.goals = SingleGoal(self, lambda: self._inhibition.reason)
-        self._scan = RoomScan(self)
-        self.goals.offer(PointHead, 'look_at', self._look_at, _unsound)
-        self.goals.offer(ScanRoom, 'scan_room', self._scan.work)
+        self._head = Head(self, told.joints, told.controller)
+        self._goals = SingleGoal(self, lambda: self._inhibition.reason)
+        scan = RoomScan(self, self._head, self._goals, self.parameters)
+        self._goals.offer(PointHead, 'look_at', self._look_at, _unsound)
+        self._goals.offer(ScanRoom, 'scan_room', scan.work)
         for topic, take in (
             ('walking_state', self._inhibition.tell_walking_state),
             ('stop_state', self._inhibition.tell_stop_state),
@@ -102,60 +58,21 @@ class Gaze(Node):
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
 
-    def now_s(self) -> float:
+    def _now_s(self) -> float:
         """Return the current time of the node in s."""
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
-    async def field_of_view(self, goal: RunningGoal) -> FieldOfView:
-        """
-        Wait for a `camera/camera_info`, and compute the field of view from it.
-
-        Parameters
-        ----------
-        goal
-            The goal that needs it; the wait ends with it.
-
-        Raises
-        ------
-        GoalAborted
-            No message arrives within 5 s, or its size or focal length is invalid; or the goal must
-            end.
-        GoalCanceled
-            The client has canceled the goal.
-
-        """
-        infos: list[CameraInfo] = []
-        subscription = self.create_subscription(
-            CameraInfo, 'camera/camera_info', infos.append, SENSOR
-        )
-        try:
-            for _ in range(100):
-                if infos:
-                    break
-                await goal.tick()
-            else:
-                raise GoalAborted('NO_CAMERA', "No camera publishes 'camera/camera_info'.")
-        finally:
-            self.destroy_subscription(subscription)
-        info = infos[0]
-        try:
-            return FieldOfView.of(
-                info.width, info.height, info.k[0], info.k[4], info.k[2], info.k[5]
-            )
-        except ValueError as error:
-            raise GoalAborted('NO_CAMERA', str(error)) from error
-
     async def _look_at(self, goal: RunningGoal) -> None:
-        with self.head.listening():
+        with self._head.listening():
             try:
                 await self._track(goal)
             except BaseException:
-                self.head.stop()
+                self._head.stop()
                 raise
 
     async def _track(self, goal: RunningGoal) -> None:
         """Track the target with the head until the pointing error is within the tolerance."""
-        request, told, head = goal.request, self.parameters.current, self.head
+        request, told, head = goal.request, self.parameters.current, self._head
         await head.wait(goal)
         frame, source = request.pointing_frame or told.camera_frame, request.target.header.frame_id
         tip = await head.known(goal, head.chain.tip_frame, frame)
@@ -165,9 +82,9 @@ class Gaze(Node):
         point = np.append(_vector(request.target.point), 1.0)
         at_least_s = request.min_duration.sec + request.min_duration.nanosec * 1e-9
         fastest = min(request.max_velocity or told.max_velocity, told.max_velocity)
-        begin_s, sent, end_s, ticks = self.now_s(), None, math.inf, 0
+        begin_s, sent, end_s, ticks = self._now_s(), None, math.inf, 0
         while True:
-            now_s = self.now_s()
+            now_s = self._now_s()
             begin_s = min(begin_s, now_s)  # the simulation may have been reset
             target = (head.pose(head.chain.base_frame, source) @ point)[:3]
             angles = head.angles_rad()
