@@ -116,7 +116,7 @@ class ObjectMemoryNode(Node):
         self._parameters = NodeParameters(self, MemoryParameters, self._change)
         told = self._parameters.current
         self._memory = ObjectMemory(_settings(told))
-        self._places = self._load_places(told.places_file)
+        self._places = _load_places(told.places_file)
         self._frame = ''
         self._anchor: Pose2 = (0.0, 0.0, 0.0)
         self._stamp_s = -math.inf
@@ -143,13 +143,6 @@ class ObjectMemoryNode(Node):
         self.create_service(Trigger, '~/forget', self._forget)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(1.0 / told.publish_rate_hz, self._publish, clock=steady)
-
-    def _load_places(self, given: str) -> Places:
-        try:
-            path = places_path(given)
-            return load_places(path) if path else Places()
-        except PlacesError as error:
-            raise NodeStartError(f'object_memory cannot start. {error}') from error
 
     def _change(self, told: MemoryParameters) -> None:
         self._memory.settings = _settings(told)
@@ -353,6 +346,14 @@ class ObjectMemoryNode(Node):
         if now_s - self._said.get(kind, -math.inf) > _QUIET_S:
             self._said[kind] = now_s
             self.get_logger().warning(text)
+
+
+def _load_places(given: str) -> Places:
+    try:
+        path = places_path(given)
+        return load_places(path) if path else Places()
+    except PlacesError as error:
+        raise NodeStartError(f'object_memory cannot start. {error}') from error
 
 
 def _settings(told: MemoryParameters) -> MemorySettings:

@@ -224,8 +224,8 @@ class RememberedThing:
             time_s,
             log_odds=log_odds,
         )
-        thing._grow(sighting, noise_m2)
-        thing._note(sighting, time_s)
+        _grow(thing, sighting, noise_m2)
+        _note(thing, sighting, time_s)
         return thing
 
     @property
@@ -298,18 +298,8 @@ class RememberedThing:
         """
         if not sighting.is_cut:
             self._move(sighting.position_m, noise_m2)
-            self._grow(sighting, noise_m2)
-        self._note(sighting, time_s)
-
-    def _note(self, sighting: Sighting, time_s: float) -> None:
-        """Count a detection, and vote for its class and colour."""
-        self.classes.add(sighting.class_id, sighting.score * (0.5 if sighting.is_cut else 1.0))
-        if sighting.colour:
-            self.colours.add(sighting.colour, sighting.score)
-        self.sightings += 1
-        self.score += (sighting.score - self.score) / min(self.sightings, 20)
-        self.last_seen_s = max(self.last_seen_s, time_s)
-        self.missed = self.empty = 0
+            _grow(self, sighting, noise_m2)
+        _note(self, sighting, time_s)
 
     def believe(self, change: float) -> None:
         """
@@ -411,11 +401,23 @@ class RememberedThing:
         values, vectors = np.linalg.eigh(0.5 * (rest + rest.T))
         self.covariance_m2 = (vectors * np.maximum(values, _FLOOR_M**2)) @ vectors.T
 
-    def _grow(self, sighting: Sighting, noise_m2: Array) -> None:
-        """Update the size as a weighted mean, and the yaw from the best detections."""
-        weight = sighting.score / float(np.trace(noise_m2))
-        if weight >= 0.5 * self.nearest_weight:
-            self.yaw_rad = sighting.yaw_rad
-        self.nearest_weight = max(weight, self.nearest_weight)
-        self.size_weight = min(self.size_weight + weight, _MOST_LOOKS * self.nearest_weight)
-        self.size_m = self.size_m + weight / self.size_weight * (sighting.size_m - self.size_m)
+
+def _grow(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> None:
+    """Update the size as a weighted mean, and the yaw from the best detections."""
+    weight = sighting.score / float(np.trace(noise_m2))
+    if weight >= 0.5 * thing.nearest_weight:
+        thing.yaw_rad = sighting.yaw_rad
+    thing.nearest_weight = max(weight, thing.nearest_weight)
+    thing.size_weight = min(thing.size_weight + weight, _MOST_LOOKS * thing.nearest_weight)
+    thing.size_m = thing.size_m + weight / thing.size_weight * (sighting.size_m - thing.size_m)
+
+
+def _note(thing: RememberedThing, sighting: Sighting, time_s: float) -> None:
+    """Count a detection, and vote for its class and colour."""
+    thing.classes.add(sighting.class_id, sighting.score * (0.5 if sighting.is_cut else 1.0))
+    if sighting.colour:
+        thing.colours.add(sighting.colour, sighting.score)
+    thing.sightings += 1
+    thing.score += (sighting.score - thing.score) / min(thing.sightings, 20)
+    thing.last_seen_s = max(thing.last_seen_s, time_s)
+    thing.missed = thing.empty = 0
