@@ -12,33 +12,27 @@ from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
-from humanoid_common.qos import COMMAND, SENSOR, STATE
+from humanoid_common.qos import COMMAND, STATE
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.processes import running_program, RunningProgram
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_navigation.arrival import Arrival, initial_pose, is_zero, Place, stamped
-from lifecycle_msgs.srv import GetState
+from humanoid_navigation.client_testing import NavigationClient, SETTLE_S
 from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import Odometry
 from rclpy.action import ActionClient
-from rclpy.client import Client
-from rclpy.node import Node
-from rclpy.task import Future
 from rclpy.time import Time
-from rosgraph_msgs.msg import Clock
 from tf2_ros import Buffer, TransformException, TransformListener
 
-PATIENCE_S = 90.0
-"""Timeout in real time for responses that should arrive at once."""
 TICK_S = 0.05
 """The time step of simulated time."""
-TELLINGS, TELLING_S, SETTLE_S = 5, 3.0, 1.0
-"""Attempts, timeout and settling time: a scan from the old pose can mislead AMCL at first."""
+TELLINGS, TELLING_S = 5, 3.0
+"""Attempts and timeout: a scan from the old pose can mislead AMCL at first."""
 SETTLED_M, SETTLED_RAD = 0.15, 0.15
 CONTAINER = re.compile(r'\[(component_container)-\d+\]: process started with pid \[(\d+)\]')
 
 
-class LoopbackRobot:
+class LoopbackRobot(NavigationClient):
     """
     A robot in the loopback simulator that is navigated by Nav2.
 
@@ -50,10 +44,7 @@ class LoopbackRobot:
     """
 
     def __init__(self, ros: RosSandbox) -> None:
-        self._ros = ros
-        self.node = ros.start(lambda **options: Node('traveller', **options))
-        self.now_s = 0.0
-        """Simulated time."""
+        super().__init__(ros)
         self.commands: list[tuple[float, Twist]] = []
         """The received velocity commands, with their simulated times."""
         self._odometry: complex | None = None
@@ -65,10 +56,8 @@ class LoopbackRobot:
         self._initial_pose = self.node.create_publisher(
             PoseWithCovarianceStamped, 'initialpose', STATE
         )
-        self.node.create_subscription(Clock, '/clock', self._take_clock, SENSOR)
         self.node.create_subscription(Odometry, 'odom', self._take_odometry, STATE)
         self.node.create_subscription(Twist, 'cmd_vel', self._take_command, COMMAND)
-        self._clients: dict[str, Client] = {}
         self.navigate = ActionClient(self.node, NavigateToPose, 'navigate_to_pose')
 
     @property
@@ -84,125 +73,6 @@ class LoopbackRobot:
     def is_driven(self) -> bool:
         """Whether the newest velocity command is not zero."""
         return bool(self.commands) and not is_zero(self.commands[-1][1])
-
-    def wait_until(self, predicate: Any, timeout_s: float = PATIENCE_S, what: str = '') -> None:
-        """
-        Wait until a predicate holds, while spinning the nodes of the test.
-
-        Parameters
-        ----------
-        predicate
-            Called without arguments between callbacks.
-        timeout_s
-            How long to wait (s), on the computer's clock.
-        what
-            Description of the predicate, for the error message.
-
-        Raises
-        ------
-        AssertionError
-            The predicate does not hold in time.
-
-        """
-        self._ros.wait_until(predicate, timeout_s, what or 'the condition')
-
-    def wait(self, duration_s: float) -> None:
-        """
-        Wait for a duration in simulated time.
-
-        Parameters
-        ----------
-        duration_s
-            The duration, in s.
-
-        """
-        end_s = self.now_s + duration_s
-        self.wait_until(lambda: self.now_s >= end_s, PATIENCE_S + duration_s, 'simulated time')
-
-    def answer(self, future: Future) -> Any:
-        """
-        Wait for the response of a server.
-
-        Parameters
-        ----------
-        future
-            The future of the request.
-
-        Returns
-        -------
-        Any
-            The result of the future.
-
-        Raises
-        ------
-        AssertionError
-            No response arrives in time.
-
-        """
-        self.wait_until(future.done, PATIENCE_S, 'an answer')
-        return future.result()
-
-    def call(self, kind: Any, name: str, request: Any) -> Any:
-        """
-        Call an idempotent service, and return its response.
-
-        Parameters
-        ----------
-        kind, name, request
-            The type and name of the service, and the request; repeated if it gets no response.
-
-        """
-        if name not in self._clients:
-            client = self._clients[name] = self.node.create_client(kind, name)
-            self.wait_until(client.service_is_ready, what=f"the service '{name}'")
-            # A server drops its response to a client that it has not discovered yet.
-            self.wait(SETTLE_S)
-        first = self._clients[name].call_async(request)
-        try:
-            self.wait_until(first.done, PATIENCE_S / 3.0)
-        except AssertionError:
-            # A response is lost if the server's middleware has lost its match with the client.
-            return self.answer(self._clients[name].call_async(request))
-        return first.result()
-
-    def wait_for_active(self, *names: str) -> None:
-        """
-        Wait until lifecycle nodes are active.
-
-        Parameters
-        ----------
-        *names
-            Their names; without any, AMCL, the BT navigator and the waypoint follower.
-
-        """
-        for name in names or ('amcl', 'bt_navigator', 'waypoint_follower'):
-            self.wait_until(lambda name=name: self.state_of(name) == 'active', what=name)
-
-    def state_of(self, name: str) -> str:
-        """
-        Query the state of a lifecycle node.
-
-        Parameters
-        ----------
-        name
-            The name of the node, whose service `get_state` is waited for.
-
-        Returns
-        -------
-        str
-            The label of the state, such as `active`; `unknown` if there is no response within 2 s.
-
-        """
-        client = self.node.create_client(GetState, f'{name}/get_state')
-        self.wait_until(client.service_is_ready, what=f"the node '{name}'")
-        future = client.call_async(GetState.Request())
-        try:
-            self.wait_until(future.done, 2.0)
-        except AssertionError:
-            return 'unknown'  # the node has gone in the meantime
-        finally:
-            self.node.destroy_client(client)
-        return str(future.result().current_state.label)
 
     def put(self, place: Place) -> None:
         """
@@ -352,9 +222,6 @@ class LoopbackRobot:
         turn = 2 * math.atan2(found.rotation.z, found.rotation.w) - yaw_rad
         away_m = math.hypot(found.translation.x - x_m, found.translation.y - y_m)
         return bool(away_m < SETTLED_M and abs(math.remainder(turn, math.tau)) < SETTLED_RAD)
-
-    def _take_clock(self, message: Clock) -> None:
-        self.now_s = message.clock.sec + message.clock.nanosec * 1e-9
 
     def _take_odometry(self, message: Odometry) -> None:
         pose = message.pose.pose
