@@ -14,10 +14,11 @@ ARGUMENTS = (
     (
         'places_file',
         '',
-        'Named places: a file, or the name of one of humanoid_perception; else by scene.',
+        'Named places: a file, or the name of one in humanoid_perception; by default, that of '
+        'the scene.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
 )
 
 

@@ -17,7 +17,7 @@ ARGUMENTS = (
     (
         'places_file',
         '',
-        'Named places: a file, or the name of one of this package; else by scene.',
+        'Named places: a file, or the name of one in this package; by default, that of the scene.',
     ),
     (
         'perception_params_file',
@@ -27,7 +27,7 @@ ARGUMENTS = (
         'Parameter file of the nodes.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
 )
 
 

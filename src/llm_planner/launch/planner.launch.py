@@ -10,11 +10,12 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 ARGUMENTS = (
-    ('skills_file', '', 'The file of skills; empty for the one of this package.'),
+    ('skills_file', '', 'The skills file; empty for the one in this package.'),
     (
         'places_file',
         '',
-        'Named places: a file, or the name of one of humanoid_perception; else by scene.',
+        'Named places: a file, or the name of one in humanoid_perception; by default, that of '
+        'the scene.',
     ),
     (
         'llm_base_url',
@@ -23,7 +24,7 @@ ARGUMENTS = (
     ),
     ('llm_model', '', 'The model to use; may be empty if the server has only one.'),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
 )
 PLANNER = (
     ('backend', 'planner_backend'),
@@ -46,7 +47,7 @@ def generate_launch_description() -> LaunchDescription:
                 'planner_backend',
                 default_value='rules',
                 choices=['rules', 'openai'],
-                description='What makes plans: rules, or a language model (openai).',
+                description='The planner: rules, or a language model (openai).',
             ),
             DeclareLaunchArgument(
                 'confirm',

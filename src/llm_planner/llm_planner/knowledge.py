@@ -21,11 +21,11 @@ class KnowledgeParameters:
     """The parameters that both nodes share."""
 
     skills_file: str = parameter(
-        '', 'The file of skills; empty for the one of llm_planner.', read_only=True
+        '', 'The skills file; empty for the one in llm_planner.', read_only=True
     )
     places_file: str = parameter(
         '',
-        'The named places: a YAML file, or the name of one of humanoid_perception (apartment).',
+        'The named places: a YAML file, or the name of one in humanoid_perception (apartment).',
         read_only=True,
     )
 

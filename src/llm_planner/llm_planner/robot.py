@@ -152,14 +152,14 @@ class RobotInterface:
                 return
             yield
             if tick % _LOOK_TICKS == 0 and not self._servers(name) <= servers:
-                raise SkillError(f"'{name}' ended in the middle of it, and was restarted.")
+                raise SkillError(f"'{name}' ended before it was done, and was restarted.")
             if not client.server_is_ready():
                 yield from self._patiently(
-                    client.server_is_ready, f"'{name}' ended in the middle of it."
+                    client.server_is_ready, f"'{name}' ended before it was done."
                 )
                 # A server restarted after a crash does not know this goal.
                 if not end.done():
-                    raise SkillError(f"'{name}' ended in the middle of it.")
+                    raise SkillError(f"'{name}' ended before it was done.")
 
     def _servers(self, name: str) -> set[bytes]:
         """Return the GIDs of the servers of an action; killed ones stay in the graph a while."""

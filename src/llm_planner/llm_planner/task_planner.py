@@ -54,7 +54,7 @@ class PlannerParameters(KnowledgeParameters):
 
     backend: str = parameter(
         'rules',
-        'What makes plans: rules, or a language model (openai) with the rules as a fallback.',
+        'The planner: rules, or a language model (openai) with the rules as a fallback.',
         choices=('rules', 'openai'),
         read_only=True,
     )

@@ -12,14 +12,15 @@ from launch_ros.actions import Node
 ARGUMENTS = (
     ('port', '8765', 'The port of the server; 0 for any free port.'),
     ('audit_log', '', 'The file in which each call is logged; empty for one in ROS_HOME.'),
-    ('skills_file', '', 'The file of skills; empty for the one of llm_planner.'),
+    ('skills_file', '', 'The skills file; empty for the one in llm_planner.'),
     (
         'places_file',
         '',
-        'Named places: a file, or the name of one of humanoid_perception; else by scene.',
+        'Named places: a file, or the name of one in humanoid_perception; by default, that of '
+        'the scene.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
 )
 SWITCHES = (
     (

@@ -174,7 +174,7 @@ class RobotLink:
                 if await self.thread.do(self._client.server_is_ready):
                     there_s = time.monotonic()
                 if time.monotonic() > there_s + _LOST_S:
-                    raise RobotError('The skill executor ended in the middle of it.') from None
+                    raise RobotError('The skill executor ended before it was done.') from None
                 if not is_accepted and time.monotonic() > accepted_by_s:
                     raise RobotError('The skill executor does not answer.') from None
                 yield None

@@ -21,7 +21,7 @@ ARGUMENTS = (
         'The wake word that commands have to start with; empty to accept every command.',
     ),
     ('namespace', '', 'The namespace of the robot.'),
-    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+    ('use_sim_time', 'false', 'Use the time of the topic /clock instead of the system clock.'),
 )
 CHOICES = (
     (
