@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is installed: prefixes in the environment, packages, executables and launch files."""
+"""What is installed and sourced, such as packages and executables, and the commands for it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 import os
 from pathlib import Path
+import shlex
 
 LAUNCH_SUFFIXES = ('launch.py', 'launch.xml', 'launch.yaml', 'launch.yml', '.launch')
 
@@ -125,7 +126,50 @@ def package_of_share_file(path: Path) -> str | None:
     return None
 
 
+def current_folder() -> Path:
+    """Return the current folder, or where it was if it has been deleted."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        return Path(os.environ.get('PWD') or '/')
+
+
+def source_command(workspace: Path) -> str:
+    """
+    Format the shell command that sources a built workspace.
+
+    Parameters
+    ----------
+    workspace
+        The folder of the workspace; the path is relative if it is the current folder.
+
+    """
+    return f'source {_reach(workspace, "install/setup.bash")}'
+
+
+def build_command(workspace: Path, package: str) -> str:
+    """
+    Format the shell commands that build one package and source its workspace.
+
+    Parameters
+    ----------
+    workspace
+        The folder of the workspace.
+    package
+        The package that is built.
+
+    """
+    build = f'colcon build --packages-select {package}'
+    if current_folder() != workspace:
+        build = f'cd {shlex.quote(str(workspace))} && {build}'
+    return f'{build} && source install/setup.bash'
+
+
 def _files(folder: Path) -> Iterator[Path]:
     for root, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith('.')]
         yield from (Path(root, name) for name in names)
+
+
+def _reach(workspace: Path, relative: str) -> str:
+    return relative if current_folder() == workspace else shlex.quote(str(workspace / relative))

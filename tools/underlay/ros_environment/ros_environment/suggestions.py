@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Suggestions for misspelt names."""
+"""What is said of names: suggestions for misspelt ones, and lists of those that there are."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+
+_MAX_LISTED = 12
 
 
 def closest_name(
@@ -57,3 +59,17 @@ def did_you_mean(
     """
     close = closest_name(name, known, cutoff, ignore_case=ignore_case)
     return f"Did you mean '{close}'?" if close else ''
+
+
+def listing(names: list[str]) -> str:
+    """
+    Join names with commas; those after the twelfth are only counted.
+
+    Parameters
+    ----------
+    names
+        The names, in their order.
+
+    """
+    more = len(names) - _MAX_LISTED
+    return ', '.join(names[:_MAX_LISTED]) + (f' and {more} more' if more > 0 else '')

@@ -7,15 +7,15 @@ from collections.abc import Iterable
 import os
 from pathlib import Path
 
-from ros_environment import advice, installed
+from ros_environment import installed
 from ros_environment.setup_script import defines_main, read_setup_script, SetupScript
 from ros_environment.source_tree import find_workspace, source_packages, SourcePackage
-from ros_environment.suggestions import did_you_mean
+from ros_environment.suggestions import did_you_mean, listing
 
 
 def workspaces() -> list[Path]:
     """Return the workspace around the current folder, then those that have been sourced."""
-    candidates = [advice.current_folder()]
+    candidates = [installed.current_folder()]
     candidates += [prefix.parent for prefix in installed.prefixes('COLCON_PREFIX_PATH')]
     found = (find_workspace(folder) for folder in candidates)
     return list(dict.fromkeys(folder for folder in found if folder))
@@ -40,13 +40,13 @@ def explain_missing_package(package: str) -> str:
         if installed.is_installed_in(workspace / 'install', package):
             return (
                 f"'{package}' is built in '{workspace}', but not sourced in this shell. "
-                f'Run: {advice.source_command(workspace)}'
+                f'Run: {installed.source_command(workspace)}'
             )
         source = source_packages(workspace).get(package)
         if source:
             return (
                 f"The source of '{package}' is in '{source.folder}', but it has not been "
-                f'built. Run: {advice.build_command(workspace, package)}'
+                f'built. Run: {installed.build_command(workspace, package)}'
             )
     return _explain_unknown_package(package)
 
@@ -72,11 +72,11 @@ def explain_missing_executable(package: str, executable: str, prefix: str) -> st
     lines = [_misplaced_script(package, executable, Path(prefix))]
     workspace, source = _find_source(package)
     if workspace and source and not lines[0]:
-        rebuild = advice.build_command(workspace, package)
+        rebuild = installed.build_command(workspace, package)
         lines.append(_explain_source_executable(source, executable, rebuild))
     text = f"'{package}' has no installed executables."
     if names:
-        text = f"The executables of '{package}': {advice.listing(names)}."
+        text = f"The executables of '{package}': {listing(names)}."
     lines.append(_with_suggestion(text, executable, names))
     return '\n'.join(line for line in lines if line)
 
@@ -102,11 +102,11 @@ def explain_missing_share_file(package: str, file_name: str, share: str) -> str:
     lines = []
     workspace, source = _find_source(package)
     if workspace and source:
-        rebuild = advice.build_command(workspace, package)
+        rebuild = installed.build_command(workspace, package)
         lines.append(_explain_source_file(source, file_name, rebuild))
     text = f"'{package}' has no installed launch files."
     if names:
-        text = f"The installed launch files of '{package}': {advice.listing(names)}."
+        text = f"The installed launch files of '{package}': {listing(names)}."
     lines.append(_with_suggestion(text, file_name, names))
     return '\n'.join(line for line in lines if line)
 
@@ -130,7 +130,7 @@ def explain_uninstalled_file(path: str) -> str:
     workspace, source = _find_source(package) if package else (None, None)
     if not workspace or not source:
         return ''
-    rebuild = advice.build_command(workspace, source.name)
+    rebuild = installed.build_command(workspace, source.name)
     return _explain_source_file(source, Path(path).name, rebuild)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from ros2doctor.api.extension import Finding, Report, Severity
 from ros2doctor.check.graph import Endpoint, Graph, GraphCheck, GraphReport
-from ros_environment.advice import listing
+from ros_environment.suggestions import listing
 
 # Topics that robots share on purpose.
 _COMMON = frozenset(

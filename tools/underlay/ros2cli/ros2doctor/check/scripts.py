@@ -13,7 +13,7 @@ import shutil
 
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 from ros2doctor.check.wheels import environment_prefix, install_command, is_own
-from ros_environment.advice import listing
+from ros_environment.suggestions import listing
 
 LONGEST_LINE = 512
 INSTALL = 'install'

@@ -15,8 +15,8 @@ import shlex
 import sys
 
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
-from ros_environment.advice import listing
 from ros_environment.installed import prefixes
+from ros_environment.suggestions import listing
 
 MARKER = 'pyvenv.cfg'
 VERSION = re.compile(r'^version(?:_info)? *= *(\d+\.\d+\.\d+)', re.MULTILINE)

@@ -11,9 +11,15 @@ from pathlib import Path
 import shlex
 
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
-from ros_environment.advice import build_command, current_folder, listing, source_command
-from ros_environment.installed import is_installed_in, known_packages
+from ros_environment.installed import (
+    build_command,
+    current_folder,
+    is_installed_in,
+    known_packages,
+    source_command,
+)
 from ros_environment.source_tree import source_packages, SourcePackage
+from ros_environment.suggestions import listing
 from ros_environment.workspace import workspaces
 
 NEVER_INSTALLED = ('test', 'tests', '__pycache__')
