@@ -8,8 +8,14 @@ import os
 from pathlib import Path
 
 from ros_environment import installed
-from ros_environment.setup_script import defines_main, read_setup_script, SetupScript
-from ros_environment.source_tree import find_workspace, source_packages, SourcePackage
+from ros_environment.source_tree import (
+    defines_main,
+    find_workspace,
+    read_setup_script,
+    SetupScript,
+    source_packages,
+    SourcePackage,
+)
 from ros_environment.suggestions import did_you_mean, listing
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from ros_environment.setup_script import read_setup_script
+from ros_environment.source_tree import read_setup_script
 from ros_environment.workspace import explain_missing_share_file, explain_uninstalled_file
 
 MakePackage = Callable[..., Path]
