@@ -130,7 +130,7 @@ class Frames:
         direct = self._direct(target, source)
         if direct is not None:
             return direct
-        if not all(map(self.buffer._frameExists, (target, source))):
+        if not self.buffer.known_frames.has(target, source):
             return None
         try:
             return self.between(target, source)
@@ -164,14 +164,14 @@ class Frames:
 
     def latest(self) -> dict[str, Sample]:
         """Return the latest parent and pose of each frame that has a parent, by name."""
-        return self.buffer._latest_samples()
+        return self.buffer.known_frames.latest_of_all()
 
     def _direct(self, target: str, source: str) -> Pose | None:
         """Return the latest pose of a frame in its parent or child, the most common case."""
-        below = self.buffer._latest_sample(source)
+        below = self.buffer.known_frames.latest(source)
         if below is not None and below.parent == target:
             return _pose(below.pose)
-        above = self.buffer._latest_sample(target)
+        above = self.buffer.known_frames.latest(target)
         if above is not None and above.parent == source:
             return _pose(inverse(above.pose))
         return None

@@ -123,8 +123,10 @@ def test_transforms_wait_for_the_frame(context: Any) -> None:
         moving.sendTransform(transform('base', stamp_s))
     for _ in range(5):
         executor.spin_once(timeout_sec=0.05)
-    assert buffer._latest_samples() == {}
-    while len(taken := buffer._latest_samples()) < 2 or taken['base'].stamp_ns < 5 * 10**9:
+    assert buffer.known_frames.latest_of_all() == {}
+    while (
+        len(taken := buffer.known_frames.latest_of_all()) < 2 or taken['base'].stamp_ns < 5 * 10**9
+    ):
         assert time.monotonic() < end_s, f'only these came: {taken}'
         moving.sendTransform(transform('base', 5))
         listener.take_all()
@@ -150,7 +152,7 @@ def test_moving_transforms_only_while_it_does_not_rest(context: Any) -> None:
 
     def known_after(wanted: str) -> set[str]:
         end_s = time.monotonic() + TIMEOUT_S
-        while wanted not in (known := set(buffer._latest_samples())):
+        while wanted not in (known := set(buffer.known_frames.latest_of_all())):
             assert time.monotonic() < end_s, f'only these came: {known}'
             moving.sendTransform(transform('base', 5))
             executor.spin_once(timeout_sec=0.05)

@@ -8,9 +8,9 @@ import logging
 import threading
 from typing import Optional, TYPE_CHECKING
 
-from tf2_py import _listing
 from tf2_py._frame_store import FrameStore
 from tf2_py.exceptions import TransformException
+from tf2_py.known_frames import KnownFrames
 from tf2_py.messages import nanoseconds, Reading, reading_of, transform_message
 from tf2_py.poses import chain, normalized, Pose
 from tf2_py.refusals import bad_quaternion, both_kinds, Complaints, old_data, refusal
@@ -40,6 +40,11 @@ class BufferCore:
     ValueError
         The cache time is negative.
 
+    Attributes
+    ----------
+    known_frames
+        The frames that exist, with their latest samples.
+
     """
 
     def __init__(self, cache_time: Optional[Duration] = None) -> None:
@@ -48,6 +53,7 @@ class BufferCore:
             raise ValueError(f'The cache time must be 0 s or more, not {cache_ns / 1e9:g} s')
         self._store = FrameStore(cache_ns)
         self._lock = threading.RLock()
+        self.known_frames = KnownFrames(self._store, self._lock)
         self._complaints = Complaints(self._warn)
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
@@ -64,7 +70,7 @@ class BufferCore:
             The publisher of the transform.
 
         """
-        self._take([reading_of(transform)], authority, is_static=False)
+        self.insert_readings([reading_of(transform)], authority, is_static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """
@@ -80,7 +86,7 @@ class BufferCore:
             The publisher of the transform.
 
         """
-        self._take([reading_of(transform)], authority, is_static=True)
+        self.insert_readings([reading_of(transform)], authority, is_static=True)
 
     def lookup_transform_core(
         self, target_frame: str, source_frame: str, time: Time
@@ -247,43 +253,46 @@ class BufferCore:
 
     def all_frames_as_yaml(self) -> str:
         """Format the frames, their parents and broadcasters as YAML."""
-        with self._lock:
-            return _listing.as_yaml(self._store)
+        return self.known_frames.as_yaml()
 
     def all_frames_as_string(self) -> str:
         """Format the frames and their parents as text, one per line."""
-        with self._lock:
-            return _listing.as_string(self._store)
+        return self.known_frames.as_string()
+
+    def insert_readings(
+        self, readings: Iterable[Reading], authority: str, is_static: bool
+    ) -> None:
+        """
+        Insert transforms given as frame names and numbers.
+
+        Invalid or outdated transforms are ignored with a warning.
+
+        Parameters
+        ----------
+        readings
+            For each transform: parent frame, child frame, stamp in ns, and pose of the child.
+        authority
+            The publisher of the transforms.
+        is_static
+            Whether the transforms are valid at all times.
+
+        """
+        for parent, child, stamp_ns, pose in readings:
+            self._insert(
+                parent.lstrip('/'), child.lstrip('/'), stamp_ns, pose, authority, is_static
+            )
 
     def _allFramesAsDot(self) -> str:  # noqa: N802
         """Format the frames as a Graphviz graph."""
-        with self._lock:
-            return _listing.as_dot(self._store)
+        return self.known_frames.as_dot()
 
     def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
         """Whether a frame exists."""
-        return self._knows(frame_id)
-
-    def _knows(self, *frames: str) -> bool:
-        """Whether all frames exist."""
-        with self._lock:
-            return self._store.has(*frames)
+        return self.known_frames.has(frame_id)
 
     def _getFrameStrings(self) -> list[str]:  # noqa: N802
         """Return the names of all frames."""
-        with self._lock:
-            return self._store.names()
-
-    def _latest_sample(self, frame: str) -> Optional[Sample]:
-        """Return the latest sample of a frame; that of a static frame has time 0."""
-        with self._lock:
-            return self._store.latest(frame)
-
-    def _latest_samples(self) -> dict[str, Sample]:
-        """Return the latest sample of each frame that has a parent."""
-        with self._lock:
-            latest = {frame: cache.latest() for frame, cache in self._store.known()}
-        return {frame: sample for frame, sample in latest.items() if sample is not None}
+        return self.known_frames.names()
 
     def _chain(
         self,
@@ -294,22 +303,13 @@ class BufferCore:
         fixed_frame: str,
     ) -> list[str]:
         """Return the chain of frames from the source via the fixed frame to the target."""
-        with self._lock:
-            self._check_full('chain', target_frame, source_frame, fixed_frame)
-            below = self._frames(fixed_frame, source_frame, nanoseconds(source_time))
-            above = self._frames(target_frame, fixed_frame, nanoseconds(target_time))
-        return [*below, *above[1:]]
+        return self.known_frames.chain(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
 
     def _warn(self, text: str) -> None:
         """Log a warning about a transform."""
         logging.getLogger('tf2').warning(text)
-
-    def _take(self, readings: Iterable[Reading], authority: str, is_static: bool) -> None:
-        """Insert transforms given as frame names and numbers."""
-        for parent, child, stamp_ns, pose in readings:
-            self._insert(
-                parent.lstrip('/'), child.lstrip('/'), stamp_ns, pose, authority, is_static
-            )
 
     def _insert(
         self, parent: str, child: str, stamp_ns: int, pose: Pose, authority: str, is_static: bool
@@ -347,10 +347,3 @@ class BufferCore:
         """Raise an exception if two frames are not connected at a time."""
         time_ns = time_ns or self._store.common_time_ns(target, source)
         self._store.route(target, source, time_ns)
-
-    def _frames(self, target: str, source: str, time_ns: int) -> list[str]:
-        time_ns = time_ns or self._store.common_time_ns(target, source)
-        route = self._store.route(target, source, time_ns)
-        up = [source, *(link.parent for link in route.from_source)]
-        down = [target, *(link.parent for link in route.from_target)]
-        return [*up, *reversed(down[:-1])]

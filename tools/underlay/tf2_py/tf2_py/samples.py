@@ -184,7 +184,7 @@ class StaticCache:
             True, as a static sample is never too old.
 
         """
-        self._sample = sample._replace(stamp_ns=0)
+        self._sample = Sample(0, sample.parent, sample.pose, sample.authority)
         self._link = Link(sample.parent, sample.pose, sample.pose, 0.0)
         return True
 

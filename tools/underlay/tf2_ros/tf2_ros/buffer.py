@@ -364,8 +364,19 @@ class Buffer(BufferCore, BufferInterface):
         await self.wait_for_transform_full_async(*arguments)
         return self.lookup_transform_full_core(*arguments)
 
-    def _take(self, readings: Iterable[Reading], authority: str, is_static: bool) -> None:
-        super()._take(readings, authority, is_static)
+    def insert_readings(
+        self, readings: Iterable[Reading], authority: str, is_static: bool
+    ) -> None:
+        """
+        Insert transforms given as frame names and numbers, and end the waits for them.
+
+        Parameters
+        ----------
+        readings, authority, is_static
+            As for `BufferCore.insert_readings`.
+
+        """
+        super().insert_readings(readings, authority, is_static)
         self._waiting.announce()
 
     def _look_up(
@@ -405,7 +416,7 @@ class Buffer(BufferCore, BufferInterface):
 
     def _answers(self, question: Question) -> bool:
         """Whether the transform is available; the cheap check for known frames comes first."""
-        return self._knows(*question.frames) and question.ask()[0]
+        return self.known_frames.has(*question.frames) and question.ask()[0]
 
     def _is_alive(self) -> bool:
         return self._node is None or bool(self._node.context.ok())

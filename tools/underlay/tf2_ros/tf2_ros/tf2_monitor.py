@@ -134,7 +134,7 @@ class Monitor:
         from rclpy.time import Time
 
         target, source = self._frames
-        return self._buffer._chain(target, Time(), source, Time(), source)
+        return self._buffer.known_frames.chain(target, Time(), source, Time(), source)
 
     def _now_s(self) -> float:
         return float(self.node.get_clock().now().nanoseconds / 1e9)

@@ -161,7 +161,7 @@ class TransformListener:
 
     def _take(self, reader: TfReader, is_static: bool, data: bytes) -> None:
         """Insert the transforms of a serialized message into the buffer."""
-        self.buffer._take(reader.read(data), _AUTHORITY, is_static)
+        self.buffer.insert_readings(reader.read(data), _AUTHORITY, is_static)
 
     def _forget_at_jumps(self) -> None:
         """Make a Buffer monitor the clock of the node; a BufferCore has no clock."""

@@ -61,7 +61,7 @@ def _view(args: argparse.Namespace) -> int:
     drawn = f'{path}.pdf' if has_graphviz() else f'{path}.svg'
     logger.info(f'Generating graph in {drawn} file...')
     try:
-        write_graph(path, buffer._allFramesAsDot())
+        write_graph(path, buffer.known_frames.as_dot())
         if drawn.endswith('.svg'):
             write_tree(path, yaml.safe_load(buffer.all_frames_as_yaml()))
     except OSError as error:
@@ -77,7 +77,7 @@ def _view(args: argparse.Namespace) -> int:
 
 
 def _say_what_is_missing(node: Node, buffer: Buffer) -> None:
-    if not buffer._getFrameStrings():
+    if not buffer.known_frames.names():
         node.get_logger().warning(
             "No transforms received. 'ros2 topic info -v /tf' shows whether a node publishes "
             'them; nodes in other domains or on other machines are not visible'

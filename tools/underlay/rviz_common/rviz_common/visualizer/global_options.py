@@ -59,7 +59,7 @@ class FrameWatch:
 
     def names(self) -> list[str]:
         """Return the names of all known frames."""
-        return sorted(self._frames.buffer._getFrameStrings())
+        return sorted(self._frames.buffer.known_frames.names())
 
     def _judge(self) -> tuple[Level, str]:
         fixed, names = self._frames.fixed_frame, self.names()
