@@ -3,22 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
-from typing import Any, NamedTuple, Optional, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 from weakref import finalize, ref
 
 from rclpy.clock import ClockChange, JumpThreshold
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.logging import get_logger
-from rclpy.task import Future
-from tf2_py import BufferCore, TransformException
-from tf2_py.messages import nanoseconds, Reading
 from tf2_py.refusals import Complaints
-from tf2_py.route import after_waiting
-from tf2_ros._waiting import Waiting
+from tf2_ros._waiting import Question, WaitingBuffer
 from tf2_ros.buffer_interface import BufferInterface
 
 if TYPE_CHECKING:
@@ -27,11 +22,6 @@ if TYPE_CHECKING:
     from rclpy.time import Time
 
 Result = Union[bool, tuple[bool, str]]
-_BLOCKED = (
-    'No transform could arrive during the wait: the thread that waited is the one that '
-    'receives them: create the TransformListener with spin_thread=True, or await '
-    'lookup_transform_async'
-)
 
 QUIET_S = 60.0
 """Period between warnings: with two simulators, each `/clock` message is a time jump."""
@@ -50,25 +40,9 @@ def _end(jumps: Any) -> None:
         jumps.unregister()
 
 
-class Question(NamedTuple):
-    """Query of a buffer: whether a transform is available, or the reason why not."""
-
-    method: Callable[..., tuple[bool, str]]
-    arguments: tuple[Any, ...]
-
-    def ask(self) -> tuple[bool, str]:
-        """Run the query now."""
-        return self.method(*self.arguments)
-
-    @property
-    def frames(self) -> list[str]:
-        """Return the frames of the query."""
-        return [argument for argument in self.arguments if isinstance(argument, str)]
-
-
-class Buffer(BufferCore, BufferInterface):
+class Buffer(WaitingBuffer, BufferInterface):
     """
-    BufferCore that supports waiting and is cleared when time jumps back.
+    Buffer whose lookups wait up to a timeout, and which is cleared when time jumps back.
 
     Parameters
     ----------
@@ -86,11 +60,9 @@ class Buffer(BufferCore, BufferInterface):
     """
 
     def __init__(self, cache_time: Optional[Duration] = None, node: Optional[Node] = None) -> None:
-        BufferCore.__init__(self, cache_time)
+        WaitingBuffer.__init__(self, cache_time)
         BufferInterface.__init__(self)
-        self._node: Optional[Node] = None
         self._jump_complaints = Complaints(self._warn, silence_s=QUIET_S)
-        self._waiting = Waiting(self._is_alive)
         if node is not None:
             from tf2_msgs.srv import FrameGraph
 
@@ -274,152 +246,6 @@ class Buffer(BufferCore, BufferInterface):
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         result = self._wait(Question(self.can_transform_full_core, arguments), timeout)
         return result if return_debug_tuple else result[0]
-
-    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
-        """
-        Create a future that is done when `lookup_transform` would succeed.
-
-        Parameters
-        ----------
-        target_frame, source_frame, time
-            As for `lookup_transform`.
-
-        Returns
-        -------
-        Future
-            The future, with result True; cancel it to stop waiting.
-
-        """
-        arguments = (target_frame, source_frame, time)
-        return self._future(Question(self.can_transform_core, arguments))
-
-    def wait_for_transform_full_async(
-        self,
-        target_frame: str,
-        target_time: Time,
-        source_frame: str,
-        source_time: Time,
-        fixed_frame: str,
-    ) -> Future:
-        """
-        Create a future that is done when `lookup_transform_full` would succeed.
-
-        Parameters
-        ----------
-        target_frame, target_time, source_frame, source_time, fixed_frame
-            As for `lookup_transform_full`.
-
-        Returns
-        -------
-        Future
-            The future, with result True; cancel it to stop waiting.
-
-        """
-        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._future(Question(self.can_transform_full_core, arguments))
-
-    async def lookup_transform_async(
-        self, target_frame: str, source_frame: str, time: Time
-    ) -> TransformStamped:
-        """
-        Await the transform that maps data from the source frame to the target frame.
-
-        Parameters
-        ----------
-        target_frame, source_frame, time
-            As for `lookup_transform`.
-
-        Returns
-        -------
-        TransformStamped
-            As from `lookup_transform`.
-
-        """
-        await self.wait_for_transform_async(target_frame, source_frame, time)
-        return self.lookup_transform_core(target_frame, source_frame, time)
-
-    async def lookup_transform_full_async(
-        self,
-        target_frame: str,
-        target_time: Time,
-        source_frame: str,
-        source_time: Time,
-        fixed_frame: str,
-    ) -> TransformStamped:
-        """
-        Await the transform from the source frame at one time to the target frame at another.
-
-        Parameters
-        ----------
-        target_frame, target_time, source_frame, source_time, fixed_frame
-            As for `lookup_transform_full`.
-
-        Returns
-        -------
-        TransformStamped
-            As from `lookup_transform_full`.
-
-        """
-        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        await self.wait_for_transform_full_async(*arguments)
-        return self.lookup_transform_full_core(*arguments)
-
-    def insert_readings(
-        self, readings: Iterable[Reading], authority: str, is_static: bool
-    ) -> None:
-        """
-        Insert transforms given as frame names and numbers, and end the waits for them.
-
-        Parameters
-        ----------
-        readings, authority, is_static
-            As for `BufferCore.insert_readings`.
-
-        """
-        super().insert_readings(readings, authority, is_static)
-        self._waiting.announce()
-
-    def _look_up(
-        self, look_up: Callable[[], TransformStamped], question: Question, timeout: Duration
-    ) -> TransformStamped:
-        """Return the transform, after waiting for it up to the timeout."""
-        timeout_s = nanoseconds(timeout) / 1e9
-        if timeout_s <= 0.0:
-            return look_up()
-        self._waiting.until(partial(self._answers, question), timeout_s)
-        try:
-            return look_up()
-        except TransformException as error:
-            reason = after_waiting(str(error), timeout_s)
-            blocked = f'. {_BLOCKED}' if self._waiting.blocks_itself() else ''
-            raise type(error)(reason + blocked) from None
-
-    def _wait(self, question: Question, timeout: Duration) -> tuple[bool, str]:
-        timeout_s = nanoseconds(timeout) / 1e9
-        if timeout_s <= 0.0:
-            return question.ask()
-        self._waiting.until(partial(self._answers, question), timeout_s)
-        is_there, reason = question.ask()
-        return is_there, after_waiting(reason, timeout_s)
-
-    def _future(self, question: Question) -> Future:
-        future = Future()
-        future.add_done_callback(self._wake)
-        self._waiting.add(partial(self._answers, question), future)
-        return future
-
-    def _wake(self, future: Future) -> None:
-        """Wake the executor to resume callbacks; another thread may have filled the buffer."""
-        executor = self._node.executor if self._node else None
-        if executor is not None:
-            executor.wake()
-
-    def _answers(self, question: Question) -> bool:
-        """Whether the transform is available; the cheap check for known frames comes first."""
-        return self.known_frames.has(*question.frames) and question.ask()[0]
-
-    def _is_alive(self) -> bool:
-        return self._node is None or bool(self._node.context.ok())
 
     def _warn(self, text: str) -> None:
         get_logger('tf2').warning(text)
