@@ -6,17 +6,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros_environment.lazy import lazy_exports
+from tf2_py.exceptions import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
 
 if TYPE_CHECKING:
-    from tf2_py import (
-        BufferCore,
-        ConnectivityException,
-        ExtrapolationException,
-        InvalidArgumentException,
-        LookupException,
-        TimeoutException,
-        TransformException,
-    )
+    from tf2_py import BufferCore
     from tf2_ros import (
         buffer,
         buffer_client,
@@ -72,15 +72,6 @@ __all__ = [
     'transform_listener',
 ]
 
-_FROM_CORE = [
-    'BufferCore',
-    'ConnectivityException',
-    'ExtrapolationException',
-    'InvalidArgumentException',
-    'LookupException',
-    'TimeoutException',
-    'TransformException',
-]
 _FROM_INTERFACE = [
     'ConvertRegistration',
     'NotImplementedException',
@@ -95,7 +86,7 @@ __getattr__, __dir__ = lazy_exports(
     __name__,
     __all__,
     {
-        **dict.fromkeys(_FROM_CORE, '_core'),
+        'BufferCore': '_waiting',
         **dict.fromkeys(_FROM_INTERFACE, 'buffer_interface'),
         **dict.fromkeys(_MODULES, ''),
     },

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Main functions of ROS programs, with a clean shutdown on SIGINT and SIGTERM."""
+"""Main functions of ROS programs: their arguments, and a clean end on SIGINT and SIGTERM."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 import errno
+from math import nan
 import os
 import signal
 import sys
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
 
-__all__ = ['run', 'run_node', 'spin', 'wait_for_signal']
+__all__ = ['number_in', 'run', 'run_node', 'spin', 'wait_for_signal']
 
 ArgumentsT = TypeVar('ArgumentsT')
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
@@ -281,3 +282,41 @@ def _complaint(publishers: int) -> str:
         f'use_sim_time is true, but {why}: the time of this node stands still. Start the '
         'simulator, or play the bag with --clock; without one, do not set use_sim_time.'
     )
+
+
+def number_in(low: float, high: float, what: str) -> Callable[[str], float]:
+    """
+    Create an argparse type for numbers in a range.
+
+    Parameters
+    ----------
+    low, high
+        The range, including both limits.
+    what
+        Description of the number, with its unit, for the error message: 'rate in Hz'.
+
+    Returns
+    -------
+    Callable
+        Converts an argument to a number, or raises `argparse.ArgumentTypeError`.
+
+    """
+
+    def read(text: str) -> float:
+        number = _number(text)
+        if not low <= number <= high:
+            from argparse import ArgumentTypeError
+
+            raise ArgumentTypeError(
+                f'{text!r} is not a {what}: give a number from {low:g} to {high:g}'
+            )
+        return number
+
+    return read
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return nan

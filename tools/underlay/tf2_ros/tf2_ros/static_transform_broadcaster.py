@@ -7,8 +7,7 @@ from copy import deepcopy
 from typing import Optional, TYPE_CHECKING, Union
 
 from tf2_msgs.msg import TFMessage
-from tf2_ros._qos import STATIC_BROADCASTER
-from tf2_ros.transform_broadcaster import as_list, Transforms
+from tf2_ros.transform_broadcaster import as_list, STATIC_BROADCASTER, Transforms
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped

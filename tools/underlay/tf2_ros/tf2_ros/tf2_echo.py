@@ -8,8 +8,7 @@ from collections.abc import Iterable
 import sys
 from typing import Any
 
-from tf2_ros.argument_types import number_in
-from tf2_ros.program import run, spin
+from tf2_ros.program import number_in, run, spin
 
 _LOOK_S = 0.1
 _LOOKS_UNTIL_WORD = 10

@@ -10,8 +10,7 @@ import sys
 import time
 from typing import Any
 
-from tf2_ros.argument_types import number_in
-from tf2_ros.program import run, spin
+from tf2_ros.program import number_in, run, spin
 
 _PERIOD_S = 10.0
 
@@ -70,8 +69,8 @@ class Monitor:
         from rclpy.clock import Clock, ClockType
         from rclpy.node import Node
         from tf2_msgs.msg import TFMessage
-        from tf2_ros._qos import DYNAMIC, STATIC_LISTENER
         from tf2_ros.buffer import Buffer
+        from tf2_ros.transform_broadcaster import DYNAMIC, STATIC_LISTENER
 
         self._frames = (args.target_frame, args.source_frame)
         self._traffic = Traffic()

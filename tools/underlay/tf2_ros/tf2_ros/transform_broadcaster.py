@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Broadcaster for transforms of moving frames."""
+"""Broadcaster for transforms of moving frames, and the QoS profiles of `/tf` and `/tf_static`."""
 
 from __future__ import annotations
 
@@ -7,12 +7,18 @@ from collections.abc import Iterable
 from typing import Optional, TYPE_CHECKING, Union
 
 from geometry_msgs.msg import TransformStamped
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
-from tf2_ros._qos import DYNAMIC
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from rclpy.qos import QoSProfile
+
+# A robot has many broadcasters; a slow listener must not lose their messages.
+DYNAMIC = QoSProfile(depth=100)
+# Late joiners receive the last message of each publisher.
+STATIC_LISTENER = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+# Each message holds all static transforms of its publisher.
+STATIC_BROADCASTER = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 Transforms = Union[TransformStamped, Iterable[TransformStamped]]
 

@@ -20,7 +20,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 from tf2_msgs.msg import TFMessage
 from tf2_py.messages import Reading, reading_of
-from tf2_ros._qos import DYNAMIC, STATIC_LISTENER
+from tf2_ros.transform_broadcaster import DYNAMIC, STATIC_LISTENER
 
 if TYPE_CHECKING:
     from rclpy.node import Node

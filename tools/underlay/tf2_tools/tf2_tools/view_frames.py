@@ -9,8 +9,7 @@ from functools import partial
 import sys
 from typing import TYPE_CHECKING
 
-from tf2_ros.argument_types import number_in
-from tf2_ros.program import run, spin, wait_for_signal
+from tf2_ros.program import number_in, run, spin, wait_for_signal
 from tf2_tools.drawing import draw, has_graphviz, write_graph, write_tree
 import yaml
 
