@@ -9,8 +9,7 @@ from typing import Any
 
 from joint_state_publisher.merged_joints import MergedJoints, States
 from joint_state_publisher.settings import Settings
-from joint_state_publisher_gui.board import Board
-from joint_state_publisher_gui.joint_slider import Scale
+from joint_state_publisher_gui.board import Board, Scale
 import pytest
 from urdf import parse_urdf
 
