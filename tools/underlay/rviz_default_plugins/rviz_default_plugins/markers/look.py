@@ -53,9 +53,11 @@ class Look:
             The look that is drawn now, None for nothing.
 
         """
-        return other is not None and self._parts() == other._parts() and self._same_points(other)
+        return other is not None and self.plain == other.plain and self._same_points(other)
 
-    def _parts(self) -> tuple[Any, ...]:
+    @property
+    def plain(self) -> tuple[Any, ...]:
+        """Return all that is neither an array nor the note."""
         return self.kind, self.scale, self.color, self.alpha, self.text, self.mesh
 
     def _same_points(self, other: Look) -> bool:

@@ -226,13 +226,15 @@ class MeshShelf:
     ----------
     meshes
         The meshes that have been read, by the names in the URDF.
+    files
+        The time of the last change, in ns, and the mesh of each file that has been read.
     complaints
         A message for each mesh that is missing, broken or simplified.
 
     """
 
     def __init__(self, before: MeshShelf | None = None) -> None:
-        self._read: dict[Path, tuple[int, DrawnMesh]] = dict(before._read) if before else {}
+        self.files: dict[Path, tuple[int, DrawnMesh]] = dict(before.files) if before else {}
         self.meshes: dict[str, DrawnMesh] = {}
         self.complaints: list[str] = []
 
@@ -260,7 +262,7 @@ class MeshShelf:
     def _mesh(self, name: str) -> DrawnMesh:
         path = find_mesh(name)
         changed_ns = path.stat().st_mtime_ns
-        known = self._read.get(path)
+        known = self.files.get(path)
         if known is None or known[0] != changed_ns:
-            known = self._read[path] = changed_ns, load_mesh(path, name, folder_of(name))
+            known = self.files[path] = changed_ns, load_mesh(path, name, folder_of(name))
         return known[1]
