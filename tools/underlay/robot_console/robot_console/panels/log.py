@@ -88,7 +88,9 @@ class LogBook:
         """
         if not self._is_ours(line.node):
             return None
-        kept = line._replace(level=_level(line.level), text=_shortened(line.text))
+        kept = LogLine(
+            line.time_s, _level(line.level), line.node, _shortened(line.text), line.where
+        )
         self._lines.append(kept)
         self.count += 1
         self.counts[kept.level] += 1

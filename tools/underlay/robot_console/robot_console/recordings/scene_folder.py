@@ -76,13 +76,15 @@ class SceneTape:
     """
 
     def __init__(self, server: ViserServer, span_s: float, max_bytes: int) -> None:
-        self._web = cast(Any, server._websock_server)
+        web = cast(Any, server._websock_server)
+        self._web = web
+        self._lock, self._recorders = web._record_lock, web._record_handles
         self._span_s = span_s
         self._max_bytes = max_bytes
         self._reels: list[Reel] = []
-        with self._web._record_lock:
+        with self._lock:
             self._begin_reel()
-            self._web._record_handles.append(self)
+            self._recorders.append(self)
 
     @property
     def size_bytes(self) -> int:
@@ -96,7 +98,7 @@ class SceneTape:
 
     def look(self) -> None:
         """Drop segments that are too old or exceed the memory limit; call periodically."""
-        with self._web._record_lock:
+        with self._lock:
             now_s = time.monotonic()
             if now_s - self._reels[-1].start_s >= REEL_S:
                 self._begin_reel()
@@ -108,9 +110,9 @@ class SceneTape:
 
     def close(self) -> None:
         """Stop recording."""
-        with self._web._record_lock:
-            if self in self._web._record_handles:
-                self._web._record_handles.remove(self)
+        with self._lock:
+            if self in self._recorders:
+                self._recorders.remove(self)
 
     def page(self, title: str, max_bytes: int) -> bytes:
         """
@@ -134,7 +136,7 @@ class SceneTape:
             The page exceeds the maximum size; the message is a full sentence.
 
         """
-        with self._web._record_lock:
+        with self._lock:
             scene = self._reels[0].scene
             start_s, end_s = self._reels[0].start_s, time.monotonic()
             sent = [each for reel in self._reels for each in reel.sent]
@@ -154,12 +156,15 @@ class SceneTape:
         """Encode our messages, without concurrent ones, with the serializer of the server."""
         ours = {id(message) for message in scene} | {id(message) for _, message in sent}
         recorder = self._web.get_message_serializer(lambda message: id(message) in ours)
+        insert = recorder._insert_message
         for message in scene:
-            recorder._insert_message(message)
+            insert(message)
+        last_s = start_s
         for sent_s, message in sent:
-            recorder.insert_sleep(max(0.0, sent_s - start_s - recorder._time))
-            recorder._insert_message(message)
-        recorder.insert_sleep(max(0.0, end_s - start_s - recorder._time))
+            recorder.insert_sleep(max(0.0, sent_s - last_s))
+            last_s = max(last_s, sent_s)
+            insert(message)
+        recorder.insert_sleep(max(0.0, end_s - last_s))
         page: str = recorder.as_html(dark_mode=True)
         return page
 

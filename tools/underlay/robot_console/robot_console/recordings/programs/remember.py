@@ -153,7 +153,10 @@ class MessageMemory:
         """
         self.forget_old(now_ns)
         start_ns = self._messages[0].log_ns if self._messages else now_ns
-        head = (each._replace(log_ns=start_ns) for each in self._latched.alive(now_ns))
+        head = (
+            RecordedMessage(each.topic, each.data, start_ns, each.publish_ns, each.sequence)
+            for each in self._latched.alive(now_ns)
+        )
         return Kept(tuple(self._topics.values()), (*head, *self._messages))
 
     def _forget_oldest(self) -> None:
