@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 import pytest
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.page.uploads import LARGEST_UPLOAD_BYTES, MOST_AT_ONCE, MOST_PARTS, Uploads
+from rviz_common.page.message_filter import LARGEST_UPLOAD_BYTES, MOST_AT_ONCE, MOST_PARTS, Uploads
 import viser
 from viser._messages import FileTransferPart, FileTransferStartUpload
 from websockets.sync.client import ClientConnection, connect
