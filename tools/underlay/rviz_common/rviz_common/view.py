@@ -1,23 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A view of the scene: its kind and its properties, as in a file."""
+"""A view of the scene: its kind and properties, as in a file, and the cameras of browsers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
+from rviz_common.context import Context
+from rviz_common.frames import FrameError, Pose
 from rviz_common.properties import Values
 from rviz_common.view_kinds import (
     CameraPose,
     Fps,
     Orbit,
+    Point,
     ThirdPersonFollower,
     TopDown,
     ViewKind,
     XYOrbit,
 )
 
-__all__ = ['KINDS', 'View']
+if TYPE_CHECKING:
+    from viser import ViserServer
+
+__all__ = ['Background', 'Cameras', 'KINDS', 'View', 'WORLD']
 
 KINDS: dict[str, ViewKind] = {
     kind.CLASS: kind for kind in (Orbit(), XYOrbit(), TopDown(), Fps(), ThirdPersonFollower())
@@ -141,3 +147,160 @@ class View:
         if not self._given or self.name != self._first_name:
             written['Name'] = self.name
         return written
+
+
+WORLD = '/world'
+"""The path of the scene below which everything in the fixed frame is drawn."""
+
+
+class Cameras:
+    """
+    Set the cameras of all browsers to a view.
+
+    To follow a frame, the world is moved instead of the camera, so that users can turn the scene
+    meanwhile without interference.
+
+    Parameters
+    ----------
+    context
+        The page, and the transforms.
+    view
+        The first view; browsers that connect later start with the latest one.
+
+    Attributes
+    ----------
+    view
+        The view that is shown.
+    reason
+        Why the target frame cannot be followed, '' if it can.
+
+    """
+
+    def __init__(self, context: Context, view: View) -> None:
+        self._context = context
+        self._world = context.scene.add_frame(WORLD, show_axes=False)
+        self._at = Pose().position
+        self.reason = ''
+        self.show(view)
+
+    @property
+    def origin(self) -> Point:
+        """Return the position of the target frame in the fixed frame."""
+        return self._at
+
+    def show(self, view: View) -> None:
+        """
+        Set the cameras of all browsers, and of those that connect later, to a view.
+
+        Parameters
+        ----------
+        view
+            The view.
+
+        """
+        self.view = view
+        pose = view.camera()
+        initial = self._context.server.initial_camera
+        initial.up = pose.up
+        _apply(initial, pose)
+        for client in self._context.server.get_clients().values():
+            client.camera.up_direction = pose.up
+            _apply(client.camera, pose)
+
+    def update(self) -> None:
+        """Follow the target frame."""
+        try:
+            at = self._context.frames.pose(self.view.target).position
+        except FrameError as error:
+            self.reason = str(error)
+            return
+        self.reason = ''
+        if at != self._at:
+            self._at = at
+            x, y, z = at
+            self._world.position = (-x, -y, -z)
+
+    def seen_by(self, client_id: int | None) -> CameraPose | None:
+        """
+        Read the camera of a browser, which its user may have moved.
+
+        Parameters
+        ----------
+        client_id
+            The browser; if it is None or gone, the first one that is connected.
+
+        Returns
+        -------
+        CameraPose | None
+            Relative to the origin of the target frame; None if no browser is connected.
+
+        """
+        clients = self._context.server.get_clients()
+        client = clients.get(client_id) if client_id is not None else None
+        client = client or next(iter(clients.values()), None)
+        return None if client is None else _pose(client.camera)
+
+
+def _apply(camera: Any, pose: CameraPose) -> None:
+    """Set the camera of a browser, or the initial camera of new browsers."""
+    camera.position = pose.position
+    camera.look_at = pose.look_at
+    camera.fov, camera.near, camera.far = pose.fov, pose.near, pose.far
+
+
+def _pose(camera: Any) -> CameraPose:
+    """Return the camera pose of a browser."""
+    return CameraPose(
+        _point(camera.position),
+        _point(camera.look_at),
+        _point(camera.up_direction),
+        camera.fov,
+        camera.near,
+        camera.far,
+    )
+
+
+def _point(vector: Any) -> Point:
+    x, y, z = (float(part) for part in vector)
+    return x, y, z
+
+
+class Background:
+    """
+    A background of one color.
+
+    It is an image, for which viser loads a library of 15 MB: that waits until a page is open.
+
+    Parameters
+    ----------
+    server
+        The server of the page.
+
+    """
+
+    def __init__(self, server: ViserServer) -> None:
+        self._server = server
+        self._color: tuple[int, int, int] | None = None
+        self._painted: tuple[int, int, int] | None = None
+
+    def choose(self, color: tuple[int, int, int]) -> None:
+        """
+        Set the color of the background, which the next `update` paints.
+
+        Parameters
+        ----------
+        color
+            Red, green and blue, each from 0 to 255.
+
+        """
+        self._color = color
+
+    def update(self) -> None:
+        """Paint the chosen colour, unless it is already painted."""
+        if self._color is None or self._color == self._painted:
+            return
+        import numpy as np
+
+        picture = np.full((1, 1, 3), self._color, np.uint8)
+        self._server.scene.set_background_image(picture, format='png')
+        self._painted = self._color

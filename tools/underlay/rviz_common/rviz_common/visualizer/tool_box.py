@@ -11,7 +11,7 @@ from rviz_common.context import Context
 from rviz_common.plugins import load_plugin, TOOLS
 from rviz_common.status import described_error
 from rviz_common.tool import Point, Tool
-from rviz_common.visualizer.cameras import WORLD
+from rviz_common.view import WORLD
 
 __all__ = ['BUILT_IN', 'ToolBox', 'ground_point']
 

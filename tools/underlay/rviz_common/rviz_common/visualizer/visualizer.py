@@ -17,8 +17,7 @@ from rviz_common.panels.head import FileFolder, Head
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import described_error, printable, Statuses
-from rviz_common.view import View
-from rviz_common.visualizer.cameras import Background, Cameras, WORLD
+from rviz_common.view import Background, Cameras, View, WORLD
 from rviz_common.visualizer.display_entry import Maker
 from rviz_common.visualizer.display_tree import Entry, Group
 from rviz_common.visualizer.frame_loop import Attention, FrameLoop, REST_HZ
