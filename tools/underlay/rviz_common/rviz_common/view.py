@@ -23,7 +23,7 @@ from rviz_common.view_kinds import (
 if TYPE_CHECKING:
     from viser import ViserServer
 
-__all__ = ['Background', 'Cameras', 'KINDS', 'View', 'WORLD']
+__all__ = ['KINDS', 'WORLD', 'Background', 'Cameras', 'View']
 
 KINDS: dict[str, ViewKind] = {
     kind.CLASS: kind for kind in (Orbit(), XYOrbit(), TopDown(), Fps(), ThirdPersonFollower())

@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 from rviz_common.config import ConfigError, Configuration
 from rviz_common.config.configuration import DISPLAYS, OPTIONS
-from rviz_common.config.reading import read_yaml
-from rviz_common.config.writing import replace_file, write_yaml
+from rviz_common.config.yaml_file import read_yaml, replace_file, write_yaml
 import yaml
 
 DISPLAY = 'Visualization Manager:\n  Displays:\n    '

@@ -88,7 +88,7 @@ def probe(name: str, **more: Any) -> dict[str, Any]:
 
 def text_of(*displays: dict[str, Any], **options: Any) -> str:
     """Return the text of a file."""
-    from rviz_common.config.writing import write_yaml
+    from rviz_common.config.yaml_file import write_yaml
 
     manager = {'Displays': list(displays), 'Global Options': {'Fixed Frame': 'map', **options}}
     return write_yaml({'Visualization Manager': manager})

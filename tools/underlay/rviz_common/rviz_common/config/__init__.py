@@ -2,6 +2,6 @@
 """Configuration files (.rviz): reading, editing and writing them."""
 
 from rviz_common.config.configuration import Configuration
-from rviz_common.config.reading import ConfigError, Document, Place
+from rviz_common.config.yaml_file import ConfigError, Document, Place
 
 __all__ = ['ConfigError', 'Configuration', 'Document', 'Place']

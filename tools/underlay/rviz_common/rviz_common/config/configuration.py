@@ -9,8 +9,14 @@ import stat
 from typing import Any
 
 from rviz_common.config.default import default_values
-from rviz_common.config.reading import ConfigError, Document, Place, read_yaml
-from rviz_common.config.writing import replace_file, write_yaml
+from rviz_common.config.yaml_file import (
+    ConfigError,
+    Document,
+    Place,
+    read_yaml,
+    replace_file,
+    write_yaml,
+)
 
 __all__ = [
     'DISPLAYS',
