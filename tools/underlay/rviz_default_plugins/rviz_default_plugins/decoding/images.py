@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How messages with images, raw or compressed, are decoded to RGB, downsampled for the page."""
+"""How messages with images are decoded to RGB: raw, compressed or of depth, and downsampled."""
 
 from __future__ import annotations
 
+from collections import deque
 import io
 import math
 import re
+from statistics import median
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from rviz_default_plugins.decoding.brightness import Brightness
 
-__all__ = ['MOST_PIXELS', 'Picture', 'decode_compressed_image', 'decode_image']
+__all__ = ['MOST_PIXELS', 'Brightness', 'Picture', 'decode_compressed_image', 'decode_image']
 
 Bytes = NDArray[np.uint8]
 
@@ -277,3 +278,53 @@ def _unknown(encoding: str) -> ValueError:
         f"its encoding '{encoding}' is not known; known are rgb8, bgr8, rgba8, bgra8, mono8, "
         'mono16, 16UC1, 32FC1, yuv422, bayer_rggb8 and their like.'
     )
+
+
+class Brightness:
+    """
+    Maps values to greys between limits, which may be determined from the last images.
+
+    Parameters
+    ----------
+    limits
+        The values mapped to black and white; None to determine them from the images.
+    window
+        The number of images over whose minima and maxima the medians are taken as limits.
+
+    """
+
+    def __init__(self, limits: tuple[float, float] | None = None, window: int = 5) -> None:
+        self._limits = limits
+        self._seen: deque[tuple[float, float]] = deque(maxlen=max(1, window))
+
+    def apply(self, values: NDArray[Any]) -> NDArray[np.uint8]:
+        """
+        Map the values of an image to greys.
+
+        Parameters
+        ----------
+        values
+            An array of any shape. Without fixed limits, its minimum and maximum enter the medians.
+
+        Returns
+        -------
+        NDArray[np.uint8]
+            Greys of the same shape. Non-finite values are black, and all values are if the limits
+            are equal.
+
+        """
+        numbers = values.astype(np.float32)
+        finite = np.isfinite(numbers)
+        low, high = self._limits or self._found(numbers[finite])
+        span = high - low
+        if span == 0.0 or not np.isfinite(span):
+            return np.zeros(values.shape, dtype=np.uint8)
+        parts = np.where(finite, (np.where(finite, numbers, low) - low) / span, 0.0)
+        return (np.clip(parts, 0.0, 1.0) * 255.0).astype(np.uint8)
+
+    def _found(self, numbers: NDArray[np.float32]) -> tuple[float, float]:
+        if numbers.size:
+            self._seen.append((float(numbers.min()), float(numbers.max())))
+        if not self._seen:
+            return 0.0, 0.0
+        return median(low for low, _ in self._seen), median(high for _, high in self._seen)

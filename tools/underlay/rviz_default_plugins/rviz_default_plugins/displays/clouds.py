@@ -21,8 +21,14 @@ from rviz_common.properties import (
     Whole,
 )
 from rviz_common.status import Level
-from rviz_default_plugins.decoding.cloud_colors import colors_rgb8, colors_rgbf32, Scale
-from rviz_default_plugins.decoding.clouds import Cloud, decode_cloud, decode_scan
+from rviz_default_plugins.decoding.clouds import (
+    Cloud,
+    colors_rgb8,
+    colors_rgbf32,
+    decode_cloud,
+    decode_scan,
+    Scale,
+)
 from rviz_default_plugins.decoding.geometry import rotated
 from sensor_msgs.msg import LaserScan as LaserScanMessage
 from sensor_msgs.msg import PointCloud2 as PointCloud2Message

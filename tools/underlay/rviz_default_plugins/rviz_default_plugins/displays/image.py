@@ -10,8 +10,12 @@ from weakref import WeakKeyDictionary
 from rviz_common.properties import Flag, Number, topic_properties, Whole
 from rviz_common.status import Level
 from rviz_common.topic_display import TopicDisplay
-from rviz_default_plugins.decoding.brightness import Brightness
-from rviz_default_plugins.decoding.images import decode_compressed_image, decode_image, Picture
+from rviz_default_plugins.decoding.images import (
+    Brightness,
+    decode_compressed_image,
+    decode_image,
+    Picture,
+)
 from sensor_msgs.msg import CompressedImage
 from sensor_msgs.msg import Image as ImageMessage
 

@@ -8,8 +8,12 @@ from nav_msgs.msg import OccupancyGrid
 import numpy as np
 from PIL import Image as Pillow
 import pytest
-from rviz_default_plugins.decoding.brightness import Brightness
-from rviz_default_plugins.decoding.images import decode_compressed_image, decode_image, MOST_PIXELS
+from rviz_default_plugins.decoding.images import (
+    Brightness,
+    decode_compressed_image,
+    decode_image,
+    MOST_PIXELS,
+)
 from rviz_default_plugins.decoding.occupancy import apply_update, binary, cells_of, png_of, thinned
 from sensor_msgs.msg import CompressedImage, Image
 

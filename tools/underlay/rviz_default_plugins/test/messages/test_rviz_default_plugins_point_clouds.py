@@ -5,8 +5,15 @@ import struct
 
 import numpy as np
 import pytest
-from rviz_default_plugins.decoding.cloud_colors import colors_rgb8, colors_rgbf32, rainbow, Scale
-from rviz_default_plugins.decoding.clouds import Cloud, decode_cloud, decode_scan
+from rviz_default_plugins.decoding.clouds import (
+    Cloud,
+    colors_rgb8,
+    colors_rgbf32,
+    decode_cloud,
+    decode_scan,
+    rainbow,
+    Scale,
+)
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField
 
 NAN, INF = float('nan'), float('inf')
