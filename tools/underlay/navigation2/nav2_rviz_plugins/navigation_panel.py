@@ -14,8 +14,7 @@ from robot_console.live_panel import LivePanel, Viewer
 from robot_console.namespaces import below
 from rviz_common.pace import Pace
 from rviz_common.status import Statuses
-from rviz_default_plugins.displays.marker import MarkerArray
-from rviz_default_plugins.markers.marker_scene import MarkerScene
+from rviz_default_plugins.displays.marker import MarkerArray, MarkerScene
 from rviz_default_plugins.tools.pose_tools import SetInitialPose
 
 if TYPE_CHECKING:

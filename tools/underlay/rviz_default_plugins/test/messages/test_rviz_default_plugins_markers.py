@@ -8,8 +8,8 @@ from geometry_msgs.msg import Point
 from message_stage import all_sentences, near, sentence
 import numpy as np
 import pytest
+from rviz_default_plugins.displays import marker as marker_module
 from rviz_default_plugins.displays.marker import Marker, MarkerArray
-from rviz_default_plugins.markers import marker_scene
 from rviz_default_plugins.markers.look import look_of, MOST
 from rviz_default_plugins.markers.mesh import glb_of
 from std_msgs.msg import ColorRGBA
@@ -396,8 +396,8 @@ def test_unknown_action(message_stage):
 
 def test_many_markers_are_drawn_bit_by_bit(message_stage, monkeypatch):
     """In one frame some are drawn, and not more than a limit at all."""
-    monkeypatch.setattr(marker_scene, 'MOST', 5)
-    monkeypatch.setattr(marker_scene, 'MOST_PER_FRAME', 3)
+    monkeypatch.setattr(marker_module, 'MOST', 5)
+    monkeypatch.setattr(marker_module, 'MOST_PER_FRAME', 3)
     display = message_stage.listen(Marker)
     message_stage.tell(display, *(marker(number=number) for number in range(8)))
     assert len(message_stage.drawn(display)) == 6
