@@ -29,9 +29,9 @@ setup(
             'rviz_default_plugins/Measure = rviz_default_plugins.tools.measure:Measure',
             'rviz_default_plugins/PublishPoint = '
             'rviz_default_plugins.tools.publishing:PublishPoint',
-            'rviz_default_plugins/SetGoal = rviz_default_plugins.tools.pose_tools:SetGoal',
+            'rviz_default_plugins/SetGoal = rviz_default_plugins.tools.publishing:SetGoal',
             'rviz_default_plugins/SetInitialPose = '
-            'rviz_default_plugins.tools.pose_tools:SetInitialPose',
+            'rviz_default_plugins.tools.publishing:SetInitialPose',
         ],
         'rviz_common.displays': [
             'rviz_default_plugins/Axes = rviz_default_plugins.displays.grid_and_axes:Axes',

@@ -12,7 +12,7 @@ from nav2_rviz_plugins.session import NavigationSession, session_of
 from robot_console.namespaces import NAMESPACE
 from rviz_common.context import Context
 from rviz_common.tool import Point, Tool
-from rviz_default_plugins.tools.pose_tools import heading, PoseArrow
+from rviz_default_plugins.tools.publishing import heading, PoseArrow
 
 __all__ = ['GoalTool']
 

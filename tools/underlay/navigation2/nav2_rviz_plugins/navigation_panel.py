@@ -15,7 +15,7 @@ from robot_console.namespaces import below
 from rviz_common.pace import Pace
 from rviz_common.status import Statuses
 from rviz_default_plugins.displays.marker import MarkerArray, MarkerScene
-from rviz_default_plugins.tools.pose_tools import SetInitialPose
+from rviz_default_plugins.tools.publishing import SetInitialPose
 
 if TYPE_CHECKING:
     from rclpy.node import Node

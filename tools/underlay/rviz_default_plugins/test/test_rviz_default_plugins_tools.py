@@ -17,8 +17,7 @@ from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.plugins import load_plugin, plugin_names, TOOLS
 from rviz_default_plugins.tools.measure import Measure
-from rviz_default_plugins.tools.pose_tools import heading, SetGoal, SetInitialPose
-from rviz_default_plugins.tools.publishing import PublishPoint
+from rviz_default_plugins.tools.publishing import heading, PublishPoint, SetGoal, SetInitialPose
 from tf2_ros import Buffer
 
 ROOT = '/world/tools/1'
