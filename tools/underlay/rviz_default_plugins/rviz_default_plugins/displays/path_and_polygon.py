@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The line of a path, and the poses on it."""
+"""The displays of lines: a path with the poses on it, and the outline of a polygon."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from geometry_msgs.msg import PolygonStamped
 from nav_msgs.msg import Path as PathMessage
 import numpy as np
 from rviz_common.canvas import Canvas
@@ -12,10 +13,11 @@ from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties, Vector, Whole
 from rviz_common.status import Level
+from rviz_common.topic_display import MessageDisplay
 from rviz_default_plugins.bodies import add_copies, add_lines, arrow
 from rviz_default_plugins.decoding.geometry import finite_points_of, Points, rotations_of
 
-__all__ = ['Path']
+__all__ = ['Path', 'Polygon']
 
 MOST = 20000
 
@@ -99,3 +101,38 @@ class Path(HistoryDisplay):
         surface = arrow(*shaft, values['Head Length'], values['Head Diameter'] / 2.0)
         paint = values['Pose Color'], values['Alpha']
         add_copies(canvas, 'poses', surface, paint, points, wxyzs)
+
+
+class Polygon(MessageDisplay):
+    """The newest polygon of a topic, such as the footprint of a robot."""
+
+    CLASS = 'rviz_default_plugins/Polygon'
+    MESSAGE = PolygonStamped
+    PROPERTIES = (
+        *topic_properties('geometry_msgs/msg/PolygonStamped', '/polygon'),
+        ColorOf('Color', (25, 255, 0), 'Colour of the line.'),
+        Number(
+            'Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0
+        ),
+    )
+
+    def start(self) -> None:
+        """Subscribe to the topic."""
+        self._canvas = Canvas(self.context.scene, self.root)
+        super().start()
+
+    def show(self, message: Any) -> None:
+        """
+        Draw the closed outline.
+
+        Parameters
+        ----------
+        message
+            As for `MessageDisplay.show`.
+
+        """
+        points = finite_points_of(message.polygon.points)
+        with self._canvas.anew():
+            if len(points) and self.values['Alpha']:
+                segments = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+                add_lines(self._canvas, 'line', segments, self.values['Color'])
