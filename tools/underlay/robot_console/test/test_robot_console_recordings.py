@@ -12,18 +12,16 @@ from typing import Any
 
 import pytest
 from recorded_samples import find_definition, LATCHED, MS, S, START_NS, text, topic, write_bag
-from robot_console.recordings.bags import Bag, BagTopic, commands_among, Shelf
+from robot_console.recordings.bags import about, Bag, BagTopic, commands_among, Shelf, topics_table
 from robot_console.recordings.child import Child, last_sentence
 from robot_console.recordings.programs.remember import MessageMemory
 from robot_console.recordings.programs.remember import write_bag as write_kept
 from robot_console.recordings.record_folder import bag_folder, regex_of_robot, topics_in
 from robot_console.recordings.widgets import (
-    about,
     clock_text,
     listed,
     memory_text,
     mixture_text,
-    topics_table,
 )
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.bag_writer import WriterOptions

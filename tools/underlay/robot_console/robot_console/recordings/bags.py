@@ -1,23 +1,41 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which recordings a folder has, and which of their topics would move a robot if played."""
+"""Which recordings a folder has, what they contain, and the widgets to select one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from datetime import datetime
 from fnmatch import fnmatchcase
+from html import escape
 import os
-from typing import NamedTuple
+import threading
+from typing import Any, NamedTuple
 
+from robot_console.recordings.widgets import assign, clock_text, size_text
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.metadata import FILE_NAME
-from rviz_common.status import printable
+from rviz_common.context import Context
+from rviz_common.pace import Pace
+from rviz_common.status import escaped, printable
 
-__all__ = ['COMMANDS', 'Bag', 'BagTopic', 'Shelf', 'commands_among']
+__all__ = [
+    'COMMANDS',
+    'Bag',
+    'BagChooser',
+    'BagTopic',
+    'Shelf',
+    'about',
+    'commands_among',
+    'topics_table',
+]
 
 MOST = 200
 NS_PER_S = 1e9
+NONE = '(none)'
+PERIOD_S = 4.0
+TABLE = 'width: 100%; font-size: 0.8em; overflow-wrap: anywhere; padding: 0 0.5em'
 
 COMMANDS = (
     'cmd_vel* *_command *_commands *command/* command commands emergency_stop '
@@ -148,3 +166,166 @@ def commands_among(topics: Iterable[str], patterns: str = COMMANDS) -> list[str]
 def _fits(names: list[str], patterns: list[str]) -> bool:
     endings = ['/'.join(names[start:]) for start in range(len(names))]
     return any(fnmatchcase(ending, pattern) for ending in endings for pattern in patterns)
+
+
+class BagChooser:
+    """
+    Widgets to select a recording from a folder, which is read in a background thread.
+
+    Call `add_details` once before the first `update`.
+
+    Parameters
+    ----------
+    context
+        The context of the panel; the widgets are added at the current position of its GUI.
+    folder
+        The path of the folder.
+    unfinished
+        Returns the path of the recording in progress, which is not listed; '' if there is none.
+    chosen
+        Called when another recording is selected.
+
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        folder: str,
+        unfinished: Callable[[], str],
+        chosen: Callable[[], None],
+    ) -> None:
+        self._context = context
+        self._shelf = Shelf(folder)
+        self._unfinished = unfinished
+        self._chosen = chosen
+        self._pace = Pace(PERIOD_S)
+        self._is_looking = self._is_over = False
+        self._wanted = ''
+        self._bags: dict[str, Bag] = {}
+        self._list: Any = context.gui.add_dropdown('Recording', [NONE])
+        self._text: Any = context.gui.add_markdown('')
+        context.on_input(self._list, self._choose)
+
+    def add_details(self) -> None:
+        """Add the widget with the topics, which may be placed elsewhere."""
+        gui = self._context.gui
+        self._topics: Any = gui.add_folder('Topics', expand_by_default=False, visible=False)
+        with self._topics:
+            self._details: Any = gui.add_html('')
+
+    @property
+    def bag(self) -> Bag | None:
+        """Return the selected recording if it can be played, else None."""
+        bag = self._bags.get(self._list.value)
+        return None if bag is None or bag.problem else bag
+
+    def update(self) -> None:
+        """Rescan the folder periodically, in a background thread."""
+        if not self._is_looking and self._pace.is_due():
+            self._is_looking = True
+            threading.Thread(target=self._look, daemon=True).start()
+
+    def choose(self, path: str) -> None:
+        """
+        Select a new recording as soon as it is found in the folder.
+
+        Parameters
+        ----------
+        path
+            The path of the recording.
+
+        """
+        self._wanted = path
+        self._pace.hurry()
+
+    def close(self) -> None:
+        """Stop updating the widgets, even if a scan is still running."""
+        self._is_over = True
+
+    def _look(self) -> None:
+        unfinished = self._unfinished()  # it may finish during the scan, after it was read
+        try:
+            bags = self._shelf.look()
+        finally:
+            self._is_looking = False
+        self._context.queue.post(lambda: self._take(bags, unfinished))
+
+    def _take(self, bags: list[Bag], unfinished: str) -> None:
+        if self._is_over:
+            return
+        left_out = (unfinished, self._unfinished())
+        found = {_label(bag): bag for bag in bags if bag.path not in left_out}
+        if found != self._bags:
+            self._bags = found
+            before = self._list.value
+            assign(self._list, options=tuple(found) or (NONE,))
+            for label in (each for each, bag in found.items() if bag.path == self._wanted):
+                self._wanted = ''
+                assign(self._list, value=label)
+            if self._list.value != before:
+                self._chosen()
+        self._describe()
+
+    def _choose(self, label: str) -> None:
+        self._describe()
+        self._chosen()
+
+    def _describe(self) -> None:
+        bag = self._bags.get(self._list.value)
+        if bag is None:
+            head = f'No recordings in {escaped(_short(self._shelf.folder))} yet.'
+        else:
+            head = about(bag)
+        topics = bag.topics if bag is not None else ()
+        if self._shelf.left_out_count:
+            head += f'\n\n{self._shelf.left_out_count} older ones are not listed.'
+        assign(self._text, content=head)
+        assign(self._details, content=topics_table(topics))
+        assign(self._topics, visible=bool(topics))
+
+
+def _label(bag: Bag) -> str:
+    return f'{bag.name} ✖' if bag.problem else f'{bag.name} ({clock_text(bag.duration_s)})'
+
+
+def _short(path: str) -> str:
+    home = os.path.expanduser('~')
+    return f'~{path[len(home) :]}' if path.startswith(f'{home}/') else path
+
+
+def about(bag: Bag) -> str:
+    """
+    Describe a recording in Markdown: start, duration, messages and size, or its problem.
+
+    Parameters
+    ----------
+    bag
+        The recording.
+
+    """
+    if bag.problem:
+        return f'✖ {escaped(bag.problem)}'
+    start = datetime.fromtimestamp(bag.start_s).strftime('%Y-%m-%d %H:%M:%S')
+    return (
+        f'{start}, {clock_text(bag.duration_s)}, {bag.message_count} messages, '
+        f'{size_text(bag.size_bytes)}'
+    )
+
+
+def topics_table(topics: Iterable[BagTopic]) -> str:
+    """
+    Render the topics of a recording as an HTML table that fits the width of the panel.
+
+    Parameters
+    ----------
+    topics
+        The topics, with their types and message counts.
+
+    """
+    rows = ''.join(
+        f'<tr style="vertical-align: top"><td style="padding-bottom: 0.3em">{escape(each.name)}'
+        f'<br><span style="opacity: 0.6">{escape(each.type_name)}</span></td>'
+        f'<td style="text-align: right">{escape(str(each.message_count))}</td></tr>'
+        for each in topics
+    )
+    return f'<table style="{TABLE}"><tbody>{rows}</tbody></table>'

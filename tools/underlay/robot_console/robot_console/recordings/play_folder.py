@@ -10,8 +10,7 @@ import math
 import time
 from typing import Any
 
-from robot_console.recordings.bag_chooser import BagChooser
-from robot_console.recordings.bags import Bag, commands_among
+from robot_console.recordings.bags import Bag, BagChooser, commands_among
 from robot_console.recordings.child import Child
 from robot_console.recordings.widgets import assign, clock_text, listed, mixture_text
 from rviz_common.context import Context

@@ -4,27 +4,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from datetime import datetime
-from html import escape
 from typing import Any
 
-from robot_console.recordings.bags import Bag, BagTopic
 from ros2bag.api.info import human_size
-from rviz_common.status import escaped
 
 __all__ = [
-    'about',
     'assign',
     'clock_text',
     'listed',
     'memory_text',
     'mixture_text',
     'size_text',
-    'topics_table',
 ]
 
 NAMED = 4
-TABLE = 'width: 100%; font-size: 0.8em; overflow-wrap: anywhere; padding: 0 0.5em'
 size_text = human_size
 
 
@@ -79,44 +72,6 @@ def listed(names: Iterable[str], most: int = NAMED) -> str:
     names = list(names)
     text = ', '.join(names[:most])
     return f'{text} and {len(names) - most} more' if len(names) > most else text
-
-
-def about(bag: Bag) -> str:
-    """
-    Describe a recording in Markdown: start, duration, messages and size, or its problem.
-
-    Parameters
-    ----------
-    bag
-        The recording.
-
-    """
-    if bag.problem:
-        return f'✖ {escaped(bag.problem)}'
-    start = datetime.fromtimestamp(bag.start_s).strftime('%Y-%m-%d %H:%M:%S')
-    return (
-        f'{start}, {clock_text(bag.duration_s)}, {bag.message_count} messages, '
-        f'{size_text(bag.size_bytes)}'
-    )
-
-
-def topics_table(topics: Iterable[BagTopic]) -> str:
-    """
-    Render the topics of a recording as an HTML table that fits the width of the panel.
-
-    Parameters
-    ----------
-    topics
-        The topics, with their types and message counts.
-
-    """
-    rows = ''.join(
-        f'<tr style="vertical-align: top"><td style="padding-bottom: 0.3em">{escape(each.name)}'
-        f'<br><span style="opacity: 0.6">{escape(each.type_name)}</span></td>'
-        f'<td style="text-align: right">{escape(str(each.message_count))}</td></tr>'
-        for each in topics
-    )
-    return f'<table style="{TABLE}"><tbody>{rows}</tbody></table>'
 
 
 def memory_text(facts: Mapping[str, object], wanted_s: float, max_mib: float) -> str:
