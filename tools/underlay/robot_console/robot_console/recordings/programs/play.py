@@ -10,7 +10,7 @@ import sys
 import time
 from typing import Any
 
-from robot_console.recordings.programs.lifeline import Lifeline, tell
+from robot_console.recordings.child import Lifeline, tell
 from robot_console.recordings.programs.playback import Playback
 from ros2bag.api.control import StopSignals
 from ros2bag.api.outlets import Outlets

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from robot_console.recordings.programs.lifeline import interrupt_self, Lifeline
+from robot_console.recordings.child import interrupt_self, Lifeline
 from ros2bag.api.record_arguments import add_record_arguments, usage_error
 
 __all__ = ['main']

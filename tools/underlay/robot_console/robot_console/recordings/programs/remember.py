@@ -12,7 +12,7 @@ import threading
 import time
 from typing import Any, cast, NamedTuple
 
-from robot_console.recordings.programs.lifeline import Lifeline, tell
+from robot_console.recordings.child import Lifeline, tell
 from ros2bag.api.control import PauseSwitch, StopSignals
 from ros2bag.api.recorder import Recorder
 from ros2bag.api.recording import find_definition
