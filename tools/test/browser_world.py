@@ -16,12 +16,12 @@ from ros_side import ros_side, RosSide
 __all__ = ['RVIZ', 'SLIDERS', 'STRAINED', 'World', 'memory_mb', 'pid_of', 'url_of', 'world']
 
 RVIZ, SLIDERS = 'RViz is', 'The sliders are'
-STRAINED = 'A browser has sent what this page does not'
+STRAINED = 'A browser sent an unexpected message'
 STARTED = re.compile(r'\[(\w+)-\d+\]: process started with pid \[(\d+)\]')
 BAD = (
     'Traceback',
     'has died',
-    'has met an error',
+    'has raised an error',
     'has been stopped',
     'never retrieved',
     'A connection has failed',

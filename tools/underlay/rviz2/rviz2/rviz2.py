@@ -81,17 +81,17 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog='rviz2',
         allow_abbrev=False,
-        description='Show in a browser what a robot says and knows. The address is printed.',
+        description='Show the topics and frames of a robot in a browser. The address is printed.',
         epilog='Parameters of the node, after --ros-args -p: host:=ADDRESS (default '
         '127.0.0.1), port:=NUMBER (default: the first free one from 8080 on), '
-        'token:=TEXT (made up, and part of the address; none: whoever is on this machine), '
+        'token:=TEXT (default: generated, part of the address; none: anyone on this machine), '
         'use_sim_time:=true.',
     )
     parser.add_argument('-d', '--display-config', metavar='FILE', help='a .rviz file to show')
     parser.add_argument(
         '-f', '--fixed-frame', metavar='FRAME', help='the fixed frame, instead of that of the file'
     )
-    ignored = parser.add_argument_group('without meaning in a browser, and ignored')
+    ignored = parser.add_argument_group('ignored, as they have no meaning in a browser')
     ignored.add_argument('-l', '--ogre-log', action='store_true')
     ignored.add_argument('-s', '-t', '--splash-screen', metavar='FILE')
     ignored.add_argument('--fullscreen', action='store_true')

@@ -91,7 +91,7 @@ class GuardedNode(Node):
                 callback(*args)
             except Exception as error:  # a failing callback must not stop the others
                 if pace.is_due():
-                    said = f'{subject} has met an error: {described_error(error)}'
+                    said = f'{subject} has raised an error: {described_error(error)}'
                     self.get_logger().error(said)
 
         return guarded

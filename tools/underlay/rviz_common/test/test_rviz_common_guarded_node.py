@@ -38,6 +38,6 @@ def test_a_callback_that_fails_does_not_end_the_node(capfd: Any) -> None:
             context.try_shutdown()
     assert len(got) >= 3
     said = capfd.readouterr().err
-    assert "The callback of 'talk' has met an error: " in said
+    assert "The callback of 'talk' has raised an error: " in said
     assert 'RuntimeError: no message' in said
     assert 'ZeroDivisionError' in said

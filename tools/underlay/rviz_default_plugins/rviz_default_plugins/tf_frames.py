@@ -192,4 +192,4 @@ def _compiled(expression: str) -> re.Pattern[str] | None:
     try:
         return re.compile(expression) if expression else None
     except re.error as error:
-        raise ValueError(f"'{expression}' is no regular expression: {error}.") from None
+        raise ValueError(f"'{expression}' is not a valid regular expression: {error}.") from None

@@ -116,8 +116,8 @@ def _reason(host: str, port: int, number: int) -> str:
             '127.0.0.1, or 0.0.0.0 for all of them.'
         )
     return (
-        f'Port {port} of {host} cannot be taken: {why}. End what uses it, or choose another port; '
-        'without a choice, the next free one is used.'
+        f'Port {port} of {host} cannot be taken: {why}. Stop the program that uses it, or choose '
+        'another port; without a choice, the next free one is used.'
     )
 
 

@@ -104,7 +104,7 @@ class Strained:
             if not isinstance(message, str) and not self._is_offered(message):
                 continue
             if isinstance(message, str):
-                _complain(f'A browser has sent what this page does not: {message}')
+                _complain(f'A browser sent an unexpected message: {message}')
             elif self._uploads.admits(message, self):
                 return received
 

@@ -182,7 +182,7 @@ class Maker:
         Returns
         -------
         Entry
-            A display or a group; an `UnknownEntry` if the display cannot be made.
+            A display or a group; an `UnknownEntry` if the display cannot be created.
 
         """
         if given['Class'] == Group.CLASS:
@@ -200,7 +200,7 @@ class Maker:
             return DisplayEntry(kind(self._context, self._path(), given))
         except Exception as error:  # a failing display must not stop the others
             return UnknownEntry(
-                given, f"'{given['Class']}' cannot be made: {type(error).__name__}: {error}"
+                given, f"'{given['Class']}' cannot be created: {type(error).__name__}: {error}"
             )
 
     def new(self, class_name: str) -> DisplayEntry:

@@ -54,7 +54,7 @@ def position(vector: Any, what: str = 'position') -> Triple:
     """
     triple = (float(vector.x), float(vector.y), float(vector.z))
     if not all(abs(part) <= FARTHEST for part in triple):
-        raise ValueError(f'its {what} is {_listed(triple)}, which is nowhere.')
+        raise ValueError(f'its {what} is {_listed(triple)}, which is out of range.')
     return triple
 
 
@@ -85,7 +85,7 @@ def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
     if not math.isfinite(length):
         raise ValueError(f'its {what} has numbers that are not finite.')
     if length < 1e-6:
-        raise ValueError(f'its {what} is a quaternion of zeros; no rotation is w=1.')
+        raise ValueError(f'its {what} is a quaternion of zeros; the identity is w=1.')
     w, x, y, z = (float(part / length) for part in parts)
     return w, x, y, z
 
@@ -134,8 +134,8 @@ def finite_points_of(points: Iterable[Any]) -> Points:
     rows = points_of(points)
     if lost := int((~np.isfinite(rows).all(axis=1)).sum()):
         raise ValueError(
-            f'{lost} of its {len(rows)} points are nowhere: their numbers are not finite, or too '
-            'great.'
+            f'{lost} of its {len(rows)} points are not valid: their coordinates are not '
+            'finite, or too large.'
         )
     return rows
 

@@ -124,7 +124,7 @@ def _from_yuv(raw: Bytes, order: str) -> Bytes:
     """Convert YUV 4:2:2 pixels to RGB (BT.601, as used by cameras)."""
     width = raw.shape[1] // 2 * 2
     if not width:
-        raise ValueError('it is one pixel wide, but its encoding has pixels in twos.')
+        raise ValueError('it is one pixel wide, but its encoding stores pixels in pairs.')
     bright, color = (1, 0) if order == 'uyvy' else (0, 1)
     y = raw[:, :width, bright].astype(np.float32) - 16.0
     u = np.repeat(raw[:, 0:width:2, color], 2, axis=1).astype(np.float32) - 128.0
@@ -157,7 +157,7 @@ def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
 
     if 'compressedDepth' in message.format:
         raise ValueError(
-            f"its format is '{message.format}', which has a depth image inside; show the topic of "
+            f"its format is '{message.format}', which contains a depth image; show the topic of "
             'the raw depth image.'
         )
     try:
@@ -176,7 +176,7 @@ def _small(opened: Any, brightness: Brightness) -> Picture:
     """Decode an opened image, downsampled for the page."""
     width, height = opened.size
     if width * height > MOST_COMPRESSED:
-        raise ValueError(f'it is too great with {width} x {height} pixels.')
+        raise ValueError(f'it is too large with {width} x {height} pixels.')
     step = _step_for(width, height)
     opened.draft(None, (width // step, height // step))  # JPEG can be decoded at a reduced size
     left = max(1, round(step * opened.size[0] / width))
@@ -275,8 +275,8 @@ def _raw_pixels(message: Any, layout: _Layout) -> NDArray[Any]:
 
 def _unknown(encoding: str) -> ValueError:
     return ValueError(
-        f"its encoding '{encoding}' is not known; known are rgb8, bgr8, rgba8, bgra8, mono8, "
-        'mono16, 16UC1, 32FC1, yuv422, bayer_rggb8 and their like.'
+        f"its encoding '{encoding}' is not supported; supported are rgb8, bgr8, rgba8, bgra8, "
+        'mono8, mono16, 16UC1, 32FC1, yuv422, bayer_rggb8 and similar encodings.'
     )
 
 

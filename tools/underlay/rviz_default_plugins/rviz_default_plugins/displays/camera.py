@@ -28,7 +28,7 @@ class Camera(ImageTopicDisplay):
         Number(
             'Far Plane Distance',
             100.0,
-            f'Where the picture is, in metres; not farther than {MOST_DISTANT:g}.',
+            f'Distance of the picture, in metres; at most {MOST_DISTANT:g}.',
             0.001,
         ),
     )
@@ -87,7 +87,7 @@ class Camera(ImageTopicDisplay):
         self.status.say(
             'Camera Info',
             Level.WARN,
-            f'No message received on {self._info_topic} yet, which says what the camera sees.',
+            f'No message received on {self._info_topic} yet: the camera calibration is unknown.',
         )
 
     def _follow(self, header: Any) -> None:

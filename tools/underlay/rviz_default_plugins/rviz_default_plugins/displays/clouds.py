@@ -42,31 +42,35 @@ PIXEL = 0.004
 """The size of a pixel in m, since viser supports point sizes in metres only."""
 
 CLOUD: tuple[Property, ...] = (
-    Choice('Style', 'Flat Squares', 'What shows a point.', STYLES),
+    Choice('Style', 'Flat Squares', 'How a point is drawn.', STYLES),
     Whole('Size (Pixels)', 3, 'Size of Points.', 1, 100),
-    Number('Size (m)', 0.01, 'Size of all else, in metres.', 0.0001),
-    Number('Alpha', 1.0, '0 hides the points; between, a browser makes no difference.', 0.0, 1.0),
-    Number('Decay Time', 0.0, 'Seconds for which points stay; 0 for until the next come.', 0.0),
+    Number('Size (m)', 0.01, 'Size of all other styles, in metres.', 0.0001),
+    Number(
+        'Alpha', 1.0, '0 hides the points; other values have no effect in a browser.', 0.0, 1.0
+    ),
+    Number('Decay Time', 0.0, 'Seconds for which points stay; 0: until the next message.', 0.0),
     Choice(
         'Color Transformer',
         '',
-        'Where the colours come from.',
+        'What determines the colours.',
         ('', INTENSITY, AXIS, FLAT, RGB8, RGBF32),
     ),
     ColorOf('Color', (255, 255, 255), 'Colour for FlatColor.'),
     Text('Channel Name', 'intensity', 'Field for Intensity.'),
-    Flag('Use rainbow', True, 'Whether Intensity has the colours of the rainbow.'),
-    Flag('Invert Rainbow', False, 'Whether the rainbow begins at the other end.'),
-    ColorOf('Min Color', (0, 0, 0), 'Colour of the least intensity.'),
-    ColorOf('Max Color', (255, 255, 255), 'Colour of the greatest intensity.'),
-    Flag('Autocompute Intensity Bounds', True, 'Whether the limits are those of the message.'),
+    Flag('Use rainbow', True, 'Whether Intensity is shown in rainbow colours.'),
+    Flag('Invert Rainbow', False, 'Whether the rainbow is inverted.'),
+    ColorOf('Min Color', (0, 0, 0), 'Colour of the lowest intensity.'),
+    ColorOf('Max Color', (255, 255, 255), 'Colour of the highest intensity.'),
+    Flag(
+        'Autocompute Intensity Bounds', True, 'Whether the limits are computed from each message.'
+    ),
     Number('Min Intensity', 0.0, 'Least intensity.'),
     Number('Max Intensity', 4096.0, 'Greatest intensity.'),
     Choice('Axis', 'Z', 'Axis for AxisColor.', ('X', 'Y', 'Z')),
     Flag('Use Fixed Frame', True, 'Whether the axis is that of the fixed frame.'),
-    Flag(f'{BOUNDS}/Value', True, 'Whether the limits are those of the message.'),
-    Number(f'{BOUNDS}/Min Value', -10.0, 'Least place on the axis, in metres.'),
-    Number(f'{BOUNDS}/Max Value', 10.0, 'Greatest place on the axis, in metres.'),
+    Flag(f'{BOUNDS}/Value', True, 'Whether the limits are computed from each message.'),
+    Number(f'{BOUNDS}/Min Value', -10.0, 'Minimum position on the axis, in metres.'),
+    Number(f'{BOUNDS}/Max Value', 10.0, 'Maximum position on the axis, in metres.'),
 )
 
 

@@ -21,7 +21,7 @@ __all__ = ['BoundingBox3D', 'BoundingBox3DArray', 'Detection3D', 'Detection3DArr
 
 MISSING = (
     'The message package vision_msgs is not built. Run `make setup` in the project, source the '
-    'workspace again, and start this page anew.'
+    'workspace again, and restart RViz.'
 )
 BY_CLASS, FLAT = 'By class', 'Flat'
 _PALETTE = (
@@ -43,7 +43,7 @@ _EDGES = tuple(
 )
 _BOX = (
     Number('Alpha', 0.5, '0 is transparent.', 0.0, 1.0),
-    ColorOf('Color', (255, 196, 0), 'Colour of boxes that are flat, or of no class.'),
+    ColorOf('Color', (255, 196, 0), 'Colour of flat boxes, and of boxes without a class.'),
     Flag('Only Edge', False, 'Whether only the edges of boxes are drawn.'),
     Number('Line Width', 0.01, 'Width of edges, in metres.', 0.0),
 )
@@ -51,12 +51,12 @@ _LABEL = (
     Choice(
         'Color Style',
         BY_CLASS,
-        'Boxes have the colour that their class names (a red mug), else one of their class; or '
-        'all the same.',
+        'Boxes have the colour in the name of their class (a red mug), or else one colour for '
+        'each class; or all have the same.',
         (BY_CLASS, FLAT),
     ),
-    Flag('Show Label', True, 'Whether ids, or else classes, are written above boxes.'),
-    Flag('Show Score', False, 'Whether scores are written behind them.'),
+    Flag('Show Label', True, 'Whether ids, or else classes, are shown above boxes.'),
+    Flag('Show Score', False, 'Whether scores are shown after them.'),
 )
 
 

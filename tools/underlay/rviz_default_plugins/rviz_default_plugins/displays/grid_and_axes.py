@@ -28,21 +28,21 @@ class Grid(Display):
 
     CLASS = 'rviz_default_plugins/Grid'
     PROPERTIES = (
-        Frame('Reference Frame', FIXED_FRAME, 'The frame in whose origin the grid is.'),
-        Whole('Plane Cell Count', 10, 'How many cells the plane has along a side.', 1),
-        Whole('Normal Cell Count', 0, 'How many cells are above each other.', 0),
-        Number('Cell Size', 1.0, 'How long a side of a cell is, in metres.', 0.0001, 1e9),
+        Frame('Reference Frame', FIXED_FRAME, 'The frame of the grid.'),
+        Whole('Plane Cell Count', 10, 'Number of cells along each side of the plane.', 1),
+        Whole('Normal Cell Count', 0, 'Number of cells along the normal of the plane.', 0),
+        Number('Cell Size', 1.0, 'Side length of a cell, in metres.', 0.0001, 1e9),
         Choice(
             'Line Style/Value',
             LINES,
-            'Lines are as thin on the screen as they can be.',
+            'Lines are as thin as the screen allows.',
             (LINES, BILLBOARDS),
         ),
-        Number('Line Style/Line Width', 0.03, 'How thick billboards are, in metres.', 0.001, 1e9),
+        Number('Line Style/Line Width', 0.03, 'Width of billboards, in metres.', 0.001, 1e9),
         ColorOf('Color', (160, 160, 164), 'The colour of the lines.'),
-        Number('Alpha', 0.5, 'How opaque the lines are, from 0 to 1.', 0.0, 1.0),
-        Choice('Plane', 'XY', 'Which plane the grid is in.', tuple(AXES)),
-        Vector('Offset', (0.0, 0.0, 0.0), 'How far the grid is from its frame, in metres.'),
+        Number('Alpha', 0.5, 'Opacity of the lines, from 0 to 1.', 0.0, 1.0),
+        Choice('Plane', 'XY', 'The plane of the grid.', tuple(AXES)),
+        Vector('Offset', (0.0, 0.0, 0.0), 'Offset of the grid from its frame, in metres.'),
     )
 
     def start(self) -> None:

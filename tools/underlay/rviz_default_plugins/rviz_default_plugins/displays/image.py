@@ -145,10 +145,12 @@ class Image(ImageTopicDisplay):
     CLASS = 'rviz_default_plugins/Image'
     PROPERTIES = (
         *IMAGE_TOPIC,
-        Flag('Normalize Range', True, 'Whether the limits are those of the last pictures.'),
-        Number('Min Value', 0.0, 'What is black in pictures of depths and the like.'),
-        Number('Max Value', 1.0, 'What is white in pictures of depths and the like.'),
-        Whole('Median window', 5, 'How many pictures the limits are found in.', 1, 1000),
+        Flag('Normalize Range', True, 'Whether the limits are computed from the last pictures.'),
+        Number('Min Value', 0.0, 'Value shown as black in depth and similar images.'),
+        Number('Max Value', 1.0, 'Value shown as white in depth and similar images.'),
+        Whole(
+            'Median window', 5, 'Number of pictures from which the limits are computed.', 1, 1000
+        ),
     )
 
     def start(self) -> None:

@@ -30,7 +30,7 @@ class Imu(MessageDisplay):
         Flag(
             'fixed_frame_orientation',
             True,
-            'Whether the orientation is that in the fixed frame; otherwise in its own frame.',
+            'Whether the orientation is relative to the fixed frame instead of its own.',
         ),
         Flag(f'{BOX}/Enable box', False, 'Whether a box shows the orientation.'),
         Number(f'{BOX}/x_scale', 1.0, 'Length of the box, in metres.', 0.001),
@@ -44,9 +44,9 @@ class Imu(MessageDisplay):
         Flag(
             f'{ARROW}/Derotate acceleration',
             True,
-            'Whether the acceleration is turned as the orientation says.',
+            'Whether the acceleration is rotated by the orientation.',
         ),
-        Number(f'{ARROW}/Acc. vector scale', 1.0, 'Metres for a metre per square second.', 0.0),
+        Number(f'{ARROW}/Acc. vector scale', 1.0, 'Length of the arrow in metres per m/s².', 0.0),
         ColorOf(f'{ARROW}/Acc. vector color', (255, 0, 0), 'Colour of the arrow.'),
         Number(f'{ARROW}/Acc. vector alpha', 1.0, '0 is transparent.', 0.0, 1.0),
     )

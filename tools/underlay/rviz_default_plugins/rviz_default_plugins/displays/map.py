@@ -46,10 +46,10 @@ class Map(MessageDisplay):
         *topic_properties('nav_msgs/msg/OccupancyGrid', '/map'),
         *topic_properties('map_msgs/msg/OccupancyGridUpdate', path='Update Topic'),
         Number('Alpha', 0.7, '0 is transparent.', 0.0, 1.0),
-        Choice('Color Scheme', 'map', 'What the values look like.', ('map', 'costmap', 'raw')),
-        Flag('Draw Behind', False, 'Whether the map is below what is at the same height.'),
-        Flag('Binary representation', False, 'Whether cells are either free or occupied.'),
-        Whole('Binary threshold', 100, 'Least value of occupied cells.', 0, 100),
+        Choice('Color Scheme', 'map', 'How values are coloured.', ('map', 'costmap', 'raw')),
+        Flag('Draw Behind', False, 'Whether the map is drawn behind objects at the same height.'),
+        Flag('Binary representation', False, 'Whether cells are shown only as free or occupied.'),
+        Whole('Binary threshold', 100, 'Minimum value of occupied cells.', 0, 100),
     )
     UNUSED = ('Use Timestamp',)
     _layers: ClassVar[WeakKeyDictionary[Any, set[int]]] = WeakKeyDictionary()
@@ -146,7 +146,7 @@ class Map(MessageDisplay):
     def _apply(self, cells: Cells) -> None:
         self.status.forget('Update Topic')
         if self._updates.lost:
-            sentence = f'Left out of too many at once: {self._updates.lost}, the oldest.'
+            sentence = f'Too many updates at once: {self._updates.lost} left out (the oldest).'
             self.status.say('Update Topic', Level.WARN, sentence)
         for each in self._updates.take():
             try:

@@ -266,7 +266,7 @@ class MarkerScene:
     def _say(self) -> None:
         """Report the markers that are not shown, and the reason for the first of them."""
         self._say_first('Markers', Level.ERROR, 'not shown', lambda shown: shown.problem)
-        self._say_first('Notes', Level.WARN, 'not as meant', lambda shown: shown.note)
+        self._say_first('Notes', Level.WARN, 'not as intended', lambda shown: shown.note)
         if self._inbox.refusal:
             self._status.say('Action', Level.ERROR, self._inbox.refusal)
         if self._left_out:

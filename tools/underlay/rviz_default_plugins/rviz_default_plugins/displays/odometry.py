@@ -42,9 +42,9 @@ class Odometry(HistoryDisplay):
     MESSAGE = OdometryMessage
     PROPERTIES = (
         *topic_properties('nav_msgs/msg/Odometry', '/odom'),
-        Number('Position Tolerance', 0.1, 'Metres from a pose to the next that is shown.', 0.0),
-        Number('Angle Tolerance', 0.1, 'Radians from a pose to the next that is shown.', 0.0),
-        Whole('Keep', 100, f'How many poses are shown; 0 for {MOST}.', 0),
+        Number('Position Tolerance', 0.1, 'Minimum distance between shown poses, in metres.', 0.0),
+        Number('Angle Tolerance', 0.1, 'Minimum rotation between shown poses, in radians.', 0.0),
+        Whole('Keep', 100, f'Number of poses shown; 0: {MOST}.', 0),
         *pose_shape_properties('Shape/Value', 'Shape/'),
         *COVARIANCE,
     )

@@ -33,11 +33,11 @@ class Path(HistoryDisplay):
         Number('Line Width', 0.03, 'Width of billboards, in metres.', 0.001),
         ColorOf('Color', (25, 255, 0), 'Colour of the line.'),
         Number(
-            'Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0
+            'Alpha', 1.0, '0 hides the line; other values have no effect in a browser.', 0.0, 1.0
         ),
-        Whole('Buffer Length', 1, 'How many paths are shown at once.', 1, 100),
-        Vector('Offset', (0.0, 0.0, 0.0), 'How far from its place the path is shown.'),
-        Choice('Pose Style', 'None', 'What shows the poses.', ('None', 'Axes', 'Arrows')),
+        Whole('Buffer Length', 1, 'Number of paths shown at once.', 1, 100),
+        Vector('Offset', (0.0, 0.0, 0.0), 'Offset of the path, in metres.'),
+        Choice('Pose Style', 'None', 'How the poses are drawn.', ('None', 'Axes', 'Arrows')),
         Number('Length', 0.3, 'Length of the axes, in metres.', 0.0),
         Number('Radius', 0.03, 'Radius of the axes, in metres.', 0.0),
         ColorOf('Pose Color', (255, 85, 255), 'Colour of the arrows.'),
@@ -112,7 +112,7 @@ class Polygon(MessageDisplay):
         *topic_properties('geometry_msgs/msg/PolygonStamped', '/polygon'),
         ColorOf('Color', (25, 255, 0), 'Colour of the line.'),
         Number(
-            'Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0
+            'Alpha', 1.0, '0 hides the line; other values have no effect in a browser.', 0.0, 1.0
         ),
     )
 

@@ -26,7 +26,7 @@ class PointStamped(HistoryDisplay):
         ColorOf('Color', (204, 41, 204), 'Colour of the spheres.'),
         Number('Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
         Number('Radius', 0.2, 'Radius of the spheres, in metres.', 0.001),
-        Whole('History Length', 1, 'How many points are shown at once.', 1, 1000),
+        Whole('History Length', 1, 'Number of points shown at once.', 1, 1000),
     )
 
     def keep(self) -> int:

@@ -40,11 +40,11 @@ __all__ = [
 ]
 
 COVARIANCE = (
-    Flag('Covariance/Value', True, 'Whether it is shown how uncertain the pose is.'),
-    Flag('Covariance/Position/Value', True, 'Whether it is shown for the position.'),
+    Flag('Covariance/Value', True, 'Whether the uncertainty of the pose is shown.'),
+    Flag('Covariance/Position/Value', True, 'Whether the uncertainty of the position is shown.'),
     ColorOf('Covariance/Position/Color', (204, 51, 204), 'Colour of the ellipsoid.'),
     Number('Covariance/Position/Alpha', 0.3, '0 is transparent.', 0.0, 1.0),
-    Number('Covariance/Position/Scale', 1.0, 'Standard deviations as radius.', 0.0),
+    Number('Covariance/Position/Scale', 1.0, 'Radius in standard deviations.', 0.0),
 )
 
 
@@ -61,7 +61,7 @@ def pose_shape_properties(shape: str, below: str = '') -> tuple[Property, ...]:
 
     """
     return (
-        Choice(shape, 'Arrow', 'What shows a pose.', ('Arrow', 'Axes')),
+        Choice(shape, 'Arrow', 'How a pose is drawn.', ('Arrow', 'Axes')),
         Number(f'{below}Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
         ColorOf(f'{below}Color', (255, 25, 0), 'Colour of the arrow.'),
         Number(f'{below}Shaft Length', 1.0, 'Length of the shaft, in metres.', 0.0),
@@ -231,7 +231,9 @@ def ellipsoid_of(covariance: Any) -> Ellipsoid:
         raise ValueError('its covariance has numbers that are not finite, or far too large.')
     variances, axes = np.linalg.eigh((block + block.T) / 2.0)
     if variances[0] < -1e-9 * max(1.0, variances[-1]):
-        raise ValueError('its covariance is none: the variance in some direction is negative.')
+        raise ValueError(
+            'its covariance is not valid: the variance in some direction is negative.'
+        )
     if np.linalg.det(axes) < 0.0:
         axes[:, 0] = -axes[:, 0]
     x, y, z = np.sqrt(np.maximum(variances, 0.0))

@@ -27,7 +27,7 @@ class PoseArray(MessageDisplay):
     MESSAGE = PoseArrayMessage
     PROPERTIES = (
         *topic_properties('geometry_msgs/msg/PoseArray', '/particlecloud'),
-        Choice('Shape', FLAT, 'What shows a pose.', (FLAT, SOLID, AXES)),
+        Choice('Shape', FLAT, 'How a pose is drawn.', (FLAT, SOLID, AXES)),
         ColorOf('Color', (255, 25, 0), 'Colour of the arrows.'),
         Number('Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
         Number('Arrow Length', 0.3, 'Length of flat arrows, in metres.', 0.0),

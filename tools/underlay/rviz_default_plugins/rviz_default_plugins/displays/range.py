@@ -26,7 +26,7 @@ class Range(HistoryDisplay):
         *topic_properties('sensor_msgs/msg/Range', '/range'),
         ColorOf('Color', (255, 255, 255), 'Colour of the cones.'),
         Number('Alpha', 0.5, '0 is transparent.', 0.0, 1.0),
-        Whole('Buffer Length', 1, 'How many ranges are shown at once.', 1, 1000),
+        Whole('Buffer Length', 1, 'Number of ranges shown at once.', 1, 1000),
     )
 
     def keep(self) -> int:
@@ -68,5 +68,5 @@ def _length(message: Any) -> float:
         # A fixed-distance sensor: -inf for a detection, +inf for none.
         return float(message.min_range) if message.range < 0.0 else 0.0
     if math.isnan(message.range):
-        raise ValueError('its range is no number.')
+        raise ValueError('its range is not a number.')
     return float(message.range) if message.min_range <= message.range <= message.max_range else 0.0

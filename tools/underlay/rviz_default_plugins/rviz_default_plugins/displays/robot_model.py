@@ -45,17 +45,17 @@ class RobotModel(Display):
 
     CLASS = 'rviz_default_plugins/RobotModel'
     PROPERTIES = (
-        Flag('Visual Enabled', True, 'Show what the links look like.'),
-        Flag('Collision Enabled', False, 'Show what the links collide with.'),
-        Number('Alpha', 1.0, 'How opaque the robot is, from 0 to 1.', 0.0, 1.0),
-        Number('Update Interval', 0.0, 'Seconds between movements; 0 is each frame.', 0.0),
+        Flag('Visual Enabled', True, 'Show the visual geometry of the links.'),
+        Flag('Collision Enabled', False, 'Show the collision geometry of the links.'),
+        Number('Alpha', 1.0, 'Opacity of the robot, from 0 to 1.', 0.0, 1.0),
+        Number('Update Interval', 0.0, 'Seconds between updates; 0: each frame.', 0.0),
         Choice('Description Source', TOPIC, 'Where the URDF comes from.', (TOPIC, FILE)),
         Text('Description File', '', 'The file of the URDF: a path, file:// or package://.'),
         *topic_properties(
             'std_msgs/msg/String', '/robot_description', path='Description Topic', depth=1
         ),
-        Text('TF Prefix', '', 'What comes before the links in names of frames, without a slash.'),
-        Flag(ALL_LINKS, True, 'Show the links that the file does not name.'),
+        Text('TF Prefix', '', 'Prefix of the links in frame names, without the slash.'),
+        Flag(ALL_LINKS, True, 'Show links that the file does not mention.'),
     )
     UNUSED = ('Mass Properties',)
 
@@ -170,7 +170,7 @@ class RobotModel(Display):
             return
         self.say(
             'URDF',
-            f'No description has come on {topic} yet; robot_state_publisher publishes it.',
+            f'No description received on {topic} yet; robot_state_publisher publishes it.',
         )
 
     def _read_file(self) -> None:
@@ -189,7 +189,7 @@ class RobotModel(Display):
             model = parse_urdf(text, source)
             _check_size(model, source)
         except UrdfError as error:
-            stays = ' The robot from before stays.' if self._model else ''
+            stays = ' The previous robot stays.' if self._model else ''
             self.status.say('URDF', Level.ERROR, f'{error}{stays}')
             return
         self.status.say('URDF', Level.OK, model.describe())

@@ -43,18 +43,18 @@ class TF(Display):
     PROPERTIES = (
         Flag('Show Names', False, 'Show the names of frames.'),
         Flag('Show Axes', True, 'Show the axes of frames.'),
-        Flag('Show Arrows', True, 'Show from each frame where its parent is.'),
-        Number('Marker Scale', 1.0, 'How large axes, names and arrows are.', 0.0001, 1e6),
-        Number('Update Interval', 0.0, 'Seconds between movements; 0 is each frame.', 0.0),
+        Flag('Show Arrows', True, 'Show an arrow from each frame to its parent.'),
+        Number('Marker Scale', 1.0, 'Size of axes, names and arrows.', 0.0001, 1e6),
+        Number('Update Interval', 0.0, 'Seconds between updates; 0: each frame.', 0.0),
         Number(
             'Frame Timeout',
             15.0,
-            'Seconds after which a frame is gone that nobody speaks of; it is grey before.',
+            'Seconds without updates after which a frame disappears; it turns grey before.',
             1.0,
         ),
-        Text('Filter (whitelist)', '', 'Only frames that this regular expression is found in.'),
-        Text('Filter (blacklist)', '', 'No frames that this regular expression is found in.'),
-        Flag(ALL_FRAMES, True, 'Show the frames that the file does not name.'),
+        Text('Filter (whitelist)', '', 'Show only frames that match this regular expression.'),
+        Text('Filter (blacklist)', '', 'Hide frames that match this regular expression.'),
+        Flag(ALL_FRAMES, True, 'Show frames that the file does not mention.'),
     )
     UNUSED = ('Tree',)
 
@@ -161,7 +161,7 @@ class TF(Display):
     def _say_unconnected(self, others: Mapping[str, list[str]]) -> None:
         fixed = self.context.frames.fixed_frame
         sentences = [
-            f'No transform from [{root}] to [{fixed}]: nobody publishes it, so that {len(frames)} '
+            f'No transform from [{root}] to [{fixed}]: it is not published, so {len(frames)} '
             f'frames are not shown ({_listed(frames)}).'
             for root, frames in list(others.items())[:MAX_NAMED]
         ]

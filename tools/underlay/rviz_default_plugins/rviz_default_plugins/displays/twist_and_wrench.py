@@ -92,11 +92,11 @@ class TwistStamped(VectorsDisplay):
         ColorOf('Linear Color', (204, 51, 51), 'Colour of the linear velocity.'),
         ColorOf('Angular Color', (204, 204, 51), 'Colour of the angular velocity.'),
         Number('Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
-        Number('Linear Arrow Scale', 1.0, 'Metres for a metre per second.', 0.0),
-        Number('Angular Arrow Scale', 1.0, 'Metres for a radian per second.', 0.0),
+        Number('Linear Arrow Scale', 1.0, 'Length of the arrow in metres per m/s.', 0.0),
+        Number('Angular Arrow Scale', 1.0, 'Length of the arrow in metres per rad/s.', 0.0),
         Number('Arrow Width', 0.5, 'Width of the arrows, in decimetres.', 0.0),
         Flag('Hide Small Values', True, 'Whether vectors shorter than 0.00001 are hidden.'),
-        Whole('History Length', 1, 'How many are shown at once.', 1, 1000),
+        Whole('History Length', 1, 'Number shown at once.', 1, 1000),
     )
 
     def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
@@ -126,10 +126,10 @@ class Wrench(VectorsDisplay):
         ColorOf('Force Color', (204, 51, 51), 'Colour of the force.'),
         ColorOf('Torque Color', (204, 204, 51), 'Colour of the torque.'),
         Number('Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
-        Number('Force Arrow Scale', 2.0, 'Metres for a newton.', 0.0),
-        Number('Torque Arrow Scale', 2.0, 'Metres for a newton metre.', 0.0),
+        Number('Force Arrow Scale', 2.0, 'Length of the arrow in metres per N.', 0.0),
+        Number('Torque Arrow Scale', 2.0, 'Length of the arrow in metres per N m.', 0.0),
         Number('Arrow Width', 0.5, 'Width of the arrows, in decimetres.', 0.0),
-        Whole('History Length', 1, 'How many are shown at once.', 1, 1000),
+        Whole('History Length', 1, 'Number shown at once.', 1, 1000),
     )
     UNUSED = ('Accept NaN Values',)
 

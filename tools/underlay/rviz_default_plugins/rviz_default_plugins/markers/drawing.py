@@ -89,7 +89,7 @@ def _draw_arrow(canvas: Canvas, name: str, look: Look) -> None:
 
 def _draw_arrow_strip(canvas: Canvas, name: str, look: Look) -> None:
     if len(look.points) < 2:
-        raise ValueError('it has less than 2 points.')
+        raise ValueError('it has fewer than 2 points.')
     _draw_arrows_between(canvas, name, look, look.points[:-1], look.points[1:])
 
 
@@ -122,7 +122,7 @@ def _draw_cylinder(canvas: Canvas, name: str, look: Look) -> None:
 
 def _draw_line_strip(canvas: Canvas, name: str, look: Look) -> None:
     if len(look.points) < 2:
-        raise ValueError('it has less than 2 points.')
+        raise ValueError('it has fewer than 2 points.')
     colors = look.colors
     pairs = None if colors is None else np.stack([colors[:-1], colors[1:]], axis=1)
     _add_lines(canvas, name, look, np.stack([look.points[:-1], look.points[1:]], axis=1), pairs)

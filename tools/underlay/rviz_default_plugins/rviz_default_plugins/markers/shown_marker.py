@@ -166,7 +166,7 @@ class ShownMarker:
             self.stamp_ns = 0
         turn = marker.pose.orientation
         if (turn.x, turn.y, turn.z, turn.w) == (0.0, 0.0, 0.0, 0.0):
-            self.note = 'its orientation is a quaternion of zeros, taken for no rotation (w=1).'
+            self.note = 'its orientation is a quaternion of zeros, treated as the identity (w=1).'
             wxyz = NO_ROTATION
         else:
             wxyz = rotation(turn)
@@ -175,7 +175,7 @@ class ShownMarker:
     def _set_end(self, marker: Any, came_ns: int) -> None:
         lifetime_ns = marker.lifetime.sec * 1_000_000_000 + marker.lifetime.nanosec
         if lifetime_ns < 0:
-            self.note = f'its lifetime of {lifetime_ns / 1e9:g} s is negative, taken for no end.'
+            self.note = f'its lifetime of {lifetime_ns / 1e9:g} s is negative: it does not expire.'
         self._end_ns = came_ns + lifetime_ns if lifetime_ns > 0 else None
 
     def _draw(self, look: Look) -> None:

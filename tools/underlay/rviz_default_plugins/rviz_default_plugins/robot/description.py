@@ -46,7 +46,7 @@ class DescriptionTopic:
         self._node, self._name, self._take = node, name, take
         self._subscriptions: list[Any] = []
         if not name:
-            raise ValueError('No description topic is chosen.')
+            raise ValueError('No description topic selected.')
         try:
             for durability in (DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE):
                 self._subscribe(durability, qos or QoSProfile(depth=1))
@@ -92,8 +92,8 @@ def read_description(name: str) -> str:
 
     """
     if not name:
-        raise ValueError('No description file is chosen.')
+        raise ValueError('No description file selected.')
     path = str(find_file(name))
     if os.path.exists(path) and not os.path.isfile(path):  # a pipe might never end
-        raise ValueError(f"'{name}' is no regular file.")
+        raise ValueError(f"'{name}' is not a regular file.")
     return read_urdf_file(path)

@@ -35,13 +35,15 @@ def find_mesh(name: str) -> Path:
     """
     path = find_file(name)
     if path.suffix.lower() not in KINDS:
-        raise MeshError(f"'{name}' is of no kind that can be shown: {', '.join(KINDS)}.")
+        raise MeshError(
+            f"'{name}' has a format that cannot be shown; supported are {', '.join(KINDS)}."
+        )
     try:
         is_there = path.is_file()
     except OSError as error:
         raise MeshError(f"'{name}' cannot be read: {error.strerror}.") from None
     if not is_there:
-        raise MeshError(f"'{name}' is not there: {path} is no file. {_meant(path)}".rstrip())
+        raise MeshError(f"'{name}' does not exist: {path} is not a file. {_meant(path)}".rstrip())
     return path
 
 
@@ -93,7 +95,7 @@ def find_file(name: str) -> Path:
     scheme, _, rest = name.partition('://')
     if not rest:
         raise MeshError(
-            f"'{name}' does not say where it is. Write package://PACKAGE/{name.lstrip('./')}."
+            f"'{name}' is not an absolute path or URL. Write package://PACKAGE/{name.lstrip('./')}."
         )
     if scheme == 'package':
         return _in_package(name, *rest.partition('/')[::2])
@@ -109,7 +111,9 @@ def _local(name: str) -> Path:
     try:
         parts = urlsplit(name)
     except ValueError:
-        raise MeshError(f"'{name}' is no address. Write file:/// and an absolute path.") from None
+        raise MeshError(
+            f"'{name}' is not a valid address. Write file:/// and an absolute path."
+        ) from None
     if parts.netloc not in ('', 'localhost'):
         raise MeshError(
             f"'{name}' is on the machine '{parts.netloc}'. Write file:/// and an absolute path."
@@ -119,7 +123,7 @@ def _local(name: str) -> Path:
 
 def _in_package(name: str, package: str, inside: str) -> Path:
     if '..' in unquote(inside).split('/') or os.path.isabs(unquote(inside)):
-        raise MeshError(f"'{name}' leads out of package '{package}'. Name a file inside of it.")
+        raise MeshError(f"'{name}' is outside of package '{package}'. Name a file inside of it.")
     return _share(name, package) / unquote(inside)
 
 
@@ -135,7 +139,7 @@ def _share(name: str, package: str) -> Path:
         return Path(get_package_share_directory(package))
     except (PackageNotFoundError, ValueError):
         meant = did_you_mean(package, get_packages_with_prefixes(), 0.75)
-        advice = f'{meant} Build it, and source the workspace before the start.'.lstrip()
+        advice = f'{meant} Build it, and source the workspace before you start RViz.'.lstrip()
         raise MeshError(
             f"'{name}' is in package '{package}', which is not installed. {advice}"
         ) from None

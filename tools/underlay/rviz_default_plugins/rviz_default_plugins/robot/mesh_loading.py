@@ -80,7 +80,7 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
     size = path.stat().st_size
     if size > MAX_BYTES:
         raise MeshError(
-            f"'{name}' has {size / 1e6:.0f} MB, and at most {MAX_BYTES / 1e6:.0f} MB are shown. "
+            f"'{name}' has {size / 1e6:.0f} MB, but the limit is {MAX_BYTES / 1e6:.0f} MB. "
             'Export it with fewer triangles.'
         )
     bodies = [body for body in _bodies(path, name, folder or path.parent) if len(body.faces)]
@@ -88,7 +88,7 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
         raise MeshError(f"'{name}' has no triangles.")
     for body in bodies:
         if not np.isfinite(body.vertices).all():
-            raise MeshError(f"'{name}' has coordinates that are no finite numbers.")
+            raise MeshError(f"'{name}' has coordinates that are not finite.")
     count = sum(len(body.faces) for body in bodies)
     is_flat = path.suffix.lower() == '.stl'
     if count <= MAX_TRIANGLES:

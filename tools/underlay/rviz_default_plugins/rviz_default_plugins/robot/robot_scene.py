@@ -285,16 +285,16 @@ def _reason(joint: Joint) -> str:
         return f"robot_state_publisher publishes that of joint '{joint.name}'. Is it running?"
     master = joint.mimic.joint if joint.mimic else joint.name
     return (
-        f"no joint state for '{master}' has come to robot_state_publisher yet. Who moves the "
-        'robot is to publish it on joint_states.'
+        f"robot_state_publisher has received no joint state for '{master}' yet. Start the node "
+        'that publishes joint_states.'
     )
 
 
 def _nobody(joint: Joint, frames: Iterable[str], prefix: str) -> str:
     """Suggest a remedy if there is no transform at all: a publisher, or another prefix."""
-    what = f'{_no_transform(joint, prefix)}, nor of any other link: nobody publishes them.'
+    what = f'{_no_transform(joint, prefix)}, nor of any other link: no node publishes them.'
     for name in sorted(frames):
         if name.endswith(f'/{joint.child}') and name != prefix + joint.child:
             meant = name[: -len(joint.child) - 1]
             return f"{what} There is [{name}], though: set 'TF Prefix' to '{meant}'."
-    return f'{what} Start robot_state_publisher, and who publishes joint_states.'
+    return f'{what} Start robot_state_publisher, and a publisher of joint_states.'

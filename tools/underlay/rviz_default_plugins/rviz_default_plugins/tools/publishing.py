@@ -62,8 +62,8 @@ class Publishing(Tool):
             return
         self._publisher.publish(message)
         count = self._publisher.get_subscription_count()
-        heard = f'{count} listen' if count else 'but nobody listens'
-        logger.info(f'{self.NAME}: published to {self._publisher.topic_name}, {heard}.')
+        heard = '1 subscriber' if count == 1 else f'{count or "no"} subscribers'
+        logger.info(f'{self.NAME}: published to {self._publisher.topic_name}, which has {heard}.')
 
 
 class PublishPoint(Publishing):
@@ -75,7 +75,7 @@ class PublishPoint(Publishing):
     MESSAGE = PointStamped
     PROPERTIES = (
         *topic_properties('geometry_msgs/msg/PointStamped', 'clicked_point'),
-        Flag('Single click', True, 'Whether the tool is laid down after one click.'),
+        Flag('Single click', True, 'Whether the tool is deselected after one click.'),
     )
 
     def click(self, point: Point) -> bool:
@@ -124,7 +124,9 @@ class PoseTool(Publishing):
 
     """
 
-    HINT = 'Press on the ground where it is to be, drag to where it is to look, and release.'
+    HINT = (
+        'Press on the ground at the position, drag in the direction it should face, and release.'
+    )
 
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
@@ -228,7 +230,7 @@ class SetInitialPose(PoseTool):
         *topic_properties('geometry_msgs/msg/PoseWithCovarianceStamped', 'initialpose'),
         Number('Covariance x', 0.5**2, 'The variance along x, in square metres.', 0.0),
         Number('Covariance y', 0.5**2, 'The variance along y, in square metres.', 0.0),
-        Number('Covariance yaw', 0.06853891909122467, 'That of the angle, in rad².', 0.0),
+        Number('Covariance yaw', 0.06853891909122467, 'The variance of the angle, in rad².', 0.0),
     )
 
     def message(self, point: Point, yaw: float) -> PoseWithCovarianceStamped:

@@ -342,7 +342,7 @@ def test_updates_that_wait_are_bounded(message_stage, monkeypatch, limit):
         message_stage.node.say('/topic_updates', update)
     display.update()
     assert painted(message_stage.at(display, 'map'))[0, :, 0].tolist() == [255, 0, 0]
-    assert 'Left out of too many at once: 1' in sentence(display, 'Update Topic')
+    assert 'Too many updates at once: 1 left out' in sentence(display, 'Update Topic')
     message_stage.node.say('/topic_updates', update)
     display.update()
     assert sentence(display, 'Update Topic') == ''
@@ -431,7 +431,7 @@ def test_strange_images(message_stage, clocked):
     broken = picture()
     broken.encoding = 'jpeg2000'
     message_stage.tell(display, broken)
-    assert "encoding 'jpeg2000' is not known" in sentence(display, 'Message')
+    assert "encoding 'jpeg2000' is not supported" in sentence(display, 'Message')
     clocked.now_s += 1.0
     message_stage.tell(display, picture())
     assert sentence(display, 'Message') == sentence(display, 'Size') == ''

@@ -24,7 +24,7 @@ HALF = 0.5**0.5
 def test_position_that_is_nowhere_is_refused():
     """A position with a number that is not finite has a sentence with the numbers."""
     assert position(Point(x=1.0, y=2.0, z=3.0)) == (1.0, 2.0, 3.0)
-    with pytest.raises(ValueError, match='its position is nan, 2, 0, which is nowhere'):
+    with pytest.raises(ValueError, match='its position is nan, 2, 0, which is out of range'):
         position(Point(x=float('nan'), y=2.0))
 
 

@@ -200,7 +200,7 @@ def test_broken_mesh(message_stage, tmp_path):
         ('', 'mesh_resource is empty'),
         ('http://example.org/a.stl', 'is not fetched'),
         ('package://nobody_has_this/a.stl', 'is not installed'),
-        ('file:///nowhere/a.stl', 'is not there'),
+        ('file:///nowhere/a.stl', 'does not exist'),
     ],
 )
 def test_meshes_that_cannot_be_shown(message_stage, resource, reason):
@@ -356,10 +356,10 @@ def changed(**fields):
         (changed(pose__position__x=NAN), 'position is nan'),
         (changed(pose__orientation__w=NAN), 'orientation has numbers that are not finite'),
         (changed(kind=Message.TEXT_VIEW_FACING), 'text is empty'),
-        (changed(kind=Message.LINE_STRIP, points=[(0, 0, 0)]), 'less than 2 points'),
+        (changed(kind=Message.LINE_STRIP, points=[(0, 0, 0)]), 'fewer than 2 points'),
         (changed(kind=Message.LINE_LIST, points=[(0, 0, 0)]), '1 points, which is not a multiple'),
         (changed(kind=Message.TRIANGLE_LIST), 'has no points'),
-        (changed(kind=Message.POINTS, points=[(NAN, 0, 0)]), '1 of its 1 points are nowhere'),
+        (changed(kind=Message.POINTS, points=[(NAN, 0, 0)]), '1 of its 1 points are not valid'),
         (changed(kind=Message.POINTS, points=[(0, 0, 0)], colors=[ColorRGBA()] * 2), '2 colors'),
         (changed(kind=Message.ARROW, points=[(0, 0, 0)]), 'an arrow with 1 points'),
     ],
@@ -380,7 +380,7 @@ def test_markers_that_are_not_as_meant(message_stage):
     """A quaternion of zeros is no rotation, and a transparent colour is named."""
     display = message_stage.listen(Marker)
     message_stage.tell(display, changed(pose__orientation__w=0.0))
-    assert 'quaternion of zeros, taken for no rotation' in sentence(display, 'Notes')
+    assert 'quaternion of zeros, treated as the identity' in sentence(display, 'Notes')
     assert near(message_stage.at(display, '1').wxyz, 1, 0, 0, 0)
     message_stage.tell(display, changed(color__a=0.0))
     assert 'it is transparent, since its color has a=0' in sentence(display, 'Notes')

@@ -348,7 +348,7 @@ def test_range_is_a_cone(message_stage):
 @pytest.mark.parametrize(
     ('message', 'drawn', 'reason'),
     [
-        (RangeMessage(range=NAN, max_range=1.0), False, 'range is no number'),
+        (RangeMessage(range=NAN, max_range=1.0), False, 'range is not a number'),
         (RangeMessage(field_of_view=4.0, range=1.0), False, 'field of view is 4 rad'),
         (RangeMessage(field_of_view=0.1, range=9.0, max_range=5.0), False, ''),
         (RangeMessage(range=float('inf'), max_range=float('inf')), False, 'cone is inf m long'),

@@ -62,5 +62,5 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     """A description is read from a file, and not from what might never end."""
     os.mkfifo(tmp_path / 'pipe.urdf')
     for name in (str(tmp_path / 'pipe.urdf'), 'file:///dev/zero'):
-        with pytest.raises(ValueError, match='is no regular file'):
+        with pytest.raises(ValueError, match='is not a regular file'):
             read_description(name)

@@ -138,7 +138,7 @@ def test_broken_description(stage: Stage, robot: Any) -> None:
     stage.describe('<robot name="r">\n<link/></robot>')
     said = sentence(robot, 'URDF')
     assert '/robot_description:2:' in said
-    assert said.endswith('The robot from before stays.')
+    assert said.endswith('The previous robot stays.')
     robot.update()
     assert stage.node_at(BASE).visible
 
@@ -186,7 +186,7 @@ def test_description_from_before_is_asked_for(stage: Stage, robot: Any) -> None:
 def test_waiting(stage: Stage) -> None:
     """Before a description comes, the page says which topic is listened to."""
     display = stage.show(RobotModel, {'Description Topic': {'Value': '/robot1/description'}})
-    assert sentence(display, 'URDF').startswith('No description has come on /robot1/description')
+    assert sentence(display, 'URDF').startswith('No description received on /robot1/description')
 
 
 @pytest.mark.parametrize('topic', ['', 'with space'])

@@ -96,7 +96,7 @@ def test_unconnected_frames(stage: Stage) -> None:
     display.update()
     assert len(stage.node_at('/display_0/axes').batched_positions) == 2
     said = sentence(display, 'Transform')
-    assert said.startswith('No transform from [odom] to [map]: nobody publishes it')
+    assert said.startswith('No transform from [odom] to [map]: it is not published')
     assert 'camera' in said
 
 
@@ -167,7 +167,7 @@ def test_filters(stage: Stage) -> None:
     display = stage.show(TF, {'Filter (whitelist)': '('})
     stage.move('map', 'base')
     display.update()
-    assert "'(' is no regular expression" in sentence(display, 'Filter')
+    assert "'(' is not a valid regular expression" in sentence(display, 'Filter')
     assert sentence(display, 'Frames') == '2 of 2 frames are shown.'
 
 
