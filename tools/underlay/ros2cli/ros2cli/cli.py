@@ -27,17 +27,17 @@ if TYPE_CHECKING:
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 COMMAND_GROUP = 'ros2cli.command'
 COMMANDS = {
-    'action': Entry('ros2action.command:ActionCommand', 'Various action related sub-commands'),
-    'bag': Entry('ros2bag.command:BagCommand', 'Various rosbag related sub-commands'),
+    'action': Entry('ros2cli.commands:ActionCommand', 'Various action related sub-commands'),
+    'bag': Entry('ros2cli.commands:BagCommand', 'Various rosbag related sub-commands'),
     'component': Entry(
-        'ros2component.command:ComponentCommand',
+        'ros2cli.commands:ComponentCommand',
         'Various component related sub-commands',
     ),
     # In a package of its own, as in a ROS installation, but in the table so that help lists it.
     'control': Entry(
         'ros2controlcli.command.control:ControlCommand', 'Various control related sub-commands'
     ),
-    'daemon': Entry('ros2daemon.command:DaemonCommand', 'Various daemon related sub-commands'),
+    'daemon': Entry('ros2cli.commands:DaemonCommand', 'Various daemon related sub-commands'),
     'doctor': Entry(
         'ros2doctor.command:DoctorCommand', 'Check ROS setup and other potential issues'
     ),
@@ -48,23 +48,23 @@ COMMANDS = {
     ),
     'extensions': Entry('ros2cli.extensions:ExtensionsCommand', 'List extensions', hidden=True),
     'interface': Entry(
-        'ros2interface.command:InterfaceCommand', 'Show information about ROS interfaces'
+        'ros2cli.commands:InterfaceCommand', 'Show information about ROS interfaces'
     ),
     'launch': Entry('ros2launch.command.launch:LaunchCommand', 'Run a launch file'),
     'lifecycle': Entry(
-        'ros2lifecycle.command:LifecycleCommand',
+        'ros2cli.commands:LifecycleCommand',
         'Various lifecycle related sub-commands',
     ),
     'multicast': Entry(
-        'ros2multicast.command:MulticastCommand',
+        'ros2cli.commands:MulticastCommand',
         'Various multicast related sub-commands',
     ),
-    'node': Entry('ros2node.command:NodeCommand', 'Various node related sub-commands'),
-    'param': Entry('ros2param.command:ParamCommand', 'Various param related sub-commands'),
-    'pkg': Entry('ros2pkg.command:PkgCommand', 'Various package related sub-commands'),
+    'node': Entry('ros2cli.commands:NodeCommand', 'Various node related sub-commands'),
+    'param': Entry('ros2cli.commands:ParamCommand', 'Various param related sub-commands'),
+    'pkg': Entry('ros2cli.commands:PkgCommand', 'Various package related sub-commands'),
     'run': Entry('ros2run.command:RunCommand', 'Run a package specific executable'),
-    'service': Entry('ros2service.command:ServiceCommand', 'Various service related sub-commands'),
-    'topic': Entry('ros2topic.command:TopicCommand', 'Various topic related sub-commands'),
+    'service': Entry('ros2cli.commands:ServiceCommand', 'Various service related sub-commands'),
+    'topic': Entry('ros2cli.commands:TopicCommand', 'Various topic related sub-commands'),
     'wtf': Entry('ros2doctor.command:WtfCommand', 'Use `wtf` as alias to `doctor`'),
 }
 

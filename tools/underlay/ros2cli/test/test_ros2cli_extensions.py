@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import pytest
 from ros2cli.cli import COMMANDS, main
+from ros2cli.commands import TopicCommand
 from ros2cli.entry import Entry
 from ros2cli.extensions import extension_points
-from ros2topic.command import TopicCommand
 
 GROUPS = [
     'ros2action.verb',

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 from ros2cli.cli import COMMANDS, main
+from ros2cli.commands import PkgCommand
 from ros2cli.entry import Entry
-from ros2pkg.command import PkgCommand
 
 VERB_COMMANDS = [
     command
