@@ -13,11 +13,10 @@ import io
 import os
 import sys
 
-from ros2cli.entry import Entry
+from ros2cli.entry import add_lazy_subparsers, Entry
 from ros2cli.exit_status import run_to_status
 from ros2cli.parser import Parser
 from ros2cli.start_up import end, open_standard_streams
-from ros2cli.subparsers import add_lazy_subparsers
 
 TYPE_CHECKING = False
 

@@ -6,8 +6,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Mapping, Sequence
 
-from ros2cli.entry import Entry
-from ros2cli.subparsers import add_lazy_subparsers, add_subparsers_on_demand
+from ros2cli.entry import add_lazy_subparsers, add_subparsers_on_demand, Entry
 
 __all__ = ['CommandExtension', 'VerbCommand', 'add_subparsers_on_demand']
 

@@ -104,7 +104,7 @@ def test_verbs_of_other_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> N
     def find(group: str, name: str) -> None:
         asked.append((group, name))
 
-    monkeypatch.setattr('ros2cli.subparsers.find_entry', find)
+    monkeypatch.setattr('ros2cli.entry.find_entry', find)
     assert main(['pkg', 'extra']) == 2
     assert asked == [(PkgCommand.VERB_GROUP, 'extra')]
 
