@@ -19,8 +19,7 @@ from ros2cli.messages.lookup import type_name
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.text import to_yaml
 from ros2cli.names import closest
-from ros2cli.node.spinning import wait_until
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience, wait_until
 
 STATUS_NAMES = {
     getattr(GoalStatus, f'STATUS_{name}'): name

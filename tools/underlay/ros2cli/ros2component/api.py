@@ -10,7 +10,7 @@ from rcl_interfaces.msg import Parameter
 from ros2cli.graph.graph import Graph
 from ros2cli.graph.watch import GraphWatch
 from ros2cli.names import closest
-from ros2cli.node.spinning import call
+from ros2cli.waiting import call
 from ros2node.api import nodes_with_service
 from ros2param.api.values import parse_value
 

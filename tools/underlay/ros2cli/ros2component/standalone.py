@@ -10,7 +10,7 @@ import subprocess
 
 from ros2cli.graph.graph import Graph
 from ros2cli.node.direct import DirectNode
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience
 from ros2component.api import get_containers, load_component
 from ros2pkg.api import PackageNotFoundError
 from ros2run.api import get_executable_path

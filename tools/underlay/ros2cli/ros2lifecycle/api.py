@@ -8,7 +8,7 @@ from typing import Any
 from lifecycle_msgs.msg import State, Transition, TransitionDescription
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 from ros2cli.graph.graph import Graph
-from ros2cli.node.spinning import call
+from ros2cli.waiting import call
 from ros2node.api import find_node, nodes_with_service
 
 __all__ = [

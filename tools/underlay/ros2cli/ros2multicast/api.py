@@ -7,7 +7,7 @@ import argparse
 import socket
 import struct
 
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience
 
 __all__ = ['DEFAULT_TTL', 'add_group_arguments', 'receive', 'send', 'time_to_live']
 

@@ -7,7 +7,7 @@ from collections import Counter
 from typing import Any, NamedTuple, TYPE_CHECKING
 
 from ros2cli.names import closest, is_hidden
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience
 
 if TYPE_CHECKING:
     from ros2cli.graph.graph import Graph

@@ -10,7 +10,7 @@ from typing import Any
 from ros2cli.messages.lookup import get_passed_type
 from ros2cli.messages.plain import to_plain
 from ros2cli.messages.text import plain_to_csv, plain_to_yaml
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience
 from ros2service.api import get_service_types, unknown_service_text
 from ros2topic.api.echo import chosen_shortening, Listener, SEPARATOR
 from service_msgs.msg import ServiceEventInfo

@@ -165,7 +165,7 @@ def test_stopped_process_is_told(
 
 def test_appearing_node_is_waited_for(domain: int) -> None:
     """A watch on an empty domain sees a node that starts later, and its topic."""
-    from ros2cli.patience import Patience
+    from ros2cli.waiting import Patience
 
     def find(graph: Graph) -> int:
         return graph.count_publishers('/children')

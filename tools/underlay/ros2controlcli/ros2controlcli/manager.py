@@ -9,7 +9,7 @@ from typing import Any
 
 from ros2cli.names import absolute, closest
 from ros2cli.node.arguments import add_hidden_nodes_argument, add_node_arguments
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience
 
 DEFAULT = '/controller_manager'
 TYPE = 'controller_manager_msgs/srv/'
@@ -59,7 +59,7 @@ def ask(args: argparse.Namespace, name: str, kind: str, **request: Any) -> Any:
 
     """
     from ros2cli.node.direct import DirectNode
-    from ros2cli.node.spinning import call
+    from ros2cli.waiting import call
 
     with DirectNode(args) as node:
         import controller_manager_msgs.srv

@@ -18,7 +18,7 @@ from ros2bag.api.topic_filter import TopicFilter
 from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition, definition_of
 from ros2cli.node.direct import DirectNode
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience
 from ros_environment.suggestions import did_you_mean
 
 __all__ = ['record']

@@ -8,7 +8,7 @@ from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
-from ros2cli.node.spinning import call
+from ros2cli.waiting import call
 
 __all__ = [
     'LIST_SERVICE',

@@ -13,8 +13,7 @@ from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.values import add_values_arguments, values_text
 from ros2cli.names import absolute
 from ros2cli.node.arguments import add_node_arguments
-from ros2cli.node.spinning import spin_until, wait_for_response, wait_until
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience, spin_until, wait_for_response, wait_until
 from ros2service.api import get_service_types, service_hint
 from ros2service.verb import VerbExtension
 

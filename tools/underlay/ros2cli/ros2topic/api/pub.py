@@ -10,8 +10,7 @@ from typing import Any
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import QoSPresetProfiles
 from ros2cli.messages.outgoing import OutgoingMessage
-from ros2cli.node.spinning import spin_until
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience, spin_until
 from ros2topic.api import closest_topic, type_mismatch
 from ros2topic.api.qos import copy_profile, Incompatibility, override
 

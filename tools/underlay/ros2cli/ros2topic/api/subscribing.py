@@ -11,8 +11,7 @@ from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from ros2cli.messages.lookup import get_passed_type
-from ros2cli.node.spinning import spin_until
-from ros2cli.patience import Patience
+from ros2cli.waiting import Patience, spin_until
 from ros2topic.api import closest_topic, get_topic_types, type_mismatch
 from ros2topic.api.qos import Incompatibility, matching_qos
 

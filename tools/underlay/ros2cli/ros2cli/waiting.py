@@ -1,16 +1,47 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Spin a node while waiting: for a condition, for a point in time, or for a service to respond."""
+"""
+Wait for a condition, a point in time or the response of a service, while a node spins.
+
+What a command waits for is reported to the user after a while. Importing this does not import
+rclpy.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+import sys
 import time
 from typing import Any
 
-from ros2cli.patience import Patience
-
+PATIENCE_S = 2.0
 PERIOD_S = 0.05
 CONNECTION_TIMEOUT_S = 5.0
+
+
+class Patience:
+    """
+    Reports once, on stderr, what a command waits for, after 2 s of waiting.
+
+    Parameters
+    ----------
+    what
+        The subject of the wait, as in "Still waiting for ...".
+    hint
+        Called with the report; returns a hint, or ''.
+
+    """
+
+    def __init__(self, what: str, hint: Callable[[], str] = str) -> None:
+        self._what = what
+        self._hint = hint
+        self._end = time.monotonic() + PATIENCE_S
+
+    def check(self) -> None:
+        """Print the report if it is due."""
+        if time.monotonic() > self._end:
+            text = f'Still waiting for {self._what} (Ctrl-C to stop)'
+            print('. '.join(filter(None, (text, self._hint()))), file=sys.stderr)
+            self._end = float('inf')
 
 
 def wait_until(
