@@ -7,8 +7,8 @@ import argparse
 from collections.abc import Iterable
 from typing import Any
 
+from ros2cli.arguments import add_hidden_nodes_argument, add_node_arguments
 from ros2cli.names import absolute, closest
-from ros2cli.node.arguments import add_hidden_nodes_argument, add_node_arguments
 from ros2cli.waiting import Patience
 
 DEFAULT = '/controller_manager'

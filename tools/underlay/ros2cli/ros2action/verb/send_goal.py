@@ -6,8 +6,8 @@ from __future__ import annotations
 import argparse
 
 from ros2action.verb import VerbExtension
+from ros2cli.arguments import add_node_arguments
 from ros2cli.messages.values import add_values_arguments
-from ros2cli.node.arguments import add_node_arguments
 
 FIELD_ERROR = 'Failed to populate message fields: {!r}'
 

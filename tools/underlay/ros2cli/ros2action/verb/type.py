@@ -7,7 +7,7 @@ import argparse
 from typing import Any
 
 from ros2action.verb import VerbExtension
-from ros2cli.node.arguments import add_strategy_arguments
+from ros2cli.arguments import add_strategy_arguments
 
 
 class TypeVerb(VerbExtension):

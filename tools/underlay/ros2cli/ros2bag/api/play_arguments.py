@@ -7,7 +7,7 @@ import argparse
 
 from ros2bag.api.argument_types import count, not_negative, Refused
 from ros2bag.api.topic_filter import regular_expression, TopicFilter
-from ros2cli.argument_types import positive_number
+from ros2cli.arguments import positive_number
 from ros2cli.names import absolute
 
 __all__ = [

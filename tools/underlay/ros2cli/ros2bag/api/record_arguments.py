@@ -8,7 +8,7 @@ from datetime import datetime
 
 from ros2bag.api.argument_types import count, not_negative, Refused
 from ros2bag.api.topic_filter import regular_expression, TopicFilter
-from ros2cli.argument_types import positive_number
+from ros2cli.arguments import positive_number
 from ros2cli.names import absolute
 
 __all__ = ['add_record_arguments', 'compression_of', 'filter_of', 'output_folder', 'usage_error']

@@ -12,7 +12,7 @@ from ros2bag.api.play_arguments import (
     AS_FAST_AS_POSSIBLE,
 )
 from ros2bag.verb import VerbExtension
-from ros2cli.argument_types import positive_int
+from ros2cli.arguments import positive_int
 
 
 class BurstVerb(VerbExtension):

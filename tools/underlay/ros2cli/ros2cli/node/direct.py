@@ -11,10 +11,10 @@ import signal
 from types import FrameType, TracebackType
 from typing import Any, TYPE_CHECKING
 
+from ros2cli.arguments import add_node_arguments as add_arguments
 from ros2cli.deferral import import_rclpy
 from ros2cli.graph import DEFAULT_SPIN_TIME_S
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.node.arguments import add_node_arguments as add_arguments
 
 import_rclpy()
 import rclpy  # noqa: E402, I100

@@ -7,9 +7,9 @@ import argparse
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from ros2cli.arguments import add_strategy_arguments as add_arguments
 from ros2cli.graph.graph import Graph
 from ros2cli.graph.watch import GraphWatch
-from ros2cli.node.arguments import add_strategy_arguments as add_arguments
 
 __all__ = ['NodeStrategy', 'add_arguments']
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.node.arguments import add_strategy_arguments
+from ros2cli.arguments import add_strategy_arguments
 from ros2component.verb import VerbExtension
 
 LOG_LEVELS = {'unset': 0, 'debug': 10, 'info': 20, 'warn': 30, 'error': 40, 'fatal': 50}

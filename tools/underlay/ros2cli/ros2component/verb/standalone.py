@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.argument_types import node_name
-from ros2cli.node.arguments import add_strategy_arguments
+from ros2cli.arguments import add_strategy_arguments, node_name
 from ros2component.verb import VerbExtension
 from ros2component.verb.load import add_load_arguments
 

@@ -6,8 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ros2cli.argument_types import whole_number
-from ros2cli.node.arguments import add_strategy_arguments
+from ros2cli.arguments import add_strategy_arguments, whole_number
 from ros2component.verb import VerbExtension
 
 

@@ -11,8 +11,7 @@ import socket
 import struct
 import time
 
-from ros2cli.argument_types import positive_number
-from ros2cli.node.arguments import add_node_arguments
+from ros2cli.arguments import add_node_arguments, positive_number
 from ros2doctor.verb import VerbExtension
 from ros2multicast.api import time_to_live
 

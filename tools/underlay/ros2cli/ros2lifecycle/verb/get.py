@@ -7,7 +7,7 @@ import argparse
 import sys
 from typing import Any
 
-from ros2cli.node.arguments import add_hidden_nodes_argument, add_strategy_arguments
+from ros2cli.arguments import add_hidden_nodes_argument, add_strategy_arguments
 from ros2lifecycle.verb import VerbExtension
 
 ANSWER_TIMEOUT_S = 5.0

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2cli.node.arguments import add_hidden_nodes_argument, add_strategy_arguments
+from ros2cli.arguments import add_hidden_nodes_argument, add_strategy_arguments
 from ros2lifecycle.verb import VerbExtension
 
 

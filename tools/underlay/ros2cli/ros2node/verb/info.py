@@ -6,8 +6,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from ros2cli.arguments import add_strategy_arguments
 from ros2cli.names import closest
-from ros2cli.node.arguments import add_strategy_arguments
 from ros2node.verb import VerbExtension
 
 

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TYPE_CHECKING
 
-from ros2cli.argument_types import positive_number
-from ros2cli.node.arguments import add_hidden_nodes_argument, add_strategy_arguments
+from ros2cli.arguments import add_hidden_nodes_argument, add_strategy_arguments, positive_number
 from ros2cli.waiting import Patience
 from ros2node.api import find_node
 from ros2param.api import LIST_SERVICE

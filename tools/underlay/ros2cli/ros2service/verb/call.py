@@ -7,12 +7,11 @@ import argparse
 import time
 from typing import Any
 
-from ros2cli.argument_types import positive_number
+from ros2cli.arguments import add_node_arguments, positive_number
 from ros2cli.messages.lookup import get_passed_type, type_name
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.values import add_values_arguments, values_text
 from ros2cli.names import absolute
-from ros2cli.node.arguments import add_node_arguments
 from ros2cli.waiting import Patience, spin_until, wait_for_response, wait_until
 from ros2service.api import get_service_types, service_hint
 from ros2service.verb import VerbExtension

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.arguments import add_strategy_arguments
 from ros2cli.listing import (
     add_count_argument,
     add_hidden_argument,
@@ -12,7 +13,6 @@ from ros2cli.listing import (
     print_names,
     with_types,
 )
-from ros2cli.node.arguments import add_strategy_arguments
 from ros2service.verb import VerbExtension
 
 

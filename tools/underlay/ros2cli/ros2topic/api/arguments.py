@@ -11,7 +11,7 @@ import argparse
 from collections.abc import Callable
 from typing import Any
 
-from ros2cli.argument_types import positive_int, positive_number, whole_number
+from ros2cli.arguments import positive_int, positive_number, whole_number
 
 DEFAULT_TRUNCATE_LENGTH = 128
 PROFILES = (

@@ -8,8 +8,7 @@ from collections import deque
 import time
 from typing import Any
 
-from ros2cli.argument_types import positive_int
-from ros2cli.node.arguments import add_strategy_arguments
+from ros2cli.arguments import add_strategy_arguments, positive_int
 from ros2topic.verb import VerbExtension
 
 DEFAULT_WINDOW = 100

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.node.arguments import add_strategy_arguments
+from ros2cli.arguments import add_strategy_arguments
 from ros2topic.api.arguments import add_echo_arguments, add_qos_arguments
 from ros2topic.verb import VerbExtension
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from ros2cli.arguments import add_strategy_arguments
 from ros2cli.listing import (
     add_count_argument,
     add_hidden_argument,
@@ -13,7 +14,6 @@ from ros2cli.listing import (
     print_names,
     with_types,
 )
-from ros2cli.node.arguments import add_strategy_arguments
 from ros2topic.verb import VerbExtension
 
 

@@ -5,9 +5,14 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.argument_types import node_name, positive_int, positive_number, whole_number
+from ros2cli.arguments import (
+    add_node_arguments,
+    node_name,
+    positive_int,
+    positive_number,
+    whole_number,
+)
 from ros2cli.messages.values import add_values_arguments, values_text
-from ros2cli.node.arguments import add_node_arguments
 from ros2topic.api.arguments import add_qos_arguments
 from ros2topic.verb import VerbExtension
 

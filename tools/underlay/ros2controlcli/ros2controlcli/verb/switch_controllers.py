@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.argument_types import positive_number
+from ros2cli.arguments import positive_number
 from ros2controlcli.manager import add_manager_arguments, ask
 from ros2controlcli.verb import VerbExtension
 
