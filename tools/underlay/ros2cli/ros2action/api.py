@@ -6,9 +6,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ros2cli.names import closest
 from ros2node.api import actions_of, get_node_names, TopicInfo
 
-__all__ = ['get_action_clients', 'get_action_names_and_types', 'get_action_servers']
+__all__ = [
+    'action_hint',
+    'get_action_clients',
+    'get_action_names_and_types',
+    'get_action_servers',
+]
 
 
 def get_action_names_and_types(*, node: Any) -> list[TopicInfo]:
@@ -76,3 +82,25 @@ def _nodes_of(
         for name, types in actions_of(services_by_node(remote.name, remote.namespace))
         if name == action
     ]
+
+
+def action_hint(node: Any, action: str, type_name: str) -> str:
+    """
+    Return a hint to an action of another type or name that may be meant, or ''.
+
+    Parameters
+    ----------
+    node
+        The graph, or a node with its methods.
+    action
+        The full name of the action that is looked for.
+    type_name
+        Its type, such as `tf2_msgs/action/LookupTransform`.
+
+    """
+    servers = get_action_servers(node, action)
+    types = [each for server in servers for each in server.types if each != type_name]
+    if types:
+        return f"'{action}' has the type '{types[0]}', not '{type_name}'."
+    names = [name for name, _ in get_action_names_and_types(node=node)]
+    return closest(action, [name for name in names if name != action])

@@ -14,11 +14,8 @@ from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
-from ros2action.api import get_action_names_and_types, get_action_servers
-from ros2cli.messages.lookup import type_name
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.text import to_yaml
-from ros2cli.names import closest
 from ros2cli.waiting import Patience, wait_until
 
 STATUS_NAMES = {
@@ -67,15 +64,22 @@ class GoalSender:
     def __init__(self, node: Any, action_type: Any, name: str, *, with_feedback: bool) -> None:
         self._node = node
         self._name = name
-        self._type_name = type_name(action_type)
         self._feedback = FeedbackPrinter() if with_feedback else None
         self._client = ActionClient(node.node, action_type, name)
         self._check_signals: Callable[[], None] = lambda: None
 
-    def wait_for_server(self) -> None:
-        """Wait for the action server without a timeout."""
+    def wait_for_server(self, hint: Callable[[], str]) -> None:
+        """
+        Wait for the action server without a timeout.
+
+        Parameters
+        ----------
+        hint
+            Returns an action that may be meant instead, for a user who waits long, or ''.
+
+        """
         print('Waiting for an action server to become available...')
-        patience = Patience(f"a server of the action '{self._name}'", self._hint)
+        patience = Patience(f"a server of the action '{self._name}'", hint)
         wait_until(self._node, self._client.server_is_ready, patience)
 
     def send(self, message: OutgoingMessage) -> None:
@@ -151,16 +155,6 @@ class GoalSender:
         if not future.done():
             raise RuntimeError(f"The server of '{self._name}' disappeared before {what} arrived")
         return future.result()
-
-    def _hint(self) -> str:
-        """Return a hint to an action of another type or name that may be meant, or ''."""
-        graph = self._node.graph
-        servers = get_action_servers(graph, self._name)
-        types = [each for server in servers for each in server.types if each != self._type_name]
-        if types:
-            return f"'{self._name}' has the type '{types[0]}', not '{self._type_name}'."
-        names = [name for name, _ in get_action_names_and_types(node=graph)]
-        return closest(self._name, [name for name in names if name != self._name])
 
 
 class FeedbackPrinter:

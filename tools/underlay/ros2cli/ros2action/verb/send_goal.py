@@ -50,8 +50,9 @@ class SendGoalVerb(VerbExtension):
             The type, the name or the values are wrong, or the server disappears.
 
         """
+        from ros2action.api import action_hint
         from ros2action.sending import GoalSender
-        from ros2cli.messages.lookup import get_passed_type
+        from ros2cli.messages.lookup import get_passed_type, type_name
         from ros2cli.messages.outgoing import OutgoingMessage
         from ros2cli.messages.values import values_text
         from ros2cli.names import absolute
@@ -62,6 +63,6 @@ class SendGoalVerb(VerbExtension):
         name = absolute(args.action_name, 'action')
         with DirectNode(args, survives_interrupt=True) as node:
             sender = GoalSender(node, action_type, name, with_feedback=args.feedback)
-            sender.wait_for_server()
+            sender.wait_for_server(lambda: action_hint(node.graph, name, type_name(action_type)))
             sender.send(goal)
         return None
