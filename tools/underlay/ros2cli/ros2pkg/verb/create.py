@@ -11,8 +11,8 @@ import re
 import subprocess
 import sys
 
-from ros2pkg.create import create_package, PackageDescription
-from ros2pkg.create.package import known_licenses, unknown_license_warning
+from ros2pkg.create.build_types import create_package
+from ros2pkg.create.package import known_licenses, PackageDescription, unknown_license_warning
 from ros2pkg.verb import VerbExtension
 
 MISSING_NAME = (
