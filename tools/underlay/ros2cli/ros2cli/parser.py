@@ -29,6 +29,7 @@ YAML_EXAMPLE = '"{data: [1, 2]}"'
 END_OF_OPTIONS = '--'
 NEGATIVE_NUMBER = re.compile(r'-((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|\.inf)', re.IGNORECASE)
 UNLIMITED = float('inf')
+PARSER_OF_REST = '_parser_of_rest'  # an attribute of the result that is not an argument
 
 Options = Mapping[str, argparse.Action]
 
@@ -68,7 +69,7 @@ class Parser(argparse.ArgumentParser):
         """
         found, rest = self.parse_known_args(args, namespace)
         if rest:
-            advice = found._parser_of_rest.advice(rest)
+            advice = getattr(found, PARSER_OF_REST).advice(rest)
             self.error('\n'.join([f'unrecognized arguments: {" ".join(rest)}', advice]).rstrip())
         return found
 
@@ -86,8 +87,8 @@ class Parser(argparse.ArgumentParser):
         Returns
         -------
         tuple of argparse.Namespace and list of str
-            The result, and the remaining arguments; `_parser_of_rest` is the innermost parser of
-            these.
+            The result, and the remaining arguments; its `PARSER_OF_REST` is the innermost parser
+            of these.
 
         Raises
         ------
@@ -99,8 +100,8 @@ class Parser(argparse.ArgumentParser):
         if self._takes_any_order():
             words = options_first(words, self._option_string_actions)
         found, rest = super().parse_known_args(words, namespace)
-        if rest and not hasattr(found, '_parser_of_rest'):
-            found._parser_of_rest = self
+        if rest and not hasattr(found, PARSER_OF_REST):
+            setattr(found, PARSER_OF_REST, self)
         return found, rest
 
     def advice(self, words: list[str]) -> str:

@@ -101,7 +101,7 @@ class Recorder:
         """Record the latched messages that arrived during the pause that has ended."""
         held, self._held = self._held, []
         for message in held:
-            self._writer.write(message._replace(log_ns=self._now_ns()))
+            self._writer.write(message.logged_at(self._now_ns()))
 
     def take_rest(self) -> None:
         """

@@ -187,7 +187,7 @@ class BagWriter:
         for topic in self._topics.values():
             self._file.add_topic(topic, self._find_definition(topic.type_name))
         for message in self._latched.alive(now_ns):
-            self._file.write(*message._replace(log_ns=now_ns))
+            self._file.write(*message.logged_at(now_ns))
 
     def _write_metadata(self) -> None:
         path = os.path.join(self._folder, FILE_NAME)

@@ -26,6 +26,18 @@ class RecordedMessage(NamedTuple):
     publish_ns: int
     sequence: int = 0
 
+    def logged_at(self, log_ns: int) -> RecordedMessage:
+        """
+        Return the message with another reception time.
+
+        Parameters
+        ----------
+        log_ns
+            The reception time.
+
+        """
+        return self._replace(log_ns=log_ns)
+
 
 class LatchedMessages:
     """The last messages of each latched topic."""

@@ -57,7 +57,9 @@ def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
             'not support it; start the nodes without it, after: unset ROS_DISCOVERY_SERVER'
         )
     reach = Reach(_domain_id(environment), _extent(environment))
-    return reach if reach.is_local else reach._replace(peers=_peers(environment))
+    if reach.is_local:
+        return reach
+    return Reach(reach.domain_id, reach.extent, _peers(environment))
 
 
 def _domain_id(environment: Mapping[str, str]) -> int:
