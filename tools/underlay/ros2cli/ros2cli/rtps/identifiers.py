@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Protocol constants: entity IDs, parameter IDs and ports (9.3.1.2, 9.6.2.3, 9.6.3)."""
+"""Protocol constants: entity IDs, parameter IDs, limits and ports (9.3.1.2, 9.6.2.3, 9.6.3)."""
 
 from __future__ import annotations
 
 PROTOCOL_VERSION = b'\x02\x03'
 VENDOR_UNKNOWN = b'\x00\x00'
 PREFIX_BYTES = 12
+MAX_NUMBERS = 256  # in a set of sequence numbers
 
 UNKNOWN_ENTITY = bytes.fromhex('00000000')
 PARTICIPANT = bytes.fromhex('000001c1')

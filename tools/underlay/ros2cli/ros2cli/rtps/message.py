@@ -8,6 +8,7 @@ import struct
 from typing import NamedTuple
 
 from ros2cli.rtps.identifiers import (
+    MAX_NUMBERS,
     PID_STATUS_INFO,
     PREFIX_BYTES,
     PROTOCOL_VERSION,
@@ -26,7 +27,6 @@ PAYLOAD = 0b0100
 KEY = 0b1000
 KEY_OF_FRAGMENT = 0b0100
 MAX_NUMBER = 2**62  # of a sample; the last 64-bit numbers are not worth a special case
-MAX_NUMBERS = 256  # in a set of sequence numbers
 FINAL = 0b0010
 
 

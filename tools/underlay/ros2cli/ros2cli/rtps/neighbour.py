@@ -22,6 +22,7 @@ from ros2cli.rtps.identifiers import (
     SUBSCRIPTIONS_WRITER,
 )
 from ros2cli.rtps.message import (
+    acknack,
     Data,
     Fragment,
     Gap,
@@ -30,11 +31,12 @@ from ros2cli.rtps.message import (
     message,
     Submessage,
 )
-from ros2cli.rtps.parameters import Address, decode_parameters, THIS_HOST
+from ros2cli.rtps.parameters import Address, decode_parameters, Parameters, THIS_HOST
 from ros2cli.rtps.stream import Stream
 
 PATIENCE_S = 0.13  # longer than the 0.1 s that Fast DDS takes to answer a request
 MAX_PATIENCE_S = 0.5
+NO_QOS = Parameters({}, '<')
 
 
 class Neighbour:
@@ -130,7 +132,7 @@ class Neighbour:
             stream.skip(news.start, news.end)
             stream.settle(news.numbers)
         elif stream.wants(news.number):
-            sample = stream.fragments.add(news) if isinstance(news, Fragment) else news
+            sample = _reassembled(stream, news) if isinstance(news, Fragment) else news
             if sample:
                 self._on_sample(stream, sample)
         self._hurry()
@@ -155,10 +157,10 @@ class Neighbour:
         self._is_acknowledged = self.is_complete
         self._ask_again_s = now_s + self._patience_s
         self._patience_s = min(2 * self._patience_s, MAX_PATIENCE_S)
-        built_in = [self._publications.request(), self._subscriptions.request()]
+        built_in = [_request(self._publications), _request(self._subscriptions)]
         yield self._message(*built_in), self.discovery
         if self._entities:
-            yield self._message(self._entities.request()), self._user
+            yield self._message(_request(self._entities)), self._user
 
     def _on_sample(self, stream: Stream, sample: Data) -> None:
         """Handle a sample; a damaged one is not requested again."""
@@ -206,3 +208,16 @@ class Neighbour:
         self.endpoints[endpoint.guid] = endpoint
         if endpoint.is_writer and endpoint.topic == TOPIC and not self._entities:
             self._entities = Stream(ENTITIES_READER, endpoint.guid[PREFIX_BYTES:])
+
+
+def _request(stream: Stream) -> bytes:
+    """Build the submessage that acknowledges the samples of a stream and requests missing ones."""
+    return acknack(stream.reader, stream.writer, *stream.request())
+
+
+def _reassembled(stream: Stream, news: Fragment) -> Data | None:
+    """Return the whole sample if this was its last missing fragment."""
+    payload = stream.fragments.add(news.number, news.size, news.start, news.payload)
+    if payload is None:
+        return None
+    return Data(news.reader, news.writer, news.number, payload, NO_QOS, False)

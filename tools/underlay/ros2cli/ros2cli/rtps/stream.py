@@ -5,11 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros2cli.rtps.message import acknack, Data, Fragment, MAX_NUMBERS
-from ros2cli.rtps.parameters import Parameters
+from ros2cli.rtps.identifiers import MAX_NUMBERS
 
 MAX_AHEAD = 10_000  # received samples that are tracked behind a missing one
-NO_QOS = Parameters({}, '<')
 MAX_SAMPLE_BYTES = 1 << 24
 
 
@@ -19,10 +17,8 @@ class Stream:
 
     Parameters
     ----------
-    reader
-        Our entity ID (4 bytes).
-    writer
-        The entity ID (4 bytes) of the writer; also an attribute.
+    reader, writer
+        Our entity ID and that of the writer (4 bytes each); also attributes.
 
     Attributes
     ----------
@@ -32,9 +28,9 @@ class Stream:
     """
 
     def __init__(self, reader: bytes, writer: bytes) -> None:
+        self.reader = reader
         self.writer = writer
         self.fragments = Fragments()
-        self._reader = reader
         self._last: int | None = None
         self._next = 1
         self._ahead: set[int] = set()
@@ -116,18 +112,23 @@ class Stream:
         else:
             self.settle(range(start, min(end, self._next + MAX_AHEAD)))
 
-    def request(self) -> bytes:
+    def request(self) -> tuple[int, list[int], int]:
         """
-        Build the ACKNACK submessage that acknowledges samples and requests missing ones.
+        Return what the next ACKNACK acknowledges and requests; it counts as sent.
 
-        Before the first heartbeat it only requests a heartbeat.
+        Returns
+        -------
+        tuple of int, list of int and int
+            The sequence number before which all samples have been received, 0 to request only a
+            heartbeat, since there was none yet; the missing numbers; the number of the request.
+
         """
         base = 0 if self._last is None else self._next
         end = min(self._last or 0, base + MAX_NUMBERS - 1) + 1
         missing = [number for number in range(base, end) if number not in self._ahead]
         self._requests += 1
         self._requested = max(missing, default=0)
-        return acknack(self._reader, self.writer, base, missing, self._requests)
+        return base, missing, self._requests
 
     def _advance(self, to: int) -> None:
         if to > self._next:
@@ -147,19 +148,21 @@ class Fragments:
         self._parts: dict[int, bytes] = {}
         self._missing = 0
 
-    def add(self, fragment: Fragment) -> Data | None:
+    def add(self, number: int, size: int, start: int, part: bytes) -> bytes | None:
         """
         Add a fragment, and reassemble the sample when it is complete.
 
         Parameters
         ----------
-        fragment
-            A fragment of a sample; the fragments of the previous sample are dropped when it
-            belongs to another one.
+        number, size
+            The sequence number of the sample and its size; the fragments of the previous sample
+            are dropped when the number is another one.
+        start, part
+            The offset of the fragment in the sample, and its content.
 
         Returns
         -------
-        Data or None
+        bytes or None
             The whole sample if this was the last missing fragment.
 
         Raises
@@ -168,17 +171,17 @@ class Fragments:
             The declared sample size is larger than 16 MiB.
 
         """
-        if fragment.size > MAX_SAMPLE_BYTES:
-            raise ValueError(f'a sample of {fragment.size} bytes')
-        if fragment.number != self._number:
-            self._number, self._missing = fragment.number, fragment.size
+        if size > MAX_SAMPLE_BYTES:
+            raise ValueError(f'a sample of {size} bytes')
+        if number != self._number:
+            self._number, self._missing = number, size
             self._parts.clear()
-        if fragment.payload and fragment.start not in self._parts:
-            self._parts[fragment.start] = fragment.payload
-            self._missing -= len(fragment.payload)
+        if part and start not in self._parts:
+            self._parts[start] = part
+            self._missing -= len(part)
         if self._missing > 0:
             return None
         self._number = 0
-        payload = b''.join(part for _, part in sorted(self._parts.items()))[: fragment.size]
+        whole = b''.join(part for _, part in sorted(self._parts.items()))[:size]
         self._parts.clear()
-        return Data(fragment.reader, fragment.writer, fragment.number, payload, NO_QOS, False)
+        return whole
