@@ -68,6 +68,78 @@ def add_hidden_nodes_argument(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_types_argument(parser: argparse.ArgumentParser, what: str) -> None:
+    """
+    Add the option to show types after names.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        The kind of the names, in the singular, such as `topic`.
+
+    """
+    parser.add_argument(
+        '-t', '--show-types', action='store_true', help=f'Additionally show the {what} type'
+    )
+
+
+def add_count_argument(parser: argparse.ArgumentParser, what: str) -> None:
+    """
+    Add the option to show a count only.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        The counted kind, in the plural, such as `topics`.
+
+    """
+    parser.add_argument(
+        '-c',
+        f'--count-{what}',
+        action='store_true',
+        help=f'Only display the number of {what} discovered',
+    )
+
+
+def add_all_nodes_argument(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the option to show hidden nodes as well.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    parser.add_argument(
+        '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
+    )
+
+
+def add_hidden_argument(parser: argparse.ArgumentParser, what: str) -> None:
+    """
+    Add the option to consider hidden names, for a verb whose command has it too.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+    what
+        The kind of the names, in the plural, such as `topics`.
+
+    """
+    parser.add_argument(
+        f'--include-hidden-{what}',
+        action='store_true',
+        default=argparse.SUPPRESS,
+        help=f'Consider hidden {what} as well',
+    )
+
+
 def positive_int(text: str) -> int:
     """
     Parse a positive integer argument.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Graph names as users write them."""
+"""Graph names: as users write them, and as they are listed."""
 
 from __future__ import annotations
 
@@ -71,3 +71,36 @@ def is_hidden(name: str) -> bool:
 
     """
     return any(part.startswith('_') for part in name.split('/'))
+
+
+def print_names(names: list[str], *, only_count: bool) -> None:
+    """
+    Print names, one per line, or their count.
+
+    Parameters
+    ----------
+    names
+        The lines.
+    only_count
+        Whether to print the count.
+
+    """
+    for line in [str(len(names))] if only_count else names:
+        print(line)
+
+
+def with_types(names_and_types: Iterable[tuple[str, list[str]]], *, show_types: bool) -> list[str]:
+    """
+    Format names, optionally with their types in brackets.
+
+    Parameters
+    ----------
+    names_and_types
+        The names and types, as the graph returns them.
+    show_types
+        Whether to add the types.
+
+    """
+    return [
+        f'{name} [{", ".join(types)}]' if show_types else name for name, types in names_and_types
+    ]

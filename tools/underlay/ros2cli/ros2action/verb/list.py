@@ -6,8 +6,8 @@ from __future__ import annotations
 import argparse
 
 from ros2action.verb import VerbExtension
-from ros2cli.arguments import add_strategy_arguments
-from ros2cli.listing import add_count_argument, add_types_argument, print_names, with_types
+from ros2cli.arguments import add_count_argument, add_strategy_arguments, add_types_argument
+from ros2cli.names import print_names, with_types
 
 
 class ListVerb(VerbExtension):

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.arguments import add_strategy_arguments
-from ros2cli.listing import add_count_argument, add_hidden_argument, print_names
+from ros2cli.arguments import add_count_argument, add_hidden_argument, add_strategy_arguments
+from ros2cli.names import print_names
 from ros2service.verb import VerbExtension
 
 

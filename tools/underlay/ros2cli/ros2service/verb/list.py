@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.arguments import add_strategy_arguments
-from ros2cli.listing import (
+from ros2cli.arguments import (
     add_count_argument,
     add_hidden_argument,
+    add_strategy_arguments,
     add_types_argument,
-    print_names,
-    with_types,
 )
+from ros2cli.names import print_names, with_types
 from ros2service.verb import VerbExtension
 
 
