@@ -178,11 +178,11 @@ def unload_component(node: Any, container: str, uid: int) -> str:
     service = container_services().UnloadNode
     request = service.Request(unique_id=uid)
     response = call(node, service, f'{container}{SERVICE}/unload_node', request)
-    return '' if response.success else response.error_message or 'it gives no reason'
+    return '' if response.success else response.error_message or 'the container gave no reason'
 
 
 def _capitalized(reason: str) -> str:
-    return reason[:1].upper() + reason[1:] or 'the container gives no reason'
+    return reason[:1].upper() + reason[1:] or 'the container gave no reason'
 
 
 def _parameter(text: str) -> Parameter:

@@ -70,7 +70,7 @@ def find_lifecycle_node(node: Any, name: str) -> str:
     """
     full_name = find_node(node.watch, name)
     if full_name not in get_lifecycle_nodes(node.graph, include_hidden_nodes=True):
-        raise RuntimeError(f"Node not found\nThe node '{full_name}' has no life cycle")
+        raise RuntimeError(f"Node not found\nThe node '{full_name}' is not a lifecycle node")
     return full_name
 
 

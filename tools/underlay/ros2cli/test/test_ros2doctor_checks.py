@@ -75,7 +75,10 @@ def test_environment_without_fault(environment: Environment) -> None:
         ({'AMENT_PREFIX_PATH': ''}, 'ERROR: no ROS 2 environment is sourced in this terminal'),
         ({'ROS_DISTRO': 'humble'}, "ERROR: ROS_DISTRO is 'humble' instead of 'jazzy'"),
         ({'RMW_IMPLEMENTATION': 'rmw_x'}, "ERROR: RMW_IMPLEMENTATION is 'rmw_x', for which PyPI"),
-        ({'PYTHONPATH': '/opt/ros/jazzy/lib'}, "ERROR: PYTHONPATH also names another ROS, '/opt"),
+        (
+            {'PYTHONPATH': '/opt/ros/jazzy/lib'},
+            "ERROR: PYTHONPATH also contains another ROS, '/opt",
+        ),
         ({'COLCON_PREFIX_PATH': '/gone'}, "WARNING: COLCON_PREFIX_PATH names the folder '/gone'"),
     ],
 )
@@ -121,8 +124,7 @@ def test_wheels() -> None:
     installed = {'numpy': '2.1', 'ros-rcl': '9.2.7', 'setuptools': '80.1'}
     assert sentences(wheel_findings(Wheels(installed, pinned, Path('/w s'), 'make setup'))) == [
         'ERROR: wheels are missing: xacro',
-        'ERROR: wheels of ROS have versions that do not belong together: '
-        'ros-rcl 9.2.7 instead of 9.2.8',
+        'ERROR: the versions of the ROS wheels do not match: ros-rcl 9.2.7 instead of 9.2.8',
         'WARNING: wheels have versions other than the tested ones: numpy 2.1 instead of 2.0',
     ]
     assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws'), 'make setup'))) == []
@@ -271,7 +273,7 @@ def test_network_variables(network: Network, variables: dict[str, str], sentence
         ('LOCALHOST', '/x/share/ros_environment/config/fastdds.xml', 'this machine only'),
         ('SUBNET', '/x/share/ros_environment/config/fastdds.xml', 'every machine in the network'),
         ('LOCALHOST', '', 'every machine in the network'),
-        ('LOCALHOST', '/my.xml', 'whoever /my.xml lets in'),
+        ('LOCALHOST', '/my.xml', 'the machines that /my.xml allows'),
         ('OFF', '', 'nobody'),
     ],
 )

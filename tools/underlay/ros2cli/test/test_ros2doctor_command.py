@@ -171,8 +171,8 @@ def test_failing_check(
     monkeypatch.setattr('ros2doctor.api.examining.REPORTS', report)
     assert main(['doctor', '-rf']) == 1
     assert capsys.readouterr().out == (
-        '\nERROR (careless): the check itself has failed: ZeroDivisionError: division by zero\n'
-        '    why it matters: what it looks at has not been examined\n'
+        '\nERROR (careless): the check itself failed: ZeroDivisionError: division by zero\n'
+        '    why it matters: its subject was not checked\n'
         '\nERROR (broken): It is broken\n'
         '    why it matters: nothing works\n'
         '    to fix it: glue it\n'

@@ -50,7 +50,7 @@ def test_unknown_transition_lists_available_ones(ros2_robot: Ros2) -> None:
     ('node', 'hint'),
     [
         ('lmp', "Did you mean '/lamp'?"),
-        ('/robot1/arm', "The node '/robot1/arm' has no life cycle"),
+        ('/robot1/arm', "The node '/robot1/arm' is not a lifecycle node"),
     ],
 )
 def test_unknown_node(words: list[str], node: str, hint: str, ros2_robot: Ros2) -> None:

@@ -101,7 +101,7 @@ def test_wrong_filter_is_a_usage_error(ros2_here: Ros2) -> None:
     for verb in ('echo', 'hz'):
         result = ros2_here('topic', verb, '/x', '--filter', 'exit()')
         assert result.returncode == 2
-        assert "argument --filter: 'exit()' is not a call that a filter allows" in result.stderr
+        assert "argument --filter: 'exit()' is not a call that filters support" in result.stderr
 
 
 def feed(counter: LossCounter, numbers: list[Any]) -> list[str]:

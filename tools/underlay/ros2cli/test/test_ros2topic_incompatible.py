@@ -31,7 +31,7 @@ def test_echo_names_the_publisher(ros2_here: Ros2) -> None:
     )
     assert (result.returncode, result.stdout) == (0, '')
     warning = result.stderr.splitlines()[0]
-    assert warning.startswith("WARNING: no message passes from '/talker' to '/_ros2cli_")
+    assert warning.startswith("WARNING: messages from '/talker' do not reach '/_ros2cli_")
     assert warning.endswith(
         "on '/temperature': Best effort publisher and reliable subscription. "
         'Change the --qos options, or omit them to follow the publisher.'
@@ -46,8 +46,8 @@ def test_pub_names_the_subscription(ros2_here: Ros2) -> None:
     )
     assert result.returncode == 1
     warning, waiting, timeout = result.stderr.splitlines()
-    assert warning.startswith("WARNING: no message passes from '/_ros2cli_")
-    assert " to '/talker' on '/orders': Best effort publisher and reliable" in warning
+    assert warning.startswith("WARNING: messages from '/_ros2cli_")
+    assert "' do not reach '/talker' on '/orders': Best effort publisher and reliable" in warning
     assert waiting == "Still waiting for subscriptions of '/orders' (Ctrl-C to stop)"
     assert timeout == (
         'Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers'
@@ -89,7 +89,7 @@ def test_a_node_with_one_subscription_that_fits_is_reached(
     ours.on_event(None)
     ours.check()
     (warning,) = capsys.readouterr().err.splitlines()
-    assert warning.startswith("WARNING: no message passes from '/_ros2cli_1' to '/late' on ")
+    assert warning.startswith("WARNING: messages from '/_ros2cli_1' do not reach '/late' on ")
 
 
 def subscription(node: str, profile: QoSProfile, gid: bytes) -> SimpleNamespace:
@@ -109,8 +109,8 @@ def test_other_type_is_named(ros2_here: Ros2) -> None:
     assert (result.returncode, result.stdout, result.stderr) == (
         0,
         '',
-        "WARNING: '/temperature' has the type sensor_msgs/msg/Temperature, so no "
-        'std_msgs/msg/String message passes.\n',
+        "WARNING: '/temperature' has the type sensor_msgs/msg/Temperature, "
+        'not std_msgs/msg/String.\n',
     )
 
 
@@ -121,7 +121,7 @@ def test_pub_of_other_type_is_explained(ros2_here: Ros2) -> None:
     assert result.returncode == 1
     assert result.stderr.splitlines()[0] == (
         "Still waiting for subscriptions of '/orders' (Ctrl-C to stop). '/orders' has the type "
-        'std_msgs/msg/String, so no std_msgs/msg/Int8 message passes.'
+        'std_msgs/msg/String, not std_msgs/msg/Int8.'
     )
 
 

@@ -86,7 +86,7 @@ def _find(node: Any, manager: str, name: str, kind: str, timeout_s: float) -> No
         if kind in kinds and service.endswith(f'/{name}')
     )
     hint = closest(manager, known) or (f'Available: {", ".join(known)}' if known else '')
-    advice = hint or 'None is running: start a robot, or check ROS_DOMAIN_ID'
+    advice = hint or 'No controller manager is running: start a robot, or check ROS_DOMAIN_ID'
     raise RuntimeError(f"There is no controller manager '{manager}'\n{advice}")
 
 

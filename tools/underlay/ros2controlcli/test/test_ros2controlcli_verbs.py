@@ -177,5 +177,5 @@ def test_no_manager_at_all(control: Ros2, monkeypatch: pytest.MonkeyPatch) -> No
     assert (done.returncode, done.stdout) == (1, '')
     assert done.stderr == (
         "There is no controller manager '/controller_manager'\n"
-        'None is running: start a robot, or check ROS_DOMAIN_ID\n'
+        'No controller manager is running: start a robot, or check ROS_DOMAIN_ID\n'
     )

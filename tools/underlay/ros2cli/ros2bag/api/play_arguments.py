@@ -21,7 +21,7 @@ __all__ = [
 ]
 
 CLOCK_HZ = 40.0
-SERVICES = 'services are not played, only topics'
+SERVICES = 'only topics are played, not services'
 AS_FAST_AS_POSSIBLE = {
     'rate': float('inf'),
     'loop': False,

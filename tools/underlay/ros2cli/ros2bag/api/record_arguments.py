@@ -18,7 +18,7 @@ EPILOG = """\
 Ctrl-C, SIGTERM and SIGHUP end the recording, with status 0 if the bag is
 complete. After kill -9 or a loss of power, "ros2 bag recover" saves all but
 the last 0.2 seconds."""
-SERVICES = 'services and actions are not recorded, only topics'
+SERVICES = 'only topics are recorded, not services or actions'
 SNAPSHOT = 'everything is recorded; split the recording with -d and delete what is too old'
 
 

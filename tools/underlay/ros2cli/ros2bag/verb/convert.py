@@ -8,8 +8,8 @@ import argparse
 from ros2bag.verb import VerbExtension
 
 ADVICE = (
-    'This command converts nothing itself. Use rosbags-convert, which is installed as well and '
-    'converts between ROS 1, sqlite3 and MCAP:\n  '
+    'This command does not convert bags itself. Use rosbags-convert, which is installed as well '
+    'and converts between ROS 1, sqlite3 and MCAP:\n  '
     'rosbags-convert --src OLD --dst NEW --dst-storage mcap'
 )
 

@@ -71,7 +71,7 @@ def _print_components(node: Any, container: str) -> None:
     try:
         components = get_components(node, container, ANSWER_TIMEOUT_S)
     except RuntimeError as error:
-        print(f"The components in '{container}' are unknown: {error}", file=sys.stderr)
+        print(f"Could not list the components in '{container}': {error}", file=sys.stderr)
         return
     print(container)
     for component in components:

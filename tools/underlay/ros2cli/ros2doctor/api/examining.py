@@ -165,8 +165,8 @@ def _result(check: Any) -> Result:
     try:
         result: Result = check.check()
     except Exception as error:
-        what = f'the check itself has failed: {_text(error)}'
-        return Result([Finding(Severity.ERROR, what, 'what it looks at has not been examined')])
+        what = f'the check itself failed: {_text(error)}'
+        return Result([Finding(Severity.ERROR, what, 'its subject was not checked')])
     return result
 
 

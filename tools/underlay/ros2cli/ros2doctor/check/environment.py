@@ -142,7 +142,7 @@ def environment_findings(facts: Environment) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             'no ROS 2 environment is sourced in this terminal (AMENT_PREFIX_PATH is empty)',
-            '`ros2` finds no package, no launch file and no message type',
+            '`ros2` finds no packages, launch files or message types',
             facts.set_up,
         )
         return
@@ -201,10 +201,10 @@ def _two_installations(facts: Environment) -> Iterator[Finding]:
         if foreign:
             yield Finding(
                 Severity.ERROR,
-                f"{variable} also names another ROS, '{foreign[0]}'",
-                'Python packages and libraries of the two get mixed, which ends in import errors '
+                f"{variable} also contains another ROS, '{foreign[0]}'",
+                'Python packages and libraries of the two get mixed, which leads to import errors '
                 'and crashes',
-                f'take the line that sources {SYSTEM_FOLDER}... out of ~/.bashrc, then '
+                f'remove the line that sources {SYSTEM_FOLDER}... from ~/.bashrc, then '
                 f'{NEW_TERMINAL}{facts.set_up}',
             )
 
@@ -238,7 +238,7 @@ def _client_library(facts: Environment) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             f"rclpy would be imported from '{facts.rclpy}', outside of '{facts.prefix}'",
-            'it belongs to another installation, whose libraries do not fit',
+            'it belongs to another installation, whose libraries are not compatible',
             NEW_TERMINAL + facts.set_up,
         )
 
@@ -249,7 +249,7 @@ def _build_tool(facts: Environment) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"`colcon` is '{colcon.path}', which runs with '{colcon.interpreter}'",
-            'what it builds gets that interpreter in its first line, which has no rclpy',
+            'the scripts that it installs run with that interpreter, which has no rclpy',
             NEW_TERMINAL + facts.set_up,
         )
 

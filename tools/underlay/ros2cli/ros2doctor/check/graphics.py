@@ -82,7 +82,7 @@ def graphics_findings(facts: Graphics) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             'there is no OpenGL library: neither libGL nor libEGL nor libOSMesa',
-            'simulated cameras render nothing; physics, sensors and control work without',
+            'simulated cameras render nothing; physics, sensors and control work without it',
             _install('EGL'),
         )
     else:
@@ -132,7 +132,7 @@ def _drivers(facts: Graphics) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             'libEGL is installed, but no driver for it',
-            'simulated cameras render nothing; physics, sensors and control work without',
+            'simulated cameras render nothing; physics, sensors and control work without it',
             _install('EGL'),
         )
 

@@ -123,7 +123,7 @@ def library_findings(facts: Libraries, set_up: str) -> Iterator[Finding]:
 
 
 def _without(folder: str) -> str:
-    return f"take '{folder}' out of LD_LIBRARY_PATH (in ~/.bashrc, or: conda deactivate)"
+    return f"remove '{folder}' from LD_LIBRARY_PATH (in ~/.bashrc, or: conda deactivate)"
 
 
 class LibrariesReport(DoctorReport):

@@ -149,7 +149,7 @@ def who_reaches(facts: Network) -> str:
     if extent == OFF:
         return 'nobody'
     if not profile.endswith(OWN_PROFILE):
-        return f'whoever {profile} lets in' if profile else 'every machine in the network'
+        return f'the machines that {profile} allows' if profile else 'every machine in the network'
     return 'this machine only' if extent == LOCALHOST else 'every machine in the network'
 
 
@@ -167,7 +167,7 @@ def _range(facts: Network) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             'ROS_AUTOMATIC_DISCOVERY_RANGE is OFF',
-            'nodes find no others, not even on this machine',
+            'nodes do not find each other, not even on this machine',
             'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
         )
     if facts.variables.get('ROS_LOCALHOST_ONLY', '0') not in ('', '0'):

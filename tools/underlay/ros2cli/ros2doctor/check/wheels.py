@@ -221,7 +221,7 @@ def _other_versions(facts: Wheels) -> Iterator[Finding]:
     if ros:
         yield Finding(
             Severity.ERROR,
-            f'wheels of ROS have versions that do not belong together: {listing(ros)}',
+            f'the versions of the ROS wheels do not match: {listing(ros)}',
             'their libraries were compiled for each other: others crash or do not load',
             facts.install_again,
         )

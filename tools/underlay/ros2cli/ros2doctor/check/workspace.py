@@ -211,7 +211,7 @@ def _package_findings(folder: Path, package: PackageState) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"'{package.name}' is older than its sources: {listing(list(package.changed))}",
-            'what runs is the state before these changes',
+            'what runs does not have these changes yet',
             build_command(folder, package.name),
         )
 

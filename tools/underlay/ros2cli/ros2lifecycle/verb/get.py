@@ -74,4 +74,4 @@ def _print_all(node: Any, names: list[str]) -> None:
         try:
             print(f'{name}: {state_text(get_state(node, name, ANSWER_TIMEOUT_S))}')
         except RuntimeError as error:
-            print(f"The state of '{name}' is unknown: {error}", file=sys.stderr)
+            print(f"Could not get the state of '{name}': {error}", file=sys.stderr)

@@ -113,7 +113,7 @@ def _print_all(node: Any, args: argparse.Namespace) -> None:
         try:
             lines = _lines(node, name, args, ANSWER_TIMEOUT_S)
         except RuntimeError as error:
-            print(f"The parameters of '{name}' are not listed: {error}", file=sys.stderr)
+            print(f"Could not list the parameters of '{name}': {error}", file=sys.stderr)
             continue
         print(f'{name}:')
         for line in lines:

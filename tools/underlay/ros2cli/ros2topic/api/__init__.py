@@ -129,4 +129,4 @@ def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:
     name = type_name(message_type)
     if not types or name in types:
         return ''
-    return f"'{topic}' has the type {', '.join(types)}, so no {name} message passes."
+    return f"'{topic}' has the type {', '.join(types)}, not {name}."

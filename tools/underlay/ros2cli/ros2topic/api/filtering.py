@@ -186,7 +186,7 @@ def _call(node: ast.Call, known: set[str]) -> Part:
     name = node.func.id if isinstance(node.func, ast.Name) else ''
     if name not in FUNCTIONS or node.keywords:
         raise argparse.ArgumentTypeError(
-            f'{ast.unparse(node)!r} is not a call that a filter allows: ' + ', '.join(FUNCTIONS)
+            f'{ast.unparse(node)!r} is not a call that filters support: ' + ', '.join(FUNCTIONS)
         )
     function, arguments = FUNCTIONS[name], [_compile(each, known) for each in node.args]
     return lambda names: function(*(argument(names) for argument in arguments))
@@ -195,7 +195,9 @@ def _call(node: ast.Call, known: set[str]) -> Part:
 def _generator(node: ast.GeneratorExp, known: set[str]) -> Part:
     loop = node.generators[0]
     if len(node.generators) > 1 or not isinstance(loop.target, ast.Name) or loop.is_async:
-        raise argparse.ArgumentTypeError(f'{ast.unparse(node)!r} has more than one simple loop')
+        raise argparse.ArgumentTypeError(
+            f'{ast.unparse(node)!r} may have only one loop, over a single variable'
+        )
     name, items = loop.target.id, _compile(loop.iter, known)
     element = _compile(node.elt, {*known, name})
     conditions = [_compile(each, {*known, name}) for each in loop.ifs]
@@ -212,7 +214,7 @@ def _generator(node: ast.GeneratorExp, known: set[str]) -> Part:
 def _operator(node: ast.AST, kind: ast.AST) -> Callable[..., Any]:
     if type(kind) not in OPERATORS:
         raise argparse.ArgumentTypeError(
-            f'{ast.unparse(node)!r} has an operator that filters lack'
+            f'{ast.unparse(node)!r} uses an operator that filters do not support'
         )
     return OPERATORS[type(kind)]
 

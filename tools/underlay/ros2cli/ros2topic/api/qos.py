@@ -231,7 +231,7 @@ class Incompatibility:
             '.' if self._publishes else ', or omit them to follow the publisher.'
         )
         return (
-            f'WARNING: no message passes from {publisher} to {subscriber} on '
+            f'WARNING: messages from {publisher} do not reach {subscriber} on '
             f"'{self._topic}': {reason}. {cure}"
         )
 
