@@ -8,11 +8,11 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.failures import error_text
 from launch._dry_run_record import ConditionRecord, Record
 from launch._event_processor import EventProcessor
 from launch.action import Action
 from launch.events import IncludeLaunchDescription
+from launch.failures import error_text
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_run import VisitObserver
 from launch.logging import launch_config

@@ -34,7 +34,7 @@ import shlex
 import textwrap
 from typing import Any, Optional
 
-from launch._checks.failures import CallSite
+from launch.failures import CallSite
 
 _WIDTH = 80
 _STEP = '  '

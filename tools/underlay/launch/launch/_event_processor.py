@@ -11,9 +11,9 @@ import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.failures import report_failure
 from launch.event_handler import BaseEventHandler
 from launch.events import IncludeLaunchDescription, Shutdown
+from launch.failures import report_failure
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.logging import get_logger
 from launch.utilities import normalize_to_list_of_entities, visit_into

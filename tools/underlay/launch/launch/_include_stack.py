@@ -7,7 +7,7 @@ import os
 from typing import Optional, TYPE_CHECKING
 
 from launch._checks.before_start import note_file
-from launch._checks.failures import CallSite, OpenFile
+from launch.failures import CallSite, OpenFile
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.substitution import SubstitutionFailure
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.failures import calling_line, CallSite
+from launch.failures import calling_line, CallSite
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from launch._checks.failures import OpenFile
     from launch.event import Event
+    from launch.failures import OpenFile
     from launch.launch_context import LaunchContext
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from launch._checks.failures import error_text
+from launch.failures import error_text
 
 
 class InvalidLaunchFileError(Exception):

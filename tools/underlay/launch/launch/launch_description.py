@@ -9,7 +9,7 @@ from typing import Any, Optional, Protocol, TYPE_CHECKING
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from launch._checks.failures import CallSite
+    from launch.failures import CallSite
     from launch.launch_context import LaunchContext
     from launch.substitution import Substitution
 

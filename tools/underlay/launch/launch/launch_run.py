@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     import asyncio
 
     from launch._checks.before_start import BeforeStart
-    from launch._checks.failures import OpenFile
     from launch._supervision.member import Member
     from launch._supervision.program import Child, Program
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
+    from launch.failures import OpenFile
     from launch.launch_description_entity import LaunchDescriptionEntity
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchContext
-from launch._checks.failures import place_of
+from launch.failures import place_of
 from launch.frontend import Entity, expose, expose_action, Parser
 from launch.frontend._known_names import known_actions, known_substitutions, load
 from launch.frontend.parse_substitution import parse_substitution

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchContext
-from launch._checks.failures import place_of
 from launch.actions import SetLaunchConfiguration
+from launch.failures import place_of
 from launch.substitutions import LaunchConfiguration, TextSubstitution
 from launch_ros.actions import PushRosNamespace
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checks.failures import CallSite
+from launch.failures import CallSite
 from launch.frontend.entity import Entity as BaseEntity
 from launch.frontend.entity import wrong_value
 from launch.frontend.type_utils import value_of_text, value_of_texts

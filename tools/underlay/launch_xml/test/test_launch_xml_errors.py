@@ -8,7 +8,7 @@ import io
 from typing import List  # noqa: UP035
 
 from launch import LaunchContext
-from launch._checks.failures import place_of
+from launch.failures import place_of
 from launch.frontend import Entity, InvalidFrontendLaunchFileError, Parser
 from launch_xml import Parser as XMLParser
 from launch_xml.launch_description_sources import XMLLaunchDescriptionSource

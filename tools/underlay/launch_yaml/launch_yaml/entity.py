@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any, Optional, Union
 
-from launch._checks.failures import CallSite
+from launch.failures import CallSite
 from launch.frontend.entity import Entity as BaseEntity
 from launch.frontend.entity import wrong_value
 from launch.frontend.type_utils import checked_value

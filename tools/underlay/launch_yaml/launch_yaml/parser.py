@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from typing import Any, NoReturn, TYPE_CHECKING
 
-from launch._checks.failures import CallSite, note_line
+from launch.failures import CallSite, note_line
 from launch.frontend.parser import Parser as BaseParser
 from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError
 

@@ -8,7 +8,7 @@ import io
 from typing import Any, List  # noqa: UP035
 
 from launch import LaunchContext
-from launch._checks.failures import place_of
+from launch.failures import place_of
 from launch.frontend import Entity, InvalidFrontendLaunchFileError
 from launch_yaml import Parser
 from launch_yaml.entity import Entity as YAMLEntity

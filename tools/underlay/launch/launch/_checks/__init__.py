@@ -3,6 +3,6 @@
 Say what is wrong before the start.
 
 `arguments` checks what actions are given, `before_start` runs the checks between the first visit
-and the first process, `preflight` looks into what waits for events, `programs` explains which
-program is not there, and `failures` names the line of the launch file.
+and the first process, `preflight` looks into what waits for events, and `programs` explains which
+program is not there.
 """

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.failures import note_place
 from launch._checks.programs import explain_missing_program, is_there, ProgramNotFoundError
+from launch.failures import note_place
 from launch.substitution import Substitution
 
 if TYPE_CHECKING:

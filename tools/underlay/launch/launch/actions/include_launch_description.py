@@ -209,7 +209,7 @@ class IncludeLaunchDescription(Action):
         includes: list[Inclusion],
     ) -> None:
         """Record the line of the innermost include, which must pass the missing argument."""
-        from launch._checks.failures import note_line
+        from launch.failures import note_line
 
         way: list[Inclusion] = [self, *includes]
         lines = [each.call_site for each in reversed(way) if each.call_site]

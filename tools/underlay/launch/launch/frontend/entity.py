@@ -10,7 +10,7 @@ from typing import Any, get_args, get_origin, Optional, TYPE_CHECKING
 from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
-    from launch._checks.failures import CallSite
+    from launch.failures import CallSite
 
 _numbers = count(1)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import os
 from typing import Any, Optional, TextIO, TYPE_CHECKING, Union
 
-from launch._checks.failures import note_line
+from launch.failures import note_line
 from launch.frontend.expose import instantiate_action
 from launch.frontend.parse_substitution import (
     parse_if_substitutions,

@@ -8,7 +8,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 import os
 from types import FunctionType, ModuleType
 
-from launch._checks.failures import CallSite, note_line
+from launch.failures import CallSite, note_line
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 

@@ -184,7 +184,7 @@ def visit_into(
             for child in children:
                 visit_into(_checked(child, entity), context, futures)
     except Exception as error:
-        from launch._checks.failures import note_place
+        from launch.failures import note_place
 
         note_place(error, entity, context.run.include_stack)
         raise

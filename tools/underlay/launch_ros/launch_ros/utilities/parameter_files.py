@@ -106,7 +106,7 @@ def substitute_parameter_file(context: LaunchContext, path: str) -> str:
 
 
 def _substituted(context: LaunchContext, text: str, path: str) -> str:
-    from launch._checks.failures import CallSite, note_line
+    from launch.failures import CallSite, note_line
     from launch.frontend.parse_substitution import InvalidSubstitutionError, parse_with_positions
 
     try:

@@ -107,7 +107,7 @@ def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
 
 def _show(path: str, args: argparse.Namespace) -> int | str | None:
     from launch import InvalidLaunchFileError
-    from launch._checks.failures import place_of
+    from launch.failures import place_of
     from launch.logging import launch_config
     from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
 
