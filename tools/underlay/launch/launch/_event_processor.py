@@ -188,7 +188,7 @@ class EventProcessor:
             return
         waiting = any(handler.describe()[1] for handler in self._run.event_handlers)
         if checks.resolves_programs and waiting:
-            from launch._checks.preflight import check_what_waits
+            from launch.preflight import check_what_waits
 
             check_what_waits(self._context)
         checks.run(self._context, self._logger)

@@ -3,6 +3,5 @@
 Say what is wrong before the start.
 
 `arguments` checks what actions are given, `before_start` runs the checks between the first visit
-and the first process, `preflight` looks into what waits for events, and `programs` explains which
-program is not there.
+and the first process, and `programs` explains which program is not there.
 """

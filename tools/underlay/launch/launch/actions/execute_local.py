@@ -322,7 +322,7 @@ class ExecuteLocal(Action):
             The program does not exist.
 
         """
-        from launch._checks.preflight import require_later_program
+        from launch.preflight import require_later_program
 
         description = self.__process_description
         if not self.shell and description.cmd:

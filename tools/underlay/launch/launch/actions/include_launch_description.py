@@ -125,7 +125,7 @@ class IncludeLaunchDescription(Action):
             The file does not exist.
 
         """
-        from launch._checks.preflight import constant_text
+        from launch.preflight import constant_text
 
         path = constant_text(self.__launch_description_source.location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):

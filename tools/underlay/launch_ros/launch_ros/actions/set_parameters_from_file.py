@@ -70,7 +70,7 @@ class SetParametersFromFile(Action):
             The file does not exist.
 
         """
-        from launch._checks.preflight import constant_text
+        from launch.preflight import constant_text
 
         path = constant_text(self.__filename, context)
         if path is not None:

@@ -75,7 +75,7 @@ class ParameterFilesCheck:
 
 
 def _names_of_waiting_nodes(context: LaunchContext) -> Optional[set[_FullName]]:
-    from launch._checks.preflight import constant_text, waiting_entities
+    from launch.preflight import constant_text, waiting_entities
     from launch_ros.actions.node import Node
 
     found: set[_FullName] = set()

@@ -245,7 +245,7 @@ class UnknownArguments:
 
     def _may_be_used(self, name: str, context: Any) -> bool:
         """Whether an entity that waits for an event looks a name up, or may do so."""
-        from launch._checks.preflight import may_look_up
+        from launch.preflight import may_look_up
 
         return bool(may_look_up(name, context))
 
