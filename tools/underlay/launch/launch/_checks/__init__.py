@@ -2,6 +2,6 @@
 """
 Say what is wrong before the start.
 
-`arguments` checks what actions are given, `before_start` runs the checks between the first visit
-and the first process, and `programs` explains which program is not there.
+`before_start` runs the checks between the first visit and the first process, and `programs`
+explains which program is not there.
 """

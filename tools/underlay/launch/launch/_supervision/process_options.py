@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.arguments import text_like
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.arguments import text_like
 from launch.utilities.type_utils import perform_typed_substitution
 
 if TYPE_CHECKING:

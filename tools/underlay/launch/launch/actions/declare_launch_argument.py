@@ -7,11 +7,11 @@ from collections.abc import Container, Iterable
 import os
 from typing import Any, NoReturn, Optional, TYPE_CHECKING
 
-from launch._checks.arguments import list_like, of_type, optional_text_like
 from launch.action import Action
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.utilities import perform_substitutions
+from launch.utilities.arguments import list_like, of_type, optional_text_like
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity

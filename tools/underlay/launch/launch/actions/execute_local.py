@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checks.arguments import list_like, of_type, typed
 from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitutions.launch_configuration import LaunchConfiguration
+from launch.utilities.arguments import list_like, of_type, typed
 
 if TYPE_CHECKING:
     import asyncio

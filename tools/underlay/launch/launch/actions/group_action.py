@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checks.arguments import list_like, mapping_like, typed
 from launch.action import Action
 from launch.actions import (
     PopEnvironment,
@@ -19,6 +18,7 @@ from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.arguments import list_like, mapping_like, typed
 from launch.utilities.type_utils import is_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checks.arguments import list_like, text_like
 from launch._include_stack import enter_launch_file, missing_launch_file, open_file
 from launch.action import Action
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
@@ -16,6 +15,7 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.arguments import list_like, text_like
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity

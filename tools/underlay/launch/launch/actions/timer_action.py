@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, Protocol, TYPE_CHECKING, Union
 
-from launch._checks.arguments import list_like, typed
 from launch.action import Action
 from launch.event_handler import EventHandler
 from launch.event_handlers.on_shutdown import OnShutdown
 from launch.events import TimerEvent
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.arguments import list_like, typed
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:

@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.arguments import list_like, optional_text_like, text_like
 from launch.actions.execute_process import ExecuteProcess
 from launch.descriptions.executable import SomeVariables
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
+from launch.utilities.arguments import list_like, optional_text_like, text_like
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
     extend_node,
