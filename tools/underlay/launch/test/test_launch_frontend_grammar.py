@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from launch import LaunchContext
 from launch.frontend import InvalidSubstitutionError
-from launch.frontend._attributes import command_words
+from launch.frontend.attributes import command_words
 from launch.frontend.parse_substitution import (
     parse_if_substitutions,
     parse_substitution,

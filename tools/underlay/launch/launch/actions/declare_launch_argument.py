@@ -85,7 +85,7 @@ class DeclareLaunchArgument(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._attributes import children_named
+        from launch.frontend.attributes import children_named
 
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.escape_characters(entity.get_attr('name'))

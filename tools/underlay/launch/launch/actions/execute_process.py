@@ -106,7 +106,7 @@ class ExecuteProcess(ExecuteLocal):
 
 def _parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> dict[str, Any]:
     """Read the attributes of an element that describes a process, except for the ignored ones."""
-    from launch.frontend._attributes import parse_command, parse_pairs, parse_texts
+    from launch.frontend.attributes import parse_command, parse_pairs, parse_texts
 
     kwargs = parse_texts(
         entity, parser, {name: kw for name, kw in _TEXTS.items() if name not in ignored}

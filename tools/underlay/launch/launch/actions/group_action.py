@@ -88,7 +88,7 @@ class GroupAction(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._attributes import parse_pairs
+        from launch.frontend.attributes import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
         for name in ('scoped', 'forwarding'):

@@ -81,7 +81,7 @@ class IncludeLaunchDescription(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._attributes import parse_pairs
+        from launch.frontend.attributes import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
         path = parser.parse_substitution(entity.get_attr('file'))

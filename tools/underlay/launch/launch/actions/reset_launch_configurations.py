@@ -61,7 +61,7 @@ class ResetLaunchConfigurations(Action):
             The class, and the keyword arguments for its constructor.
 
         """
-        from launch.frontend._attributes import parse_pairs
+        from launch.frontend.attributes import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
         kwargs['launch_configurations'] = dict(parse_pairs(entity, parser, 'keep'))

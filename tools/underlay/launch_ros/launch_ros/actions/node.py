@@ -162,7 +162,7 @@ class Node(ExecuteProcess):
             The class and the keyword arguments of its constructor.
 
         """
-        from launch.frontend._attributes import parse_command, parse_texts
+        from launch.frontend.attributes import parse_command, parse_texts
         from launch_ros.utilities.parse_parameters import parse_parameters, parse_remappings
 
         _, kwargs = super().parse(entity, parser, ignore=['cmd', 'name', *(ignore or ())])

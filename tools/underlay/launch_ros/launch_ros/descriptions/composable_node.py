@@ -109,7 +109,7 @@ class ComposableNode:
 
         """
         from launch.action import Action
-        from launch.frontend._attributes import children_named, parse_texts
+        from launch.frontend.attributes import children_named, parse_texts
         from launch_ros.utilities.parse_parameters import (
             parse_nested_parameters,
             parse_parameters,
@@ -179,7 +179,7 @@ def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNod
         Parses substitutions in their attributes.
 
     """
-    from launch.frontend._attributes import children_named
+    from launch.frontend.attributes import children_named
 
     parsed = [ComposableNode.parse(parser, child) for child in children_named(entity, _TAG)]
     return [node_class(**kwargs) for node_class, kwargs in parsed]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch.frontend._attributes import children_named, parse_pairs
+from launch.frontend.attributes import children_named, parse_pairs
 from launch.frontend.type_utils import get_data_type_from_identifier
 from launch.substitution import Substitution
 from launch.substitutions.text_substitution import TextSubstitution
