@@ -77,7 +77,7 @@ class VisitObserver:
         Parameters
         ----------
         **facts
-            The facts by name; `launch._dry_run_record` lists the names.
+            The facts by name; `launch.dry_run_record` lists the names.
 
         """
 
@@ -283,7 +283,7 @@ class LaunchRun:
         Parameters
         ----------
         **facts
-            The facts by name, as `launch._dry_run_record` lists them.
+            The facts by name, as `launch.dry_run_record` lists them.
 
         """
         if self.observer is not None:

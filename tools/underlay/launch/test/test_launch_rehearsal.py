@@ -9,8 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchDescription, LaunchIntrospector, LaunchService
-from launch._dry_run import rehearse
-from launch._dry_run_record import Record, tree_lines
 from launch.actions import (
     DeclareLaunchArgument,
     EmitEvent,
@@ -25,6 +23,8 @@ from launch.actions import (
     TimerAction,
 )
 from launch.conditions import IfCondition
+from launch.dry_run import rehearse
+from launch.dry_run_record import Record, tree_lines
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
 from launch.events import Shutdown
 from launch.substitutions import Command, LaunchConfiguration

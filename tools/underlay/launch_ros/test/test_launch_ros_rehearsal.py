@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any, Optional
 
 from launch import LaunchDescription, LaunchService
-from launch._dry_run import rehearse
-from launch._dry_run_record import tree_lines
 from launch.actions import LogInfo
+from launch.dry_run import rehearse
+from launch.dry_run_record import tree_lines
 from launch_ros.actions import (
     LifecycleNode,
     LoadComposableNodes,

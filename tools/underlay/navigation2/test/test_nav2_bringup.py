@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchDescription, LaunchService
-from launch._dry_run import rehearse
 from launch.actions import IncludeLaunchDescription
+from launch.dry_run import rehearse
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 import pytest
 

@@ -178,7 +178,7 @@ def rehearse_launch_file(
     service = make_service(
         launch_file_path, launch_file_arguments, LaunchOptions(**options, noninteractive=True)
     )
-    from launch._dry_run import rehearse
+    from launch.dry_run import rehearse
 
     with _output_to_stderr() if as_json else nullcontext():
         root, status = rehearse(service)
@@ -207,7 +207,7 @@ def _output_to_stderr() -> Iterator[None]:
 
 
 def _print_tree(root: Any) -> None:
-    from launch._dry_run_record import tree_lines
+    from launch.dry_run_record import tree_lines
 
     print(DRY_RUN_HEADER)
     print('\n'.join(tree_lines(root)))

@@ -8,9 +8,9 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._dry_run_record import ConditionRecord, Record
 from launch._event_processor import EventProcessor
 from launch.action import Action
+from launch.dry_run_record import ConditionRecord, Record
 from launch.events import IncludeLaunchDescription
 from launch.failures import error_text
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -105,7 +105,7 @@ class Recorder(VisitObserver):
         Parameters
         ----------
         **facts
-            The facts by their keys in `launch._dry_run_record`.
+            The facts by their keys in `launch.dry_run_record`.
 
         """
         self._open[-1].facts.update(facts)
