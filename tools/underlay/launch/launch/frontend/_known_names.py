@@ -13,7 +13,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, TYPE_CHECKING
 
-from launch._entry_points import entry_points_of
+from ros_environment.entry_points import entry_points_of
 
 if TYPE_CHECKING:
     from launch.frontend.parser import Parser

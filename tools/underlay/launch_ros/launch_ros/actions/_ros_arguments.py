@@ -9,7 +9,6 @@ import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch._checks.before_start import note_file
-from launch._entry_points import entry_points_of
 from launch.launch_context import LaunchContext
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.actions._node_names import NodeNames
@@ -22,6 +21,7 @@ from launch_ros.utilities.parameters_and_remappings import (
     NormalizedParameters,
     RemapRule,
 )
+from ros_environment.entry_points import entry_points_of
 
 if TYPE_CHECKING:
     from launch_ros.actions.node import Node

@@ -7,8 +7,8 @@ from pathlib import Path
 import subprocess
 import sys
 
-from launch._entry_points import entry_points_of
 import pytest
+from ros_environment.entry_points import entry_points_of
 
 
 def test_group_that_is_offered(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -25,7 +25,7 @@ def test_group_that_is_offered(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_group_that_nobody_offers() -> None:
     """Where there is nothing to find, nothing is loaded to find it with."""
     code = (
-        'import sys; from launch._entry_points import entry_points_of;'
+        'import sys; from ros_environment.entry_points import entry_points_of;'
         'sys.path.append("/no/such/folder");'
         'assert entry_points_of("no.such.group") == [];'
         'sys.exit("importlib.metadata" in sys.modules)'
