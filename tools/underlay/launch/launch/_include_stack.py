@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 from typing import Optional, TYPE_CHECKING
 
-from launch._checks.before_start import note_file
 from launch.failures import CallSite, OpenFile
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.substitution import SubstitutionFailure
@@ -119,7 +118,7 @@ def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile
     leave = LeaveLaunchFile(before, context.run.include_stack)
     context.extend_locals({_PATH: file.path, _FOLDER: os.path.dirname(file.path)})
     context.run.include_stack = (*context.run.include_stack, file)
-    note_file(context, file.path)
+    context.run.note_file(file.path)
     return leave
 
 

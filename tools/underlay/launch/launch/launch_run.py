@@ -289,6 +289,19 @@ class LaunchRun:
         if self.observer is not None:
             self.observer.note(**facts)
 
+    def note_file(self, path: str) -> None:
+        """
+        Record a file that the launch reads, for the check of stale files.
+
+        Parameters
+        ----------
+        path
+            The path of the file, as it is opened; it is not recorded once the checks have run.
+
+        """
+        if self.before_start is not None:
+            self.before_start.files[path] = None
+
     def note_failure(self, return_code: int) -> None:
         """
         Record the failure of a process, unless another one has failed before.

@@ -91,22 +91,6 @@ class BeforeStart:
         return [text for text in (hint(context) for hint in self.hints) if text]
 
 
-def note_file(context: LaunchContext, path: str) -> None:
-    """
-    Record a file that the launch reads, for the check of stale files.
-
-    Parameters
-    ----------
-    context
-        The context that records it; nothing is recorded once the checks have run.
-    path
-        The path of the file, as it is opened.
-
-    """
-    if context.run.before_start is not None:
-        context.run.before_start.files[path] = None
-
-
 def warn_of_stale_files(paths: Iterable[str], logger: logging.Logger) -> None:
     """
     Warn about installed files whose source is newer and differs.
@@ -150,4 +134,4 @@ def note_files_of_command(context: LaunchContext, command: str) -> None:
 
     for word in shlex.split(command):
         if _SHARE in word and os.path.isfile(word):
-            note_file(context, word)
+            context.run.note_file(word)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch._checks.before_start import note_file
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -55,7 +54,7 @@ class FileContent(Substitution):
 
         """
         path = perform_substitutions(context, self.__path)
-        note_file(context, path)
+        context.run.note_file(path)
         try:
             with open(path, encoding='utf-8') as file:
                 return file.read()

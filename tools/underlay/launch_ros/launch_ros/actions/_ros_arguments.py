@@ -8,7 +8,6 @@ from functools import cache
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch._checks.before_start import note_file
 from launch.launch_context import LaunchContext
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.actions._node_names import NodeNames
@@ -157,7 +156,7 @@ def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
     if context.run.before_start is not None:
         from launch_ros.utilities.parameter_file_check import ParameterFilesCheck
 
-        note_file(context, path)
+        context.run.note_file(path)
         context.run.before_start.check_of_type(ParameterFilesCheck).add(path, names)
 
 
