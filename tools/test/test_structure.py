@@ -9,29 +9,12 @@ import figures  # tools/reference is on the path here
 import pytest
 
 PACKAGES = figures.packages()
-# Packages of one product, which may share what is private to it.
-LAUNCH = {
-    'launch',
-    'launch_pytest',
-    'launch_ros',
-    'launch_testing',
-    'launch_testing_ros',
-    'launch_xml',
-    'launch_yaml',
-    'ros2launch',
-}
 
 
 def private_imports(folder: Path) -> list[str]:
-    """Return what a package imports of the private parts of others, outside of launch."""
+    """Return what a package imports of the private parts of others."""
     own = {path.name for path in folder.iterdir()}
-    found = figures.private_imports(figures.modules(folder), own)
-    return [each for each in found if not is_within_launch(each)]
-
-
-def is_within_launch(private_import: str) -> bool:
-    """Return whether `module: what it imports` stays within launch."""
-    return {name.partition('.')[0] for name in private_import.split(': ')} <= LAUNCH
+    return figures.private_imports(figures.modules(folder), own)
 
 
 @pytest.mark.parametrize('package', PACKAGES)
@@ -48,12 +31,11 @@ def test_what_is_private_stays_in_its_package(package: str) -> None:
         ('import tf2_py._frame_store', ['launch: tf2_py._frame_store']),
         ('def late(): import tf2_py._frame_store', ['launch: tf2_py._frame_store']),
         ('from tf2_py import __doc__, BufferCore', []),
-        ('from launch_ros.actions._ros_arguments import RosArguments', []),
-        ('from launch._dry_run import rehearse', []),
+        ('from tf2_ros.inner._part import Part', ['launch: tf2_ros.inner._part.Part']),
         ('from concurrent.futures._base import Future', []),
     ],
 )
 def test_private_imports_are_seen(tmp_path: Path, line: str, found: list[str]) -> None:
-    """Each way of importing counts, but not the standard library or within launch."""
+    """Each way of importing counts, but not the standard library."""
     (tmp_path / 'launch.py').write_text(f'{line}\n')
     assert private_imports(tmp_path) == found
