@@ -9,25 +9,27 @@ from launch.action import Action
 from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
-    from launch.actions.append_environment_variable import AppendEnvironmentVariable
     from launch.actions.declare_launch_argument import DeclareLaunchArgument
     from launch.actions.emit_event import EmitEvent
+    from launch.actions.environment_variables import (
+        AppendEnvironmentVariable,
+        SetEnvironmentVariable,
+        UnsetEnvironmentVariable,
+    )
     from launch.actions.execute_local import ExecuteLocal
     from launch.actions.execute_process import ExecuteProcess
     from launch.actions.group_action import GroupAction
     from launch.actions.include_launch_description import IncludeLaunchDescription
+    from launch.actions.launch_configurations import (
+        ResetLaunchConfigurations,
+        SetLaunchConfiguration,
+        UnsetLaunchConfiguration,
+    )
     from launch.actions.log_info import LogInfo
-    from launch.actions.opaque_coroutine import OpaqueCoroutine
-    from launch.actions.opaque_function import OpaqueFunction
-    from launch.actions.register_event_handler import RegisterEventHandler
-    from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
-    from launch.actions.set_environment_variable import SetEnvironmentVariable
-    from launch.actions.set_launch_configuration import SetLaunchConfiguration
+    from launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
+    from launch.actions.register_event_handler import RegisterEventHandler, UnregisterEventHandler
     from launch.actions.shutdown_action import Shutdown
     from launch.actions.timer_action import TimerAction
-    from launch.actions.unregister_event_handler import UnregisterEventHandler
-    from launch.actions.unset_environment_variable import UnsetEnvironmentVariable
-    from launch.actions.unset_launch_configuration import UnsetLaunchConfiguration
     from launch.launch_context import LaunchContext
 
 __all__ = [
@@ -151,15 +153,31 @@ class ResetEnvironment(Action):
 # ROS 2 Jazzy has a module for each of them; launch files import from those, too.
 also_found_at(
     __name__,
+    'append_environment_variable',
+    'opaque_coroutine',
     'pop_environment',
     'pop_launch_configurations',
     'push_environment',
     'push_launch_configurations',
     'reset_environment',
+    'reset_launch_configurations',
+    'set_environment_variable',
+    'set_launch_configuration',
+    'unregister_event_handler',
+    'unset_environment_variable',
+    'unset_launch_configuration',
 )
 
 _ELSEWHERE = {
+    'AppendEnvironmentVariable': 'environment_variables',
+    'OpaqueCoroutine': 'opaque_function',
+    'ResetLaunchConfigurations': 'launch_configurations',
+    'SetEnvironmentVariable': 'environment_variables',
+    'SetLaunchConfiguration': 'launch_configurations',
     'Shutdown': 'shutdown_action',
+    'UnregisterEventHandler': 'register_event_handler',
+    'UnsetEnvironmentVariable': 'environment_variables',
+    'UnsetLaunchConfiguration': 'launch_configurations',
 }
 
 __getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -14,8 +14,7 @@ from launch.actions import (
     PushLaunchConfigurations,
     ResetEnvironment,
 )
-from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
-from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.actions.launch_configurations import ResetLaunchConfigurations, SetLaunchConfiguration
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities.arguments import list_like, mapping_like, typed

@@ -9,7 +9,7 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch._include_stack import enter_launch_file, missing_launch_file, open_file
 from launch.action import Action
-from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.actions.launch_configurations import SetLaunchConfiguration
 from launch.launch_description import DeclaredArgument, Inclusion, LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_description_source import LaunchDescriptionSource

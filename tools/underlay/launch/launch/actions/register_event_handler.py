@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that registers an event handler."""
+"""The actions that register and unregister an event handler."""
 
 from __future__ import annotations
 
@@ -61,3 +61,43 @@ class RegisterEventHandler(Action):
         """Return the entities of the handler, which wait for an event."""
         text, entities = self.__event_handler.describe()
         return [(text, entities)] if entities else []
+
+
+class UnregisterEventHandler(Action):
+    """
+    Action that removes an event handler.
+
+    Parameters
+    ----------
+    event_handler
+        The handler, which must be registered when the action is executed.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
+
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__event_handler = event_handler
+
+    @property
+    def event_handler(self) -> BaseEventHandler:
+        """Return the handler."""
+        return self.__event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Unregister the handler.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        ValueError
+            The handler is not registered.
+
+        """
+        context.unregister_event_handler(self.__event_handler)

@@ -19,19 +19,19 @@ if TYPE_CHECKING:
     from launch.frontend.parser import Parser
 
 ACTIONS = {
-    'append_env': 'launch.actions.append_environment_variable:AppendEnvironmentVariable',
+    'append_env': 'launch.actions.environment_variables:AppendEnvironmentVariable',
     'arg': 'launch.actions.declare_launch_argument:DeclareLaunchArgument',
     'executable': 'launch.actions.execute_process:ExecuteProcess',
     'group': 'launch.actions.group_action:GroupAction',
     'include': 'launch.actions.include_launch_description:IncludeLaunchDescription',
-    'let': 'launch.actions.set_launch_configuration:SetLaunchConfiguration',
+    'let': 'launch.actions.launch_configurations:SetLaunchConfiguration',
     'log': 'launch.actions.log_info:LogInfo',
-    'reset': 'launch.actions.reset_launch_configurations:ResetLaunchConfigurations',
+    'reset': 'launch.actions.launch_configurations:ResetLaunchConfigurations',
     'reset_env': 'launch.actions:ResetEnvironment',
-    'set_env': 'launch.actions.set_environment_variable:SetEnvironmentVariable',
+    'set_env': 'launch.actions.environment_variables:SetEnvironmentVariable',
     'shutdown': 'launch.actions.shutdown_action:Shutdown',
     'timer': 'launch.actions.timer_action:TimerAction',
-    'unset_env': 'launch.actions.unset_environment_variable:UnsetEnvironmentVariable',
+    'unset_env': 'launch.actions.environment_variables:UnsetEnvironmentVariable',
 }
 
 SUBSTITUTIONS = {
