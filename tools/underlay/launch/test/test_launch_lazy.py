@@ -39,7 +39,9 @@ def test_every_public_name_can_be_imported(package: str) -> None:
     [
         'launch.actions.include_launch_description.IncludeLaunchDescription',
         'launch.substitutions.path_join_substitution.PathJoinSubstitution',
+        'launch.event_handlers.on_process_exit.OnProcessExit',
         'launch.event_handlers.on_process_io.OnProcessIO',
+        'launch.event_handlers.on_process_start.OnProcessStart',
         'launch.launch_context.LaunchContext',
         'launch.some_substitutions_type.SomeSubstitutionsType',
         'launch.utilities.type_utils.perform_typed_substitution',

@@ -340,7 +340,7 @@ class ExecuteLocal(Action):
         self.__supervisor = Supervisor(self, options, context, loop)
         context.register_event_handler(ProcessControl(self, self.__supervisor))
         if self.__on_exit is not None:
-            from launch.event_handlers.on_process_exit import OnProcessExit
+            from launch.event_handlers.process_event_handlers import OnProcessExit
 
             context.register_event_handler(
                 OnProcessExit(target_action=self, on_exit=self.__on_exit)

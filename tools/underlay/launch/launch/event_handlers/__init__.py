@@ -12,10 +12,12 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.event_handlers.on_action_event_base import OnActionEventBase
     from launch.event_handlers.on_execution_complete import OnExecutionComplete
-    from launch.event_handlers.on_process_exit import OnProcessExit
-    from launch.event_handlers.on_process_io import OnProcessIO
-    from launch.event_handlers.on_process_start import OnProcessStart
     from launch.event_handlers.on_shutdown import OnShutdown
+    from launch.event_handlers.process_event_handlers import (
+        OnProcessExit,
+        OnProcessIO,
+        OnProcessStart,
+    )
 
 __all__ = [
     'OnActionEventBase',
@@ -46,10 +48,13 @@ def event_named(name: str) -> Callable[[Event], bool]:
     return lambda event: event.name == name
 
 
-also_found_at(__name__, 'event_named')
+# ROS 2 Jazzy has a module for each of them; launch files import from those, too.
+also_found_at(__name__, 'event_named', 'on_process_exit', 'on_process_io', 'on_process_start')
 
 _ELSEWHERE = {
-    'OnProcessIO': 'on_process_io',
+    'OnProcessExit': 'process_event_handlers',
+    'OnProcessIO': 'process_event_handlers',
+    'OnProcessStart': 'process_event_handlers',
 }
 
 __getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -132,7 +132,7 @@ class LoadComposableNodes(Action):
         self, context: LaunchContext, requests: list[LoadRequest], name: str
     ) -> None:
         """Reload the same nodes whenever this launch respawns the container."""
-        from launch.event_handlers.on_process_start import OnProcessStart
+        from launch.event_handlers.process_event_handlers import OnProcessStart
         from launch_ros._service_calls import STARTED_ANEW
         from launch_ros.actions._node_names import UNKNOWN_NAMESPACE
         from launch_ros.actions.node import Node

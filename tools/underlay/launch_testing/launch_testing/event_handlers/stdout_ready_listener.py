@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch.event_handlers.on_process_io import OnProcessIO
+from launch.event_handlers.process_event_handlers import OnProcessIO
 from launch.events.process import ProcessIO
 from launch.some_entities_type import SomeEntitiesType
 
