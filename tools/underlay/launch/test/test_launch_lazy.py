@@ -80,6 +80,12 @@ def test_every_public_name_can_be_imported(package: str) -> None:
         'launch.events.process.signal_process.SignalProcess',
         'launch.events.shutdown.Shutdown',
         'launch.events.timer_event.TimerEvent',
+        'launch.launch_description_sources.any_launch_file_utilities'
+        '.get_launch_description_from_any_launch_file',
+        'launch.launch_description_sources.frontend_launch_file_utilities'
+        '.get_launch_description_from_frontend_launch_file',
+        'launch.launch_description_sources.python_launch_file_utilities'
+        '.get_launch_description_from_python_launch_file',
         'launch.substitutions.substitution_failure.SubstitutionFailure',
         'launch.utilities.class_tools_impl.is_a',
         'launch.utilities.ensure_argument_type_impl.ensure_argument_type',

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_environment.lazy import lazy_exports
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.launch_description_sources.any_launch_description_source import (
@@ -14,17 +14,13 @@ if TYPE_CHECKING:
     )
     from launch.launch_description_sources.frontend_launch_description_source import (
         FrontendLaunchDescriptionSource,
-    )
-    from launch.launch_description_sources.frontend_launch_file_utilities import (
         get_launch_description_from_frontend_launch_file,
     )
     from launch.launch_description_sources.python_launch_description_source import (
-        PythonLaunchDescriptionSource,
-    )
-    from launch.launch_description_sources.python_launch_file_utilities import (
         get_launch_description_from_python_launch_file,
         InvalidPythonLaunchFileError,
         load_python_launch_file_as_module,
+        PythonLaunchDescriptionSource,
     )
 
 __all__ = [
@@ -38,12 +34,20 @@ __all__ = [
     'load_python_launch_file_as_module',
 ]
 
+# ROS 2 Jazzy has a module for each of them; launch files import from those, too.
+also_found_at(
+    __name__,
+    'any_launch_file_utilities',
+    'frontend_launch_file_utilities',
+    'python_launch_file_utilities',
+)
+
 _ELSEWHERE = {
-    'InvalidPythonLaunchFileError': 'python_launch_file_utilities',
+    'InvalidPythonLaunchFileError': 'python_launch_description_source',
     'get_launch_description_from_any_launch_file': 'any_launch_description_source',
-    'get_launch_description_from_frontend_launch_file': 'frontend_launch_file_utilities',
-    'get_launch_description_from_python_launch_file': 'python_launch_file_utilities',
-    'load_python_launch_file_as_module': 'python_launch_file_utilities',
+    'get_launch_description_from_frontend_launch_file': 'frontend_launch_description_source',
+    'get_launch_description_from_python_launch_file': 'python_launch_description_source',
+    'load_python_launch_file_as_module': 'python_launch_description_source',
 }
 
 __getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -8,7 +8,7 @@ import os
 from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError, InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.launch_description_sources.python_launch_file_utilities import (
+from launch.launch_description_sources.python_launch_description_source import (
     get_launch_description_from_python_launch_file,
 )
 from launch.some_substitutions_type import SomeSubstitutionsType

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The source of a launch description in a format other than Python."""
+"""Launch files in formats other than Python, and the source that loads one."""
 
 from __future__ import annotations
+
+import os
 
 from launch.frontend.parser import Parser
 from launch.launch_description import LaunchDescription
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.launch_description_sources.frontend_launch_file_utilities import (
-    get_launch_description_from_frontend_launch_file,
-)
 from launch.some_substitutions_type import SomeSubstitutionsType
 
 
@@ -41,3 +40,35 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         return get_launch_description_from_frontend_launch_file(location, parser=self.__parser)
+
+
+def get_launch_description_from_frontend_launch_file(
+    frontend_launch_file_path: str | os.PathLike[str],
+    *,
+    parser: type[Parser] = Parser,
+) -> LaunchDescription:
+    """
+    Load the launch description of a file in XML, YAML or another format except Python.
+
+    Parameters
+    ----------
+    frontend_launch_file_path
+        The path of the file.
+    parser
+        The parser of the format; by default any that can read the file.
+
+    Raises
+    ------
+    FileNotFoundError
+        The file does not exist.
+    InvalidFrontendLaunchFileError
+        The parser cannot read it.
+
+    """
+    path = os.fspath(frontend_launch_file_path)
+    if not os.path.isfile(path):
+        from ros_environment.missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('launch file', path))
+    root, reader = parser.load(path)
+    return reader.parse_description(root)
