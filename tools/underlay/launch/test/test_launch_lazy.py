@@ -86,6 +86,9 @@ def test_every_public_name_can_be_imported(package: str) -> None:
         '.get_launch_description_from_frontend_launch_file',
         'launch.launch_description_sources.python_launch_file_utilities'
         '.get_launch_description_from_python_launch_file',
+        'launch.substitutions.not_equals_substitution.NotEqualsSubstitution',
+        'launch.substitutions.path_substitution.PathSubstitution',
+        'launch.substitutions.this_launch_file_dir.ThisLaunchFileDir',
         'launch.substitutions.substitution_failure.SubstitutionFailure',
         'launch.utilities.class_tools_impl.is_a',
         'launch.utilities.ensure_argument_type_impl.ensure_argument_type',

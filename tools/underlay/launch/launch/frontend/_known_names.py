@@ -40,7 +40,7 @@ SUBSTITUTIONS = {
     'anon': 'launch.substitutions.anon_name:AnonName',
     'any': 'launch.substitutions.boolean_substitution:AnySubstitution',
     'command': 'launch.substitutions.command:Command',
-    'dirname': 'launch.substitutions.this_launch_file_dir:ThisLaunchFileDir',
+    'dirname': 'launch.substitutions.this_launch_file:ThisLaunchFileDir',
     'env': 'launch.substitutions.environment_variable:EnvironmentVariable',
     'equals': 'launch.substitutions.equals_substitution:EqualsSubstitution',
     'eval': 'launch.substitutions.python_expression:PythonExpression',
@@ -51,7 +51,7 @@ SUBSTITUTIONS = {
     'launch_log_dir': 'launch.substitutions.launch_log_dir:LaunchLogDir',
     'log_dir': 'launch.substitutions.launch_log_dir:LaunchLogDir',
     'not': 'launch.substitutions.boolean_substitution:NotSubstitution',
-    'not-equals': 'launch.substitutions.not_equals_substitution:NotEqualsSubstitution',
+    'not-equals': 'launch.substitutions.equals_substitution:NotEqualsSubstitution',
     'or': 'launch.substitutions.boolean_substitution:OrSubstitution',
     'var': 'launch.substitutions.launch_configuration:LaunchConfiguration',
 }

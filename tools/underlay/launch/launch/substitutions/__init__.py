@@ -19,20 +19,17 @@ if TYPE_CHECKING:
     )
     from launch.substitutions.command import Command
     from launch.substitutions.environment_variable import EnvironmentVariable
-    from launch.substitutions.equals_substitution import EqualsSubstitution
+    from launch.substitutions.equals_substitution import EqualsSubstitution, NotEqualsSubstitution
     from launch.substitutions.file_content import FileContent
     from launch.substitutions.find_executable import FindExecutable
     from launch.substitutions.if_else_substitution import IfElseSubstitution
     from launch.substitutions.launch_configuration import LaunchConfiguration
     from launch.substitutions.launch_log_dir import LaunchLogDir
     from launch.substitutions.local_substitution import LocalSubstitution
-    from launch.substitutions.not_equals_substitution import NotEqualsSubstitution
-    from launch.substitutions.path_join_substitution import PathJoinSubstitution
-    from launch.substitutions.path_substitution import PathSubstitution
+    from launch.substitutions.path_join_substitution import PathJoinSubstitution, PathSubstitution
     from launch.substitutions.python_expression import PythonExpression
     from launch.substitutions.text_substitution import TextSubstitution
-    from launch.substitutions.this_launch_file import ThisLaunchFile
-    from launch.substitutions.this_launch_file_dir import ThisLaunchFileDir
+    from launch.substitutions.this_launch_file import ThisLaunchFile, ThisLaunchFileDir
 
 __all__ = [
     'AllSubstitution',
@@ -60,14 +57,24 @@ __all__ = [
     'ThisLaunchFileDir',
 ]
 
-also_found_at(__name__, 'substitution_failure')
+# ROS 2 Jazzy has a module for each of them; launch files import from those, too.
+also_found_at(
+    __name__,
+    'not_equals_substitution',
+    'path_substitution',
+    'substitution_failure',
+    'this_launch_file_dir',
+)
 
 _ELSEWHERE = {
     'AllSubstitution': 'boolean_substitution',
     'AndSubstitution': 'boolean_substitution',
     'AnySubstitution': 'boolean_substitution',
+    'NotEqualsSubstitution': 'equals_substitution',
     'NotSubstitution': 'boolean_substitution',
     'OrSubstitution': 'boolean_substitution',
+    'PathSubstitution': 'path_join_substitution',
+    'ThisLaunchFileDir': 'this_launch_file',
 }
 
 __getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

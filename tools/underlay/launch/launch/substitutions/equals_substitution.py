@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A comparison."""
+"""Comparisons of two values."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+
 
 Comparable = Optional[Union[bool, int, float, SomeSubstitutionsType]]
 
@@ -101,3 +102,19 @@ def _normalize(value: Any) -> list[Substitution]:
     elif isinstance(value, (int, float)):
         value = str(value)
     return normalize_to_list_of_substitutions(value)
+
+
+class NotEqualsSubstitution(EqualsSubstitution):
+    """Stands for `true` if two values differ."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Compare the values; return `true` if they differ, else `false`.
+
+        Parameters
+        ----------
+        context
+            The launch context, in which the values are performed.
+
+        """
+        return 'false' if self._equal(context) else 'true'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of a path, joined, and what can be joined with `/`."""
+"""Paths: a string that is used as one, its parts joined, and what can be joined with `/`."""
 
 from __future__ import annotations
 
@@ -63,3 +63,41 @@ class PathJoinSubstitution(PathOperator):
         """
         parts = [perform_substitutions(context, part) for part in self.__parts]
         return os.path.join(*parts) if parts else ''
+
+
+class PathSubstitution(PathOperator):
+    """
+    Substitution of a path; `/` joins it with more, as it does for pathlib.
+
+    Parameters
+    ----------
+    path
+        The path, as a string or substitutions.
+
+    """
+
+    is_constant = True
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        self.__path = normalize_to_list_of_substitutions(path)
+
+    @property
+    def path(self) -> list[Substitution]:
+        """Return the text as a list of substitutions."""
+        return self.__path
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        return f'Path({" + ".join(sub.describe() for sub in self.__path)})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the path.
+
+        Parameters
+        ----------
+        context
+            The launch context, in which the path is performed.
+
+        """
+        return perform_substitutions(context, self.__path)

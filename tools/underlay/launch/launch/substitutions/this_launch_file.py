@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The path of the launch file that is being read."""
+"""The launch file that is being read, and its folder."""
 
 from __future__ import annotations
 
@@ -35,3 +35,28 @@ class ThisLaunchFile(PathOperator):
 
         """
         return launch_file_location(context, 'current_launch_file_path', 'ThisLaunchFile')
+
+
+class ThisLaunchFileDir(PathOperator):
+    """Stands for the folder of the launch file that is being read."""
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        return 'ThisLaunchFileDir()'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the directory of the launch file that is being read.
+
+        Parameters
+        ----------
+        context
+            The launch context, whose local variables are read.
+
+        Raises
+        ------
+        SubstitutionFailure
+            No launch file is being read.
+
+        """
+        return launch_file_location(context, 'current_launch_file_directory', 'ThisLaunchFileDir')
