@@ -81,7 +81,7 @@ def _text(parameter: inspect.Parameter) -> str:
 def _written_names() -> dict[Any, list[str]]:
     """Return how the classes are written in launch files that are not in Python."""
     found: dict[Any, list[str]] = defaultdict(list)
-    for package in ('launch.frontend._known_names', 'launch_ros._known_names'):
+    for package in ('launch.frontend.expose', 'launch_ros.frontend_names'):
         tables = import_module(package)
         for names, form in ((tables.ACTIONS, '`{}`'), (tables.SUBSTITUTIONS, '`$({})`')):
             for name, target in sorted(names.items()):

@@ -11,7 +11,6 @@ from typing import Any, List  # noqa: UP035
 from launch import Action, LaunchContext, Substitution
 from launch.actions import LogInfo
 from launch.frontend import (
-    _known_names,
     Entity,
     expose,
     expose_action,
@@ -19,7 +18,7 @@ from launch.frontend import (
     InvalidFrontendLaunchFileError,
     Parser,
 )
-from launch.frontend._known_names import known_actions, load
+from launch.frontend.expose import known_actions, load
 from launch.frontend.parse_substitution import parse_substitution
 from launch.frontend.type_utils import check_is_list_entity, get_data_type_from_identifier
 from launch.utilities import perform_substitutions
@@ -57,22 +56,22 @@ def _own_names() -> Iterator[None]:
     """Forget what a test has exposed."""
     actions = dict(expose.action_parse_methods)
     substitutions = dict(expose.substitution_parse_methods)
-    _known_names.load_extensions.cache_clear()
-    _known_names.extension_parsers.cache_clear()
+    expose.load_extensions.cache_clear()
+    expose.extension_parsers.cache_clear()
     yield
     expose.action_parse_methods.clear()
     expose.action_parse_methods.update(actions)
     expose.substitution_parse_methods.clear()
     expose.substitution_parse_methods.update(substitutions)
-    _known_names.load_extensions.cache_clear()
-    _known_names.extension_parsers.cache_clear()
+    expose.load_extensions.cache_clear()
+    expose.extension_parsers.cache_clear()
 
 
 def _offer(monkeypatch: pytest.MonkeyPatch, group: str, value: str) -> None:
     """Let an entry point be there."""
     points = [EntryPoint(name='mine', value=value, group=group)]
     monkeypatch.setattr(
-        'launch.frontend._known_names.entry_points_of',
+        'launch.frontend.expose.entry_points_of',
         lambda wanted: points if wanted == group else [],
     )
 

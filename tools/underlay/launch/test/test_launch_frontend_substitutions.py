@@ -8,7 +8,7 @@ from pathlib import Path
 import shutil
 
 from launch import LaunchContext
-from launch.frontend._known_names import known_substitutions, load
+from launch.frontend.expose import known_substitutions, load
 from launch.frontend.parse_substitution import parse_substitution
 from launch.utilities import perform_substitutions
 import pytest

@@ -12,7 +12,7 @@ from typing import Any
 from launch import LaunchContext
 from launch.failures import place_of
 from launch.frontend import Entity, expose, expose_action, Parser
-from launch.frontend._known_names import known_actions, known_substitutions, load
+from launch.frontend.expose import known_actions, known_substitutions, load
 from launch.frontend.parse_substitution import parse_substitution
 from launch.utilities import perform_substitutions, visit_all_entities_and_collect_futures
 from launch_ros.actions import Node

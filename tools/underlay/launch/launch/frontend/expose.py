@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make actions and substitutions available to launch files that are not in Python."""
+"""
+The actions, substitutions and formats of launch files that are not in Python, and how to add some.
+
+Those of launch itself are loaded when a launch file uses them; other packages use `expose_action`
+and `expose_substitution`, or entry points.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
 from typing import Any, TYPE_CHECKING, TypeVar
 
-from launch.frontend._known_names import (
-    known_actions,
-    known_substitutions,
-    load,
-    load_extensions,
-)
+from ros_environment.entry_points import entry_points_of
 from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
@@ -23,8 +26,57 @@ if TYPE_CHECKING:
 ExposedT = TypeVar('ExposedT')
 ParseMethod = Callable[..., Any]
 
+ACTIONS = {
+    'append_env': 'launch.actions.environment_variables:AppendEnvironmentVariable',
+    'arg': 'launch.actions.declare_launch_argument:DeclareLaunchArgument',
+    'executable': 'launch.actions.execute_process:ExecuteProcess',
+    'group': 'launch.actions.group_action:GroupAction',
+    'include': 'launch.actions.include_launch_description:IncludeLaunchDescription',
+    'let': 'launch.actions.launch_configurations:SetLaunchConfiguration',
+    'log': 'launch.actions.log_info:LogInfo',
+    'reset': 'launch.actions.launch_configurations:ResetLaunchConfigurations',
+    'reset_env': 'launch.actions:ResetEnvironment',
+    'set_env': 'launch.actions.environment_variables:SetEnvironmentVariable',
+    'shutdown': 'launch.actions.shutdown_action:Shutdown',
+    'timer': 'launch.actions.timer_action:TimerAction',
+    'unset_env': 'launch.actions.environment_variables:UnsetEnvironmentVariable',
+}
+
+SUBSTITUTIONS = {
+    'all': 'launch.substitutions.boolean_substitution:AllSubstitution',
+    'and': 'launch.substitutions.boolean_substitution:AndSubstitution',
+    'anon': 'launch.substitutions.anon_name:AnonName',
+    'any': 'launch.substitutions.boolean_substitution:AnySubstitution',
+    'command': 'launch.substitutions.command:Command',
+    'dirname': 'launch.substitutions.this_launch_file:ThisLaunchFileDir',
+    'env': 'launch.substitutions.environment_variable:EnvironmentVariable',
+    'equals': 'launch.substitutions.equals_substitution:EqualsSubstitution',
+    'eval': 'launch.substitutions.python_expression:PythonExpression',
+    'file-content': 'launch.substitutions.file_content:FileContent',
+    'filename': 'launch.substitutions.this_launch_file:ThisLaunchFile',
+    'find-exec': 'launch.substitutions.find_executable:FindExecutable',
+    'if': 'launch.substitutions.if_else_substitution:IfElseSubstitution',
+    'launch_log_dir': 'launch.substitutions.launch_log_dir:LaunchLogDir',
+    'log_dir': 'launch.substitutions.launch_log_dir:LaunchLogDir',
+    'not': 'launch.substitutions.boolean_substitution:NotSubstitution',
+    'not-equals': 'launch.substitutions.equals_substitution:NotEqualsSubstitution',
+    'or': 'launch.substitutions.boolean_substitution:OrSubstitution',
+    'var': 'launch.substitutions.launch_configuration:LaunchConfiguration',
+}
+
+PARSERS = {
+    'xml': 'launch_xml.parser:Parser',
+    'yaml': 'launch_yaml.parser:Parser',
+}
+
+# Modules of other packages with such tables.
+_MORE = ('launch_ros.frontend_names',)
+
+_TAG_GROUP = 'launch.frontend.launch_extension'
+_PARSER_GROUP = 'launch.frontend.parser'
+
 # Names of ROS 1, and of other places, with what ROS 2 has instead.
-_TAGS = {
+_OLD_TAGS = {
     'rosparam': 'write <param from="FILE"/> in the node',
     'test': 'tests are Python files, see launch_testing',
     'machine': 'all nodes run on this machine',
@@ -32,7 +84,7 @@ _TAGS = {
     'param': 'write <param> in a node, or <set_parameter name="..." value="..."/> for all',
     'remap': 'write <remap> in a node, or <set_remap from="..." to="..."/> for all',
 }
-_SUBSTITUTIONS = {
+_OLD_SUBSTITUTIONS = {
     'optenv': '$(env NAME DEFAULT)',
     'find': '$(find-pkg-share PACKAGE)',
     'arg': '$(var NAME)',
@@ -174,14 +226,84 @@ def _find(
 
 def _unknown_tag(name: str, known: Iterable[str]) -> str:
     """Format the error about a tag that does not exist, with a suggestion."""
-    old = f"'{name}' is none of the tags of ROS 2: {_TAGS[name]}." if name in _TAGS else ''
+    old = f"'{name}' is none of the tags of ROS 2: {_OLD_TAGS[name]}." if name in _OLD_TAGS else ''
     text = f'Unrecognized entity of the type: {name}'
     return '\n'.join(filter(None, [text, old or did_you_mean(name, known)]))
 
 
 def _unknown_substitution(name: str, known: Iterable[str]) -> str:
     """Format the error about a substitution that does not exist, with a suggestion."""
-    new = _SUBSTITUTIONS.get(name)
+    new = _OLD_SUBSTITUTIONS.get(name)
     old = f"ROS 2 writes '{new}'." if new else ''
     text = f'Unknown substitution: {name}'
     return '\n'.join(filter(None, [text, old or did_you_mean(name, known)]))
+
+
+@cache
+def known_actions() -> dict[str, str]:
+    """Return the location of the action of each tag."""
+    return _together('ACTIONS', ACTIONS)
+
+
+@cache
+def known_substitutions() -> dict[str, str]:
+    """Return the location of each substitution."""
+    return _together('SUBSTITUTIONS', SUBSTITUTIONS)
+
+
+def load(place: str) -> type:
+    """
+    Import the class at a location.
+
+    Parameters
+    ----------
+    place
+        The module and the name of the class, with a colon between them.
+
+    """
+    module, _, name = place.partition(':')
+    found: type = getattr(import_module(module), name)
+    return found
+
+
+def _together(table: str, own: dict[str, str]) -> dict[str, str]:
+    places = dict(own)
+    for module in _MORE:
+        if find_spec(module.partition('.')[0]) is not None:
+            places.update(getattr(import_module(module), table))
+    return places
+
+
+@cache
+def load_extensions() -> None:
+    """Import the modules that expose tags and substitutions."""
+    _load_group(_TAG_GROUP, known=())
+
+
+@cache
+def extension_parsers() -> dict[str, type[Parser]]:
+    """Return the parsers of other packages by name."""
+    return _load_group(_PARSER_GROUP, known=PARSERS)
+
+
+def _load_group(group: str, known: Any) -> dict[str, Any]:
+    """Load all entry points of a group; warn about those that cannot be loaded."""
+    loaded = {}
+    for point in entry_points_of(group):
+        if point.name in known:
+            continue
+        try:
+            loaded[point.name] = point.load()
+        except Exception as error:
+            _warn(group, point.name, point.value, error)
+    return loaded
+
+
+def _warn(group: str, name: str, value: str, error: Exception) -> None:
+    import warnings
+
+    warnings.warn(
+        f"the extension '{name}' ({value}) of the group '{group}' cannot be loaded and is left "
+        f'out: {type(error).__name__}: {error}',
+        stacklevel=2,
+    )

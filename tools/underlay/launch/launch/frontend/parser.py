@@ -8,7 +8,7 @@ import os
 from typing import Any, Optional, TextIO, TYPE_CHECKING, Union
 
 from launch.failures import note_line
-from launch.frontend.expose import instantiate_action
+from launch.frontend.expose import extension_parsers, instantiate_action, load, PARSERS
 from launch.frontend.parse_substitution import (
     parse_if_substitutions,
     parse_substitution,
@@ -107,8 +107,6 @@ class Parser:
 
     @classmethod
     def _available(cls) -> Iterable[type[Parser]]:
-        from launch.frontend._known_names import extension_parsers
-
         return [*_known_parsers(), *extension_parsers().values()]
 
     def parse_action(self, entity: Entity) -> Action:
@@ -217,8 +215,6 @@ class Parser:
 def _known_parsers() -> Iterator[type[Parser]]:
     """Yield the parsers of this workspace that are installed."""
     from importlib.util import find_spec
-
-    from launch.frontend._known_names import load, PARSERS
 
     for place in PARSERS.values():
         if find_spec(place.partition('.')[0]) is not None:
