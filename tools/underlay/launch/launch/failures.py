@@ -209,7 +209,8 @@ def note_place(
         place = _place_of_entity(line or created, type(entity).__name__, include_stack)
     else:
         outer = _includes(inner.call_site, created, include_stack)
-        place = inner._replace(includes=tuple(dict.fromkeys((*inner.includes, *outer))))
+        includes = tuple(dict.fromkeys((*inner.includes, *outer)))
+        place = FailurePlace(inner.call_site, inner.action, includes)
     if place is not None:
         _set(error, place)
         error.launch_place_is_complete = True  # type: ignore[attr-defined]

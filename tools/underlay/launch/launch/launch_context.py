@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, MutableMapping
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
@@ -98,7 +98,7 @@ class LaunchContext:
     # The environment.
 
     @property
-    def environment(self) -> os._Environ[str]:
+    def environment(self) -> MutableMapping[str, str]:
         """Return the environment of this process, which children inherit."""
         return os.environ
 

@@ -20,7 +20,7 @@ class DeclaredArgument(Protocol):
     """The declaration of a launch argument, such as the action `DeclareLaunchArgument`."""
 
     call_site: Optional[CallSite]
-    _conditionally_included: bool
+    is_conditional: bool
 
     @property
     def name(self) -> str:
@@ -232,7 +232,7 @@ def _note(
 ) -> None:
     """Record a declaration unless its name has been declared before."""
     if argument.name not in found:
-        argument._conditionally_included = conditional or argument.condition is not None
+        argument.is_conditional = conditional or argument.condition is not None
         found[argument.name] = (argument, includes)
 
 

@@ -104,8 +104,7 @@ def test_discovery() -> None:
         ]
     )
     found = [
-        (argument.name, argument._conditionally_included)
-        for argument in description.get_launch_arguments()
+        (argument.name, argument.is_conditional) for argument in description.get_launch_arguments()
     ]
     assert found == [
         ('a', False),

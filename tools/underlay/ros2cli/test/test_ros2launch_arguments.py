@@ -37,7 +37,7 @@ def argument(name: str, *defaults: str, conditional: bool = False) -> SimpleName
         name=name,
         description=f'the {name}',
         default_value=parts or None,
-        _conditionally_included=conditional,
+        is_conditional=conditional,
     )
 
 

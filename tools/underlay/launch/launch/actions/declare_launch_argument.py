@@ -43,6 +43,12 @@ class DeclareLaunchArgument(Action):
     RuntimeError
         `choices` is empty, or the default is not one of them.
 
+    Attributes
+    ----------
+    is_conditional
+        Whether a condition decides on the declaration, which a description finds out when it
+        lists its arguments.
+
     """
 
     declares_argument = True
@@ -57,7 +63,7 @@ class DeclareLaunchArgument(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self._conditionally_included = False
+        self.is_conditional = False
         of_type('name', name, (str,), 'a text')
         if description is not None:
             of_type('description', description, (str,), 'a text')

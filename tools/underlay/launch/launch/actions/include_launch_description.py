@@ -191,7 +191,7 @@ class IncludeLaunchDescription(Action):
         given = self.given_names(context)
         found = description.get_launch_arguments_with_include_launch_description_actions()
         for argument, includes in found:
-            if argument._conditionally_included or argument.default_value is not None:
+            if argument.is_conditional or argument.default_value is not None:
                 continue
             names = [*given, *(name for each in includes for name in each.given_names())]
             if argument.name not in names:

@@ -393,10 +393,18 @@ def _sync(launch_context: LaunchContext, coroutine: Coroutine[Any, Any, ResultT]
     loop = launch_context.asyncio_loop
     if loop is None:  # the launch has ended, so the coroutine will not wait
         return asyncio.run(coroutine)
-    if loop is asyncio._get_running_loop():
+    if loop is _running_loop():
         coroutine.close()
         raise RuntimeError(
             'functions with _sync cannot be used in asynchronous tests, where they would keep '
             'the launch from going on: await the function without _sync instead'
         )
     return asyncio.run_coroutine_threadsafe(coroutine, loop).result()
+
+
+def _running_loop() -> Optional[asyncio.AbstractEventLoop]:
+    """Return the event loop that runs in this thread, if there is one."""
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None

@@ -118,22 +118,18 @@ def argument_lines(arguments: list[Any]) -> Iterator[str]:
         yield from ('', '  No arguments.')
     for argument in arguments:
         yield from _lines_of(argument)
-    if any(map(_is_conditional, arguments)):
+    if any(argument.is_conditional for argument in arguments):
         yield from ('', FOOTNOTE)
 
 
 def _lines_of(argument: Any) -> Iterator[str]:
-    mark = '*' if _is_conditional(argument) else ''
+    mark = '*' if argument.is_conditional else ''
     yield ''
     yield f"    '{argument.name}':{mark}"
     yield f'        {argument.description}'
     if argument.default_value is not None:
         parts = ' + '.join(part.describe() for part in argument.default_value)
         yield f'        (default: {parts})'
-
-
-def _is_conditional(argument: Any) -> bool:
-    return bool(getattr(argument, '_conditionally_included', False))
 
 
 def rehearse_launch_file(

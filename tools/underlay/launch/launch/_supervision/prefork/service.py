@@ -60,7 +60,7 @@ def _serve(control: socket.socket, preloader: str, scripts: Sequence[str]) -> Be
     while True:
         message, descriptors, _, _ = socket.recv_fds(control, 16, 4)
         if not message:
-            os._exit(0)
+            _exit_at_once(0)
         if _clone(cloning, descriptors):
             control.close()
             return _begin(descriptors, library)
@@ -74,11 +74,11 @@ def _settle(control: socket.socket, library: Any) -> None:
     """
     words = control.recv(32).split()
     if not words:
-        os._exit(0)
+        _exit_at_once(0)
     origin, launch = os.getpid(), int(words[1])
     library.before_fork()
     if os.fork() != 0:
-        os._exit(0)
+        _exit_at_once(0)
     end_s = time.monotonic() + _ADOPTION_S
     while os.getppid() == origin and time.monotonic() < end_s:
         time.sleep(0.0005)
@@ -119,7 +119,7 @@ def _begin(descriptors: list[int], library: Any) -> Become:
         except Exception as error:
             _give_up(connection, f'failed {error!r}')
         if not connection.recv(1):
-            os._exit(0)
+            _exit_at_once(0)
     forget_packages({name.partition('.')[0] for name in (__name__, library.__name__)})
     return lambda: main_module(program['command'][0])
 
@@ -136,4 +136,9 @@ def _give_up(connection: socket.socket, reason: str) -> NoReturn:
         connection.send(reason.encode('utf-8', 'replace')[:1000])
     except OSError:
         pass
-    os._exit(1)
+    _exit_at_once(1)
+
+
+def _exit_at_once(status: int) -> NoReturn:
+    """Exit without the clean-up of the interpreter, parts of which belong to the launch."""
+    os._exit(status)
