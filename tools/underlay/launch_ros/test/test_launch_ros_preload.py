@@ -10,7 +10,7 @@ from pathlib import Path
 import sys
 from typing import Any
 
-from launch_ros._imports import imports_of
+from launch_ros._preload import imports_of
 from launch_ros.actions import Node
 import pytest
 
