@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 import subprocess
 import sys
 from typing import Any, Optional
@@ -169,6 +170,13 @@ def test_importing_needs_no_ros() -> None:
     assert (result.returncode, result.stderr) == (0, '')
 
 
+DEEP_PATHS = (
+    'launch_ros.events.lifecycle.change_state.ChangeState',
+    'launch_ros.events.lifecycle.lifecycle_node_matchers.matches_node_name',
+    'launch_ros.events.lifecycle.state_transition.StateTransition',
+)
+
+
 def test_deep_paths() -> None:
     """Public names are found in their packages and under their own modules."""
     import launch_ros.actions
@@ -183,6 +191,9 @@ def test_deep_paths() -> None:
     from launch_ros.actions.push_ros_namespace import PushRosNamespace as deep
 
     assert deep is launch_ros.actions.PushROSNamespace
+    for path in DEEP_PATHS:
+        module, _, name = path.rpartition('.')
+        assert hasattr(import_module(module), name), path
     assert launch_ros.descriptions.ParameterValue is (
         launch_ros.parameter_descriptions.ParameterValue
     )

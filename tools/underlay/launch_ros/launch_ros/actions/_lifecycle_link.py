@@ -9,8 +9,7 @@ from typing import Any, TYPE_CHECKING
 from launch.event_handler import BaseEventHandler
 from launch.logging import get_logger
 from launch_ros._service_calls import ServiceCaller, ServiceGoneError
-from launch_ros.events.lifecycle.change_state import ChangeState
-from launch_ros.events.lifecycle.state_transition import StateTransition
+from launch_ros.events.lifecycle import ChangeState, StateTransition
 from lifecycle_msgs import srv
 from lifecycle_msgs.msg import TransitionEvent
 

@@ -18,8 +18,7 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
-from launch_ros.events.lifecycle.change_state import ChangeState
-from launch_ros.events.lifecycle.state_transition import StateTransition
+from launch_ros.events.lifecycle import ChangeState, StateTransition
 from launch_ros.events.matchers import matches_node_name
 
 # The goal state of each transition.

@@ -9,7 +9,7 @@ from typing import Any, Optional, TYPE_CHECKING
 from launch.event_handler import EventHandler
 from launch.event_handlers.on_action_event_base import target_in_words
 from launch.some_entities_type import SomeEntitiesType
-from launch_ros.events.lifecycle.state_transition import StateTransition
+from launch_ros.events.lifecycle import StateTransition
 
 if TYPE_CHECKING:
     from launch_ros.actions.lifecycle_node import LifecycleNode
