@@ -5,16 +5,14 @@ from __future__ import annotations
 
 ACTIONS = {
     'lifecycle_node': 'launch_ros.actions.lifecycle_node:LifecycleNode',
-    'load_composable_node': 'launch_ros.actions.load_composable_nodes:LoadComposableNodes',
+    'load_composable_node': 'launch_ros.actions.composable_nodes:LoadComposableNodes',
     'node': 'launch_ros.actions.node:Node',
-    'node_container': 'launch_ros.actions.composable_node_container:ComposableNodeContainer',
+    'node_container': 'launch_ros.actions.composable_nodes:ComposableNodeContainer',
     'push-ros-namespace': 'launch_ros.actions.push_ros_namespace:PushROSNamespace',
     'push_ros_namespace': 'launch_ros.actions.push_ros_namespace:PushROSNamespace',
     'ros_timer': 'launch_ros.actions.ros_timer:ROSTimer',
     'set_parameter': 'launch_ros.actions.set_parameter:SetParameter',
-    'set_parameters_from_file': (
-        'launch_ros.actions.set_parameters_from_file:SetParametersFromFile'
-    ),
+    'set_parameters_from_file': 'launch_ros.actions.set_parameter:SetParametersFromFile',
     'set_remap': 'launch_ros.actions.set_remap:SetRemap',
     'set_ros_log_dir': 'launch_ros.actions.set_ros_log_dir:SetROSLogDir',
     'set_use_sim_time': 'launch_ros.actions.set_use_sim_time:SetUseSimTime',

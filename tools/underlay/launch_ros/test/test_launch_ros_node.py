@@ -171,6 +171,9 @@ def test_importing_needs_no_ros() -> None:
 
 
 DEEP_PATHS = (
+    'launch_ros.actions.composable_node_container.ComposableNodeContainer',
+    'launch_ros.actions.load_composable_nodes.LoadComposableNodes',
+    'launch_ros.actions.set_parameters_from_file.SetParametersFromFile',
     'launch_ros.events.lifecycle.change_state.ChangeState',
     'launch_ros.events.lifecycle.lifecycle_node_matchers.matches_node_name',
     'launch_ros.events.lifecycle.state_transition.StateTransition',

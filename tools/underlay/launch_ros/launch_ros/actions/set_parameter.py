@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch action that sets a global parameter."""
+"""Launch actions that set parameters of all nodes that follow."""
 
 from __future__ import annotations
 
+import os
 from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.parameters_and_remappings import (
     evaluate_parameter_dict,
     normalize_parameter_dict,
@@ -92,3 +94,93 @@ class SetParameter(Action):
         added = evaluate_parameter_dict(context, self.__parameter)
         context.launch_configurations['global_params'] = [*known, *added.items()]
         context.run.note(parameters=added)
+
+
+class SetParametersFromFile(Action):
+    """
+    Gives a parameter file to the nodes that follow, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    filename
+        The path; relative paths are resolved against the current directory.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
+
+    def __init__(self, filename: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__filename = normalize_to_list_of_substitutions(filename)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_parameters_from_file` element, with the attribute `filename`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class and the keyword arguments of its constructor.
+
+        """
+        _, kwargs = super().parse(entity, parser)
+        kwargs['filename'] = parser.parse_substitution(entity.get_attr('filename'))
+        return cls, kwargs
+
+    def check_in_advance(self, context: LaunchContext) -> None:
+        """
+        Raise an error if the file is already known and does not exist.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        FileNotFoundError
+            The file does not exist.
+
+        """
+        from launch.preflight import constant_text
+
+        path = constant_text(self.__filename, context)
+        if path is not None:
+            _require(os.path.abspath(path))
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Add the file to the global parameters of the nodes that follow in this scope.
+
+        Parameters
+        ----------
+        context
+            The launch context; its configuration `global_params` holds files and parameters.
+
+        Raises
+        ------
+        FileNotFoundError
+            The file does not exist; the message suggests similar names.
+
+        """
+        path = os.path.abspath(perform_substitutions(context, self.__filename))
+        _require(path)
+        known = context.launch_configurations.get('global_params', [])
+        context.launch_configurations['global_params'] = [*known, path]
+        context.run.note(path=path)
+
+
+def _require(path: str) -> None:
+    """Raise an error if a parameter file does not exist."""
+    if not os.path.isfile(path):
+        from ros_environment.missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('parameter file', path))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch action that loads composable nodes into a container."""
+"""Launch actions that run a component container, and load composable nodes into one."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
 from launch.utilities import (
     ensure_argument_type,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch_ros.actions.composable_node_container import ComposableNodeContainer
+from launch_ros.actions.node import Node
 from launch_ros.utilities.track_node_names import warn_of_same_names
 
 if TYPE_CHECKING:
@@ -24,6 +25,101 @@ if TYPE_CHECKING:
     from launch.frontend.parser import Parser
     from launch_ros.actions._load_request import ContainerClient, LoadRequest
     from launch_ros.descriptions.composable_node import ComposableNode
+
+
+class ComposableNodeContainer(Node):
+    """
+    Runs a component container and loads composable nodes into it.
+
+    Parameters
+    ----------
+    name, namespace
+        Name and namespace of the container, which determine its service `load_node`.
+    composable_node_descriptions
+        The nodes to load, in order; None for none.
+    **kwargs
+        As for `Node`, such as `package` and `executable` of the container.
+
+    """
+
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        composable_node_descriptions: Optional[Iterable[ComposableNode]] = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self.__composable_node_descriptions = list(composable_node_descriptions or ())
+
+    @classmethod
+    def parse(
+        cls,
+        entity: Entity,
+        parser: Parser,
+        ignore: Optional[Iterable[str]] = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `node_container` element, with children `composable_node`.
+        parser
+            Parses substitutions in its attributes.
+        ignore
+            Names of attributes that a subclass reads itself.
+
+        Returns
+        -------
+        tuple
+            The class and the keyword arguments of its constructor.
+
+        Raises
+        ------
+        AttributeError
+            The container has no name or no namespace.
+
+        """
+        from launch_ros.descriptions.composable_node import parse_composable_nodes
+
+        for name in ('name', 'namespace'):
+            entity.get_attr(name)
+        _, kwargs = super().parse(entity, parser, ignore)
+        kwargs['composable_node_descriptions'] = parse_composable_nodes(entity, parser)
+        return cls, kwargs
+
+    @property
+    def composable_node_descriptions(self) -> list[ComposableNode]:
+        """Return the descriptions of the nodes."""
+        return self.__composable_node_descriptions
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """
+        Start the container, then load the nodes.
+
+        Parameters
+        ----------
+        context
+            As for `Node.execute`.
+
+        Returns
+        -------
+        list of LaunchDescriptionEntity
+            The action that loads the nodes, if there are any.
+
+        """
+        entities: list[LaunchDescriptionEntity] = list(super().execute(context) or ())
+        if self.__composable_node_descriptions:
+            entities.append(
+                LoadComposableNodes(
+                    composable_node_descriptions=self.__composable_node_descriptions,
+                    target_container=self,
+                )
+            )
+        return entities
 
 
 class LoadComposableNodes(Action):
