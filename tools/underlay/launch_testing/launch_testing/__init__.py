@@ -9,9 +9,9 @@ from ros_environment.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from launch_testing import actions, asserts, event_handlers, legacy, markers, tools, util
-    from launch_testing._decorators import parametrize, post_shutdown_test
     from launch_testing.io_handler import ActiveIoHandler, IoHandler
     from launch_testing.launch_test_service import LaunchTestService
+    from launch_testing.markers import parametrize, post_shutdown_test
     from launch_testing.proc_info_handler import ActiveProcInfoHandler, ProcInfoHandler
     from launch_testing.test_result import TestResult
 
@@ -41,8 +41,8 @@ _ELSEWHERE = {
     'event_handlers': '',
     'legacy': '',
     'markers': '',
-    'parametrize': '_decorators',
-    'post_shutdown_test': '_decorators',
+    'parametrize': 'markers',
+    'post_shutdown_test': 'markers',
     'tools': '',
     'util': '',
 }

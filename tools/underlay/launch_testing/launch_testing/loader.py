@@ -11,7 +11,7 @@ from typing import Any, Optional
 import unittest
 
 from launch import LaunchDescription
-from launch_testing._decorators import is_post_shutdown_test, parameter_sets
+from launch_testing.markers import is_post_shutdown_test, parameter_sets
 from ros_environment.suggestions import did_you_mean
 
 __all__ = ['LoadTestsFromPythonModule', 'TestRun']
