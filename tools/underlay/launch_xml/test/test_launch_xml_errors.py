@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 import io
 from typing import List  # noqa: UP035
 
@@ -175,3 +176,9 @@ def test_public_extensions() -> None:
     assert XMLParser.get_file_extensions() == {'launch', 'launch.xml', 'xml'}
     assert {'xml', 'yaml'} <= set(Parser.get_available_extensions())
     assert Parser.is_extension_valid('.launch.xml')
+
+
+def test_path_of_the_source() -> None:
+    """The class is also found in the module that ROS 2 Jazzy has for it."""
+    module = import_module('launch_xml.launch_description_sources.xml_launch_description_source')
+    assert module.XMLLaunchDescriptionSource is XMLLaunchDescriptionSource

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 import io
 from typing import Any, List  # noqa: UP035
 
@@ -152,3 +153,9 @@ def test_relations() -> None:
     assert child.parent is root
     assert [each.type_name for each in root.children] == ['b']
     root.assert_entity_completely_parsed()
+
+
+def test_path_of_the_source() -> None:
+    """The class is also found in the module that ROS 2 Jazzy has for it."""
+    module = import_module('launch_yaml.launch_description_sources.yaml_launch_description_source')
+    assert module.YAMLLaunchDescriptionSource is YAMLLaunchDescriptionSource

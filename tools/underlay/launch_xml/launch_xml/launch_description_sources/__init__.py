@@ -3,10 +3,32 @@
 
 from __future__ import annotations
 
-from launch_xml.launch_description_sources.xml_launch_description_source import (
-    XMLLaunchDescriptionSource,
+from launch.launch_description_sources.frontend_launch_description_source import (
+    FrontendLaunchDescriptionSource,
 )
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch_xml.parser import Parser
+from ros_environment.lazy import also_found_at
 
 __all__ = [
     'XMLLaunchDescriptionSource',
 ]
+
+
+class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
+    """
+    Loads a launch file in XML.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file.
+
+    """
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(launch_file_path, method='interpreted XML launch file', parser=Parser)
+
+
+# ROS 2 Jazzy has a module for it; launch files import from that, too.
+also_found_at(__name__, 'xml_launch_description_source')
