@@ -17,8 +17,8 @@ MAX_NESTED = 64
 _PATH = 'current_launch_file_path'
 _FOLDER = 'current_launch_file_directory'
 _RELATIVE = (
-    "A relative path is looked up from the current folder, '{folder}'. Beside this launch file "
-    'is $(dirname)/..., or ThisLaunchFileDir() in Python; in a package it is '
+    "A relative path starts at the current folder, '{folder}'. Beside this launch file is "
+    '$(dirname)/..., or ThisLaunchFileDir() in Python; in a package is '
     '$(find-pkg-share PACKAGE)/..., or FindPackageShare().'
 )
 
@@ -86,14 +86,14 @@ def _circle(files: tuple[OpenFile, ...], last: OpenFile) -> str:
     """Format the chain of a circular include, starting at the last include of the same file."""
     start = 1 + max(index for index, each in enumerate(files) if each.path == last.path)
     steps = [*files[start:], last]
-    lines = [f"circular include: '{last.path}' includes itself for ever"]
+    lines = [f"circular include: '{last.path}' includes itself endlessly"]
     lines += [f"  {_line(each.call_site)} includes '{each.path}'" for each in steps]
-    lines.append('  Take one of these lines out, or give it a condition that ends the circle.')
+    lines.append('  Remove one of these lines, or give it a condition that breaks the cycle.')
     return '\n'.join(lines)
 
 
 def _line(call_site: Optional[CallSite]) -> str:
-    return 'a line that is not known' if call_site is None else str(call_site)
+    return 'an unknown line' if call_site is None else str(call_site)
 
 
 def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile:

@@ -142,7 +142,7 @@ def _short(call_site: CallSite) -> str:
 def _condition(condition: ConditionRecord) -> str:
     if condition.value is None:
         return f'if {condition.expression}, which is evaluated then'
-    answer = 'true' if condition.value else 'false, so it is left out'
+    answer = 'true' if condition.value else 'false, so it is skipped'
     why = '' if condition.expanded is None else f", which expanded to '{condition.expanded}'"
     return f'if {condition.expression}{why}: {answer}'
 

@@ -34,8 +34,8 @@ _COMMANDS = frozenset(
 _INSTALLED = ('site-packages', 'dist-packages')
 _STANDARD_LIBRARY = os.path.dirname(os.__file__) + os.sep
 _TOO_DEEP = (
-    '{error}\nThe launch file nests groups or other actions too deep, or a function in it calls '
-    'itself for ever.'
+    '{error}\nThe launch file nests groups or other actions too deeply, or a function in it calls '
+    'itself endlessly.'
 )
 
 

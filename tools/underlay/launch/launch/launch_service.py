@@ -179,7 +179,7 @@ class LaunchService:
         import asyncio
 
         if not self.__lock.acquire(blocking=False):
-            raise RuntimeError('the LaunchService is running already and cannot run twice at once')
+            raise RuntimeError('the LaunchService is already running and cannot run twice at once')
         try:
             self.__loop = asyncio.get_running_loop()
             self.__task = asyncio.current_task()

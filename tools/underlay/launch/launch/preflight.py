@@ -112,7 +112,7 @@ def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
         raise ProgramNotFoundError(text)
     from launch.logging import get_logger
 
-    get_logger('launch').warning('%s (it waits for an event and may be made until then)', text)
+    get_logger('launch').warning('%s (it waits for an event and may be created by then)', text)
 
 
 def may_look_up(name: str, context: LaunchContext) -> bool:

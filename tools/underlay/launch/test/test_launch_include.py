@@ -273,7 +273,8 @@ def test_missing_file_beside_the_including_one(
     text = run(IncludeLaunchDescription(path)).text
     assert "the launch file 'robto.launch.py' does not exist" in text
     assert 'Did you mean' not in text
-    assert f"looked up from the current folder, '{os.getcwd()}'. Beside this launch file" in text
+    folder = os.getcwd()
+    assert f"A relative path starts at the current folder, '{folder}'. Beside this launch" in text
     text = run(IncludeLaunchDescription(path + '/child.launch.py')).text
     assert f"there is no folder '{path}'" in text
     assert 'Did you mean' not in text and 'relative path' not in text

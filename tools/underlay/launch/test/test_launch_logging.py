@@ -53,7 +53,7 @@ def test_run_directory(run: Run, tmp_path: Path) -> None:
 def test_latest_that_is_no_link(run: Run, tmp_path: Path) -> None:
     """Something else of that name is left alone."""
     (tmp_path / 'log' / 'latest').mkdir(parents=True)
-    assert 'is not a symbolic link and stays as it is' in run(LogInfo(msg='x')).text
+    assert 'is not a symbolic link and is left as it is' in run(LogInfo(msg='x')).text
     assert not (tmp_path / 'log' / 'latest').is_symlink()
 
 
@@ -112,7 +112,7 @@ def test_log_file_that_cannot_be_written(capfd: pytest.CaptureFixture[str]) -> N
     for _ in range(2):
         get_logger('x').info('hi')
     out = capfd.readouterr().out
-    assert out.count('cannot be written any more') == 1 and out.count('[x]: hi') == 2
+    assert out.count('can no longer be written') == 1 and out.count('[x]: hi') == 2
     assert "launch.log' first: Is a directory." in out
 
 
@@ -129,7 +129,7 @@ def test_full_disk_is_said_once(capfd: pytest.CaptureFixture[str]) -> None:
         assert output.kept(2).count('LOG ERROR') == 3
     out = capfd.readouterr().out
     assert out.count('No space left on device') == 1 and out.count('LOG ERROR') == 0
-    assert "'/full/walk.log' first: No space left on device. All else goes on" in out
+    assert "'/full/walk.log' first: No space left on device. Everything else continues" in out
     assert out.count('real ') == 6
 
 

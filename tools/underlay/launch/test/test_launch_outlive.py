@@ -356,7 +356,7 @@ def test_detached_process(launcher: Start, stubs: Stubs, wait_until: Wait) -> No
     wait_until(lambda: stubs.are_ready(('session',)))
     launch.process.send_signal(signal.SIGINT)
     assert launch.end() == 0
-    assert len(stubs.living()) == 2 and 'process goes on without the launch [pid' in launch.text
+    assert len(stubs.living()) == 2 and 'process continues without the launch [pid' in launch.text
 
 
 def test_detached_process_of_a_killed_launch(

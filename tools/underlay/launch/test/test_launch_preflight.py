@@ -130,7 +130,7 @@ def test_file_that_may_be_made_until_then(run: Run, write: Write) -> None:
     handler = RegisterEventHandler(OnProcessExit(target_action=maker, on_exit=[user]))
     result = run(maker, handler)
     assert result.status == 0
-    assert 'it waits for an event and may be made until then' in result.text
+    assert 'it waits for an event and may be created by then' in result.text
     assert '[user-' in result.text and 'finished cleanly' in result.text
 
 
@@ -189,7 +189,7 @@ def test_circular_include(run: Run, write: Write) -> None:
     result = run(ExecuteProcess(cmd=['true']), IncludeLaunchDescription(one))
     _fails_at_once(
         result,
-        f"circular include: '{one}' includes itself for ever\n"
+        f"circular include: '{one}' includes itself endlessly\n"
         f"  '{one}', line 8 includes '{two}'\n  '{two}', line 7 includes '{one}'\n",
     )
     assert 'Recursion' not in result.text

@@ -189,7 +189,7 @@ def test_spawn_failures(run: Run, monkeypatch: pytest.MonkeyPatch, kwargs: Any, 
 @pytest.mark.parametrize(
     'mode, text',
     [
-        (0o644, "may not be executed; 'chmod +x' makes it executable"),
+        (0o644, "is not executable; 'chmod +x' makes it so"),
         (0o755, 'is a script whose first line does not name an interpreter'),
     ],
 )

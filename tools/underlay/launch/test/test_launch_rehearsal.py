@@ -98,7 +98,7 @@ def test_text() -> None:
         "DeclareLaunchArgument sim = 'False' (the default)",
         'GroupAction',
         "  if IfCondition(LaunchConfig('sim')), which expanded to 'false': false, so it",
-        '      is left out',
+        '      is skipped',
         'GroupAction',
         '  scoped: False',
         '  LogInfo out',

@@ -114,7 +114,7 @@ def test_only_once_at_a_time() -> None:
         )
 
     first, second = asyncio.run(twice())
-    assert first == 0 and 'running already' in str(second)
+    assert first == 0 and 'already running' in str(second)
 
 
 def test_shutdown_from_another_thread(wait_until: Callable[..., None]) -> None:

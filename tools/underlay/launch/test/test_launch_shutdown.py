@@ -127,7 +127,7 @@ def test_output_to_a_full_disk(
             [*launch_command, path], stdout=full, stderr=subprocess.PIPE, text=True, timeout=100
         )
     assert result.returncode == 0
-    assert result.stderr == 'The output cannot be written any more: No space left on device\n'
+    assert result.stderr == 'The output can no longer be written: No space left on device\n'
 
 
 def test_closed_output(

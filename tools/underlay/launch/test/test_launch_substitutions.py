@@ -89,7 +89,7 @@ def test_expression_without_quotes(
         PythonExpression(expression).perform(context)
     lines = str(caught.value).splitlines()
     assert lines[1] == f'The expression is: {expression}'
-    assert lines[2].startswith('A text in it needs quotes of its own')
+    assert lines[2].startswith('A string in it needs quotes of its own')
 
 
 def test_no_sums() -> None:
@@ -201,7 +201,7 @@ def test_path_that_became_several_words(context: LaunchContext, tmp_path: Path) 
     with pytest.raises(SubstitutionFailure) as caught:
         Command(['cat ', LaunchConfiguration('path')]).perform(context)
     assert str(caught.value).splitlines()[-1] == (
-        f"The path '{path}' has a space in it, and became several words. "
+        f"The path '{path}' contains a space, and was split into several words. "
         """Quote it: Command(['cat "', path, '"'])"""
     )
     assert Command(['cat "', LaunchConfiguration('path'), '"']).perform(context) == ''
@@ -210,7 +210,7 @@ def test_path_that_became_several_words(context: LaunchContext, tmp_path: Path) 
 @pytest.mark.parametrize(
     'parts, question',
     [
-        (['cat', 'arm.urdf'], "Is there a blank missing after 'cat'?"),
+        (['cat', 'arm.urdf'], "Is a space missing after 'cat'?"),
         (['no_such_program', 'arm.urdf'], ''),
         (['no_such_program ', 'arm.urdf'], ''),
     ],

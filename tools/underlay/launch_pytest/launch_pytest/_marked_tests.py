@@ -176,7 +176,7 @@ def _run(item: pytest.Function, test: _LaunchTest, session: LaunchSession) -> No
         session.shutdown()
     if test.first_part is not None:
         if test.first_part not in session.suspended:
-            pytest.skip('the test has not come to its yield')
+            pytest.skip('the test has not reached its yield')
         _resume(session, session.suspended.pop(test.first_part))
         return
     arguments = {name: item.funcargs[name] for name in item._fixtureinfo.argnames}
@@ -207,7 +207,7 @@ def _run_parts(
 
 def _resume(session: LaunchSession, generator: Any) -> None:
     if _step(session, generator) is not _END:
-        pytest.fail('a launch test can have one yield only', pytrace=False)
+        pytest.fail('a launch test can have only one yield', pytrace=False)
 
 
 def _step(session: LaunchSession, generator: Any) -> Any:

@@ -32,7 +32,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line(
         'markers',
         f'{_MARKER}(*, fixture, shutdown=False): runs the test while the launch of a fixture '
-        'goes on, or after its shutdown',
+        'runs, or after its shutdown',
     )
 
 

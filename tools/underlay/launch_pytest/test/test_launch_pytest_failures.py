@@ -106,7 +106,7 @@ def test_twice():
         ('test_it[shutdown]', 'SKIPPED'),
         ('test_twice', 'FAILED'),
     ], report.text
-    assert 'a launch test can have one yield only' in report.text
+    assert 'a launch test can have only one yield' in report.text
 
 
 def test_misuse(run: Run) -> None:

@@ -32,7 +32,7 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     adapter = find_ros_adapter(context)
     if adapter is None:
         if context.is_shutdown:
-            raise RuntimeError('the launch is ending: its own ROS node is not there any more')
+            raise RuntimeError('the launch is ending: its own ROS node no longer exists')
         adapter = _make_adapter(context)
     return adapter
 

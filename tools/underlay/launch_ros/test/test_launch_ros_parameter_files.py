@@ -115,7 +115,7 @@ def test_no_false_alarm(run: Run, tmp_path: Path, key: str, nodes: list[Any]) ->
     [
         (
             'a:\n  ros__parameters:\n    x: 1\ntalker:\n  ros_parameters:\n    b: 1\n',
-            "line 4, below 'talker' there is no 'ros__parameters': was it meant by 'ros_para",
+            "line 4, below 'talker' there is no 'ros__parameters': is 'ros_para",
         ),
         ('talker:\n  rate: 1\n', "line 1, below 'talker' there is no 'ros__parameters', below"),
         ('talker:\n\tros__parameters:\n\t\ta: 1\n', 'line 2, it is not YAML, which allows'),

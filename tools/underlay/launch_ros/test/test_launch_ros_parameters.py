@@ -180,7 +180,7 @@ def test_file_with_substitutions(context: LaunchContext, tmp_path: Path) -> None
     [
         ('$(bogus)', 'Unknown substitution: bogus'),
         ('$(var robto)', "launch configuration 'robto' does not exist. Did you mean 'robot'"),
-        ('$(find p)', r"Unknown substitution: find\nROS 2 writes '\$\(find-pkg-share PACKAGE\)'"),
+        ('$(find p)', r"Unknown substitution: find\nROS 2 has '\$\(find-pkg-share PACKAGE\)'"),
     ],
 )
 def test_wrong_substitution_in_a_file(

@@ -68,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
         '--show-args',
         '--show-arguments',
         action='store_true',
-        help='show the arguments of the launch description and end',
+        help='show the arguments of the launch description and exit',
     )
     parser.add_argument('--package-name', help='the name of the package in the report')
     parser.add_argument('--junit-xml', metavar='FILE', help='write the results to this file')

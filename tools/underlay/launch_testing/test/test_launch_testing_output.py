@@ -49,7 +49,7 @@ def test_misuse() -> None:
         expect_output(text='x')
     with pytest.raises(ValueError, match='either text or lines'):
         expect_output(expected_text='x', text='x', lines=['x'])
-    with pytest.raises(ValueError, match='must be a text.* but it is 5'):
+    with pytest.raises(ValueError, match='must be a string.* but it is 5'):
         build_text_match(5)  # type: ignore[arg-type]
 
 

@@ -61,8 +61,8 @@ class Entity(BaseEntity):
     def _child(self, item: Any) -> Entity:
         if not isinstance(item, dict) or len(item) != 1:
             raise RuntimeError(
-                f'each child of `{self.type_name}` must be one key with what lies below it, such '
-                f"as '- log: {{message: hello}}', but one is {item!r}"
+                f'each child of `{self.type_name}` must be one key with its content below it, '
+                f"such as '- log: {{message: hello}}', but one is {item!r}"
             )
         [(key, content)] = item.items()
         return self._below(str(key), content, item)

@@ -44,7 +44,7 @@ class Parser(BaseParser):
         if not isinstance(document, dict):
             _fail("the file must have the key 'launch', with a list of actions below it", name, 1)
         if len(document) != 1:
-            _fail(f'the file must have one key only, but it has {_listed(document)}', name, 1)
+            _fail(f'the file must have only one key, but it has {_listed(document)}', name, 1)
         [(key, content)] = document.items()
         return Entity(content, str(key), file_name=name, line=1), cls()
 

@@ -32,7 +32,7 @@ def parse(content: str) -> Any:
         ('{mesage: y}', AttributeError, "Attribute 'message' of type '<class 'str'>' not found"),
         ('{message: true}', TypeError, "Put it in quotes: 'true'"),
         ('{message: 5}', TypeError, "got 5 of type int. Put it in quotes: '5'"),
-        ('{message: }', TypeError, "Leave it out, or write '' for an empty text"),
+        ('{message: }', TypeError, "Omit it, or write '' for an empty string"),
         ('{message: x, if: true}', TypeError, "The attribute 'if' of `log` cannot be used"),
         ('{message: [x]}', TypeError, "expected str, but got ['x'] of type "),
         ('hello', AttributeError, "Attribute 'message' of type"),
@@ -74,7 +74,7 @@ def test_more_errors(content: str, text: str) -> None:
         ('launch: [', 'the file is not YAML: '),
         ('- a', "the file must have the key 'launch'"),
         ('<launch/>', "the file must have the key 'launch'"),
-        ('{launch: [], more: []}', "the file must have one key only, but it has 'launch', 'more'"),
+        ('{launch: [], more: []}', "the file must have only one key, but it has 'launch', 'more'"),
     ],
 )
 def test_no_launch_file(content: str, text: str) -> None:

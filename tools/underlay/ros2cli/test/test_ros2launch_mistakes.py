@@ -30,7 +30,7 @@ FORMAT = (
     '\n - InvalidFrontendLaunchFileError: '
     'The launch file may have a syntax error, or its format is unknown'
 )
-TEXT = 'a text, a substitution or a list of them'
+TEXT = 'a string, a substitution or a list of them'
 
 
 class Mistake(NamedTuple):
@@ -122,7 +122,7 @@ MISTAKES = {
         "LogInfo(msg=PythonExpression('1 + one'))",
         CAUGHT
         + "name 'one' is not defined\nThe expression is: 1 + one\n"
-        + 'A text in it needs quotes of its own, also around a substitution: '
+        + 'A string in it needs quotes of its own, also around a substitution: '
         + """["'", LaunchConfiguration('x'), "' == 'y'"]""",
         'LogInfo',
     ),
@@ -134,9 +134,9 @@ MISTAKES = {
     'circle': Mistake(
         "IncludeLaunchDescription('{file}')",
         CAUGHT
-        + "circular include: '{file}' includes itself for ever\n"
+        + "circular include: '{file}' includes itself endlessly\n"
         + "  '{file}', line 10 includes '{file}'\n"
-        + '  Take one of these lines out, or give it a condition that ends the circle.',
+        + '  Remove one of these lines, or give it a condition that breaks the cycle.',
         'IncludeLaunchDescription',
     ),
     'misspelt keyword': Mistake(
@@ -171,7 +171,7 @@ MISTAKES = {
     'Node arguments': Mistake(
         "Node(executable='x', arguments='-d x')",
         _type_error(
-            "the argument 'arguments' must be a list, but it is the text '-d x'; write "
+            "the argument 'arguments' must be a list, but it is the string '-d x'; write "
             "arguments=['-d', 'x']"
         ),
     ),
@@ -215,19 +215,19 @@ MISTAKES = {
         "IncludeLaunchDescription('x', launch_arguments={'a': 'b'})",
         _type_error(
             "the argument 'launch_arguments' must be a list of pairs, but it is a dictionary: "
-            'write .items() behind it'
+            'append .items() to it'
         ),
     ),
-    'declared name': Mistake('DeclareLaunchArgument(5)', _wrong('name', 'a text', ONE)),
+    'declared name': Mistake('DeclareLaunchArgument(5)', _wrong('name', 'a string', ONE)),
     'default_value': Mistake(
         "DeclareLaunchArgument('a', default_value=True)",
         _wrong('default_value', TEXT, "True of type 'bool' ('bool' object is not iterable)"),
     ),
     'description': Mistake(
-        "DeclareLaunchArgument('a', description=5)", _wrong('description', 'a text', ONE)
+        "DeclareLaunchArgument('a', description=5)", _wrong('description', 'a string', ONE)
     ),
     'choices': Mistake(
-        "DeclareLaunchArgument('a', choices=5)", _wrong('choices', 'a list of texts', ONE)
+        "DeclareLaunchArgument('a', choices=5)", _wrong('choices', 'a list of strings', ONE)
     ),
     'group': Mistake('GroupAction(5)', _wrong('actions', 'a list of actions', ONE)),
     'timer period': Mistake(

@@ -122,7 +122,7 @@ def explain_missing_program(
     if os.path.dirname(program):
         path = os.path.join(folder or '', program)
         if os.path.isfile(path):
-            return f"'{program}' may not be executed; 'chmod +x' makes it executable"
+            return f"'{program}' is not executable; 'chmod +x' makes it so"
         return explain_missing_file('program', path)
     names = (name for each in _search_path(env).split(os.pathsep) for name in _listed(each))
     text = f"the program '{program}' was not found on the PATH"
@@ -170,7 +170,7 @@ def _reason(details: Mapping[str, Any], error: Exception) -> str:
     if isinstance(error, FileNotFoundError):
         return _not_found(program)
     if isinstance(error, PermissionError):
-        return f"'{program}' may not be executed; 'chmod +x' makes it executable"
+        return f"'{program}' is not executable; 'chmod +x' makes it so"
     if getattr(error, 'errno', None) == errno.ENOEXEC:
         return f"'{program}' is a script whose first line does not name an interpreter (#!...)"
     return f"'{program}' cannot be started: {error}"
@@ -224,7 +224,7 @@ def advice_on_program(parts: Sequence[str]) -> str:
     if len(parts) < 2 or not first or parts[0][-1].isspace() or shutil.which(first[-1]) is None:
         return ''
     return (
-        f"\nIs there a blank missing after '{parts[0]}'? The parts of a command are joined as "
+        f"\nIs a space missing after '{parts[0]}'? The parts of a command are joined as "
         f"they are: Command(['{parts[0]} ', ...])"
     )
 
@@ -236,8 +236,8 @@ def _split_path(parts: Sequence[str]) -> str:
         is_path = os.path.isabs(part) and len(part.split()) > 1
         if is_path and not any(part in word for word in words):
             return (
-                f"\nThe path '{part}' has a space in it, and became several words. Quote it: "
-                f"Command(['{parts[0].rstrip()} \"', path, '\"'])"
+                f"\nThe path '{part}' contains a space, and was split into several words. "
+                f"Quote it: Command(['{parts[0].rstrip()} \"', path, '\"'])"
             )
     return ''
 

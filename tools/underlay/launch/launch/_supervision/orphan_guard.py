@@ -156,7 +156,8 @@ class OrphanGuard:
             shell = _Shell(arguments)
         except OSError as error:
             get_logger('launch').warning(
-                'nothing cleans up if this launch is killed, as /bin/sh cannot be run: %s', error
+                'nothing cleans up if this launch is killed, because /bin/sh cannot be run: %s',
+                error,
             )
             return
         shell.tell(''.join(f'add {group}\n' for group in sorted(self._groups)))

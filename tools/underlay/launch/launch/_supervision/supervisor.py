@@ -192,7 +192,7 @@ class Supervisor:
         await asyncio.wait([process.exited, self._let_go], return_when=asyncio.FIRST_COMPLETED)
         if process.exited.done() or self._stopped.done():
             return True
-        self._logger.info('process goes on without the launch [pid %s]', process.pid)
+        self._logger.info('process continues without the launch [pid %s]', process.pid)
         process.let_go()
         return False
 

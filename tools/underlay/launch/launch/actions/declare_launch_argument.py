@@ -64,11 +64,11 @@ class DeclareLaunchArgument(Action):
     ) -> None:
         super().__init__(**kwargs)
         self.is_conditional = False
-        of_type('name', name, (str,), 'a text')
+        of_type('name', name, (str,), 'a string')
         if description is not None:
-            of_type('description', description, (str,), 'a text')
+            of_type('description', description, (str,), 'a string')
         if choices is not None and not hasattr(choices, '__contains__'):
-            choices = list_like('choices', choices, 'texts')
+            choices = list_like('choices', choices, 'strings')
         self.__name = name
         self.__choices: Any = choices
         self.__description = _describe(description, choices)

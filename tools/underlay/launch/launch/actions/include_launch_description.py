@@ -224,7 +224,7 @@ def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:
     if isinstance(launch_arguments, Mapping):
         raise TypeError(
             "the argument 'launch_arguments' must be a list of pairs, but it is a dictionary: "
-            'write .items() behind it'
+            'append .items() to it'
         )
     pairs = tuple(list_like('launch_arguments', launch_arguments, 'pairs of a name and a value'))
     for pair in pairs:

@@ -209,7 +209,8 @@ def _warn_of_text(period: str) -> None:
     import warnings
 
     warnings.warn(
-        f"the period of a TimerAction should be a float or substitutions, not the text '{period}'",
+        'the period of a TimerAction should be a float or substitutions, not the string '
+        f"'{period}'",
         stacklevel=4,
     )
 

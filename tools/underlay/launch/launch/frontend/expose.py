@@ -206,7 +206,7 @@ def _parse_method(thing: Any) -> ParseMethod:
     """Return the function itself, or the method `parse` of a class."""
     method = thing.parse if isinstance(thing, type) and hasattr(thing, 'parse') else thing
     if (isinstance(thing, type) and method is thing) or not callable(method):
-        raise RuntimeError(f"the exposed {thing!r} is no function, and has no method 'parse'")
+        raise RuntimeError(f"the exposed {thing!r} is not a function and has no method 'parse'")
     parse_method: ParseMethod = method
     return parse_method
 
@@ -226,7 +226,7 @@ def _find(
 
 def _unknown_tag(name: str, known: Iterable[str]) -> str:
     """Format the error about a tag that does not exist, with a suggestion."""
-    old = f"'{name}' is none of the tags of ROS 2: {_OLD_TAGS[name]}." if name in _OLD_TAGS else ''
+    old = f"'{name}' is not a tag of ROS 2: {_OLD_TAGS[name]}." if name in _OLD_TAGS else ''
     text = f'Unrecognized entity of the type: {name}'
     return '\n'.join(filter(None, [text, old or did_you_mean(name, known)]))
 
@@ -234,7 +234,7 @@ def _unknown_tag(name: str, known: Iterable[str]) -> str:
 def _unknown_substitution(name: str, known: Iterable[str]) -> str:
     """Format the error about a substitution that does not exist, with a suggestion."""
     new = _OLD_SUBSTITUTIONS.get(name)
-    old = f"ROS 2 writes '{new}'." if new else ''
+    old = f"ROS 2 has '{new}'." if new else ''
     text = f'Unknown substitution: {name}'
     return '\n'.join(filter(None, [text, old or did_you_mean(name, known)]))
 
@@ -303,7 +303,7 @@ def _warn(group: str, name: str, value: str, error: Exception) -> None:
     import warnings
 
     warnings.warn(
-        f"the extension '{name}' ({value}) of the group '{group}' cannot be loaded and is left "
-        f'out: {type(error).__name__}: {error}',
+        f"the extension '{name}' ({value}) of the group '{group}' cannot be loaded and is "
+        f'skipped: {type(error).__name__}: {error}',
         stacklevel=2,
     )

@@ -205,7 +205,7 @@ class _Reader:
     def _argument(self) -> Template:
         quote = self._next()
         if not quote or quote in ' )':
-            raise self._error('there is a space too many: only one stands before each argument')
+            raise self._error('there is an extra space: exactly one must precede each argument')
         if quote not in _QUOTES:
             return self.template(stop=' \t\r\n()' + _QUOTES)
         self._check_quote(quote)
@@ -227,7 +227,7 @@ class _Reader:
     def _check_quote(self, quote: str) -> None:
         if quote in self._open_quotes:
             raise self._error(
-                f'the quote {quote} is open already: use the other kind of quotes in it'
+                f'the quote {quote} is already open: use the other kind of quotes inside it'
             )
 
     def _next(self) -> str:
@@ -239,7 +239,7 @@ class _Reader:
             self._at = position
             return self._error(f"the substitution '{name}' is never closed: a ')' is missing")
         return self._error(
-            f"'{found}' cannot stand there in the substitution '{name}': put the whole argument "
+            f"'{found}' is not allowed there in the substitution '{name}': put the whole argument "
             'in quotes, or a backslash before it'
         )
 

@@ -86,7 +86,7 @@ def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
     try:
         return coerce_to_type(text, data_type)
     except ValueError as error:
-        advice = '. Give it the type str if it is meant as a text' if data_type is None else ''
+        advice = '. Give it the type str if it is meant as a string' if data_type is None else ''
         raise TypeError(f'{error}{advice}') from error
 
 
@@ -171,5 +171,5 @@ def _advice(value: Any, data_type: Any) -> str:
     if data_type is str and isinstance(value, (bool, int, float)):
         return f"Put it in quotes: '{str(value).lower() if isinstance(value, bool) else value}'"
     if value is None:
-        return "Leave it out, or write '' for an empty text"
+        return "Omit it, or write '' for an empty string"
     return 'Write a value of that type'

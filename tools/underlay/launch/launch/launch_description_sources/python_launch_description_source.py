@@ -21,7 +21,7 @@ _OTHER_FORMATS = {
     '.yaml': 'YAMLLaunchDescriptionSource',
     '.yml': 'YAMLLaunchDescriptionSource',
 }
-_ADVICE = 'The file is not one in Python: {}, or AnyLaunchDescriptionSource, reads it.'
+_ADVICE = 'The file is not in Python: load it with {}, or with AnyLaunchDescriptionSource.'
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):

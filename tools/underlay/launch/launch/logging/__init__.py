@@ -99,7 +99,7 @@ class LaunchConfig:
         """
         if self._log_dir not in (None, value):
             raise RuntimeError(
-                f"the folder of the log files is '{self._log_dir}' already and cannot become "
+                f"the folder of the log files is already '{self._log_dir}' and cannot become "
                 f"'{value}'"
             )
         os.makedirs(value, exist_ok=True)
@@ -288,8 +288,8 @@ def make_run_directory() -> str:
         os.makedirs(path, exist_ok=True)
     except OSError as error:
         raise RuntimeError(
-            f"the folder '{path}' for the log files cannot be made: {error.strerror}; set "
-            'ROS_LOG_DIR to a folder in which you may write'
+            f"the folder '{path}' for the log files cannot be created: {error.strerror}; set "
+            'ROS_LOG_DIR to a folder that you can write to'
         ) from error
     _point_latest_at(os.path.dirname(path), path)
     return path
@@ -306,8 +306,8 @@ def _point_latest_at(base: str, path: str) -> None:
     latest = os.path.join(base, 'latest')
     if os.path.exists(latest) and not os.path.islink(latest):
         screen.write_line(
-            f"[WARNING] [launch]: '{latest}' is not a symbolic link and stays as it is, so it "
-            'does not lead to the log files of this run'
+            f"[WARNING] [launch]: '{latest}' is not a symbolic link and is left as it is, so it "
+            'does not point to the log files of this run'
         )
         return
     temporary = f'{latest}.{os.getpid()}'

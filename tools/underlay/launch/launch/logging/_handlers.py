@@ -214,9 +214,9 @@ class LostFiles:
         if reason not in self._reasons:
             self._reasons.add(reason)
             screen.write_line(
-                f"[WARNING] [launch]: log files cannot be written any more, '{path}' first: "
-                f'{reason}. All else goes on; make room there, or set ROS_LOG_DIR to another '
-                'folder at the next start.'
+                f"[WARNING] [launch]: log files can no longer be written, '{path}' first: "
+                f'{reason}. Everything else continues; free some space there, or set ROS_LOG_DIR '
+                'to another folder for the next start.'
             )
 
     def without_errors(self, lines: list[str]) -> list[str]:

@@ -132,7 +132,7 @@ def _complain(error: Exception) -> None:
     if sys.stderr is None or not isinstance(error, OSError):
         return
     try:
-        print(f'The output cannot be written any more: {error.strerror}', file=sys.stderr)
+        print(f'The output can no longer be written: {error.strerror}', file=sys.stderr)
     except (OSError, ValueError):
         pass  # there is none
 

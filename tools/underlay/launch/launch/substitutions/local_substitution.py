@@ -55,7 +55,7 @@ class LocalSubstitution(Substitution):
         value = eval(f'context.locals.{self.__expression}', {}, {'context': context})  # noqa: S307
         if not isinstance(value, str):
             raise SubstitutionFailure(
-                f"the local variable '{self.__expression}' must be a text to be used as a "
+                f"the local variable '{self.__expression}' must be a string to be used as a "
                 f"substitution, but it is {value!r} of type '{type(value).__name__}'"
             )
         return value

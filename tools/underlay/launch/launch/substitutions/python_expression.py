@@ -109,7 +109,7 @@ class PythonExpression(Substitution):
 def _with_advice(error: Exception, expression: str) -> str:
     """Add the expression, and advice on missing quotes, to an error."""
     return (
-        f'{error}\nThe expression is: {expression}\nA text in it needs quotes of its own, also '
+        f'{error}\nThe expression is: {expression}\nA string in it needs quotes of its own, also '
         "around a substitution: [\"'\", LaunchConfiguration('x'), \"' == 'y'\"]"
     )
 

@@ -32,7 +32,7 @@ def text_like(keyword: str, value: Any) -> list[Substitution]:
     try:
         return normalize_to_list_of_substitutions(value)
     except TypeError as error:
-        _refuse(keyword, 'a text, a substitution or a list of them', value, error)
+        _refuse(keyword, 'a string, a substitution or a list of them', value, error)
 
 
 def optional_text_like(keyword: str, value: Any) -> Optional[list[Substitution]]:

@@ -144,7 +144,7 @@ def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
         return data_type(value)
     if get_origin(data_type) is list:
         return _coerce_to_list(value, get_args(data_type)[0])
-    raise ValueError(f"cannot make a value of the type '{data_type}' out of '{value}'")
+    raise ValueError(f"cannot convert '{value}' to the type '{data_type}'")
 
 
 def _coerce_by_yaml(text: str) -> Any:

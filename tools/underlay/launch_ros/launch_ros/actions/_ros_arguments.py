@@ -290,7 +290,7 @@ def extensions() -> list[Any]:
             from launch.logging import get_logger
 
             get_logger('launch_ros.actions.node').warning(
-                "the extension '%s' (%s) of nodes cannot be loaded and is left out: %s: %s",
+                "the extension '%s' (%s) of nodes cannot be loaded and is skipped: %s: %s",
                 entry_point.name,
                 entry_point.value,
                 type(error).__name__,

@@ -191,7 +191,7 @@ class _TransitionChain(BaseEventHandler):
         if not succeeded:
             get_logger('launch_ros.actions.lifecycle_transition').error(
                 "'%s' went to the state '%s' instead of '%s': the transitions that should follow "
-                'are left out',
+                'are skipped',
                 self._node_name,
                 event.goal_state,
                 _GOALS[self._current],

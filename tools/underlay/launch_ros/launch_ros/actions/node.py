@@ -340,7 +340,7 @@ def _words(
     """Convert values to a list; reject a string, which would be split into characters."""
     if isinstance(values, str):
         raise TypeError(
-            f"the argument '{keyword}' must be a list, but it is the text '{values}'; write "
+            f"the argument '{keyword}' must be a list, but it is the string '{values}'; write "
             f'{keyword}={values.split()!r}'
         )
     if values is None:

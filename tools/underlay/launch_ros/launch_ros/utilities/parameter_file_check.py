@@ -258,5 +258,5 @@ def _missing(name: str, below: Sequence[str]) -> str:
     similar = next((each for each in below if did_you_mean(each, [_PARAMETERS])), None)
     text = f"below '{name}' there is no '{_PARAMETERS}'"
     if similar is None:
-        return f'{text}, below which the parameters are to be'
-    return f"{text}: was it meant by '{similar}'?"
+        return f'{text}, below which the parameters belong'
+    return f"{text}: is '{similar}' a misspelling of it?"

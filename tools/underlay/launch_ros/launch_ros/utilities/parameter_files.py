@@ -132,7 +132,7 @@ def _check_yaml(text: str, path: str) -> None:
     except yaml.YAMLError as error:
         raise ValueError(
             'The substituted parameter file is not a valid yaml file\n'
-            f"'{path}', with what its substitutions have become: {error}"
+            f"'{path}', with its substitutions performed: {error}"
         ) from error
 
 

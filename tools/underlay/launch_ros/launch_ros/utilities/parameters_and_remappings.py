@@ -89,7 +89,7 @@ def normalize_parameter_dict(
     for key, value in parameters.items():
         if not isinstance(key, (str, Substitution, list, tuple)):
             raise TypeError(
-                f'the name of a parameter must be a text or substitutions, but got {key!r} of '
+                f'the name of a parameter must be a string or substitutions, but got {key!r} of '
                 f"type '{type(key).__name__}'"
             )
         name = (*prefix, *normalize_to_list_of_substitutions(key))

@@ -197,8 +197,8 @@ class SequentialTextChecker:
         shown = expected_output if isinstance(expected_output, str) else expected_output.pattern
         if match is None:
             raise AssertionError(
-                f"{shown!r} was not found in the output of '{self._name}' behind "
-                f'{self._found or "its beginning"}. There follows:\n{rest}'
+                f"{shown!r} was not found in the output of '{self._name}' after "
+                f'{self._found or "its beginning"}. It continues with:\n{rest}'
             )
         self._found.append(shown)
         end = match.end()

@@ -16,7 +16,7 @@ Expected = Union[ExpectedLine, Iterable[ExpectedLine]]
 Match = Callable[[str], bool]
 
 _ANSI_ESCAPE = re.compile(r'\x1b(?:\[[0-?]*[ -/]*[@-~]|[@-Z\\^_])')
-_LINES_OR_TEXTS = 'a text, a compiled regular expression, a function, or a list of those'
+_LINES_OR_TEXTS = 'a string, a compiled regular expression, a function, or a list of those'
 
 
 def remove_ansi_escape_sequences(text: str) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
 FOOTNOTE = '* argument(s) which are only used if specific conditions occur'
 DRY_RUN_HEADER = """\
-Nothing is started; this shows what would be. To determine it, the commands in
+Nothing is started; this is what would be. To find out, the commands in
 Command substitutions were run and the functions in launch files were called.
 """
 
