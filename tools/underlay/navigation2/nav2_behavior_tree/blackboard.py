@@ -9,6 +9,14 @@ from typing import Any
 __all__ = ['Blackboard']
 
 
+class _Entries:
+    """The entries that one blackboard stores: their values, and how often each was set."""
+
+    def __init__(self) -> None:
+        self.values: dict[str, Any] = {}
+        self.versions: dict[str, int] = {}
+
+
 class Blackboard:
     """
     Blackboard of a tree, or of a subtree that shares some entries with its parent tree.
@@ -32,9 +40,13 @@ class Blackboard:
     ) -> None:
         self._parent, self._remapping = parent, dict(remapping or {})
         self._autoremap = autoremap and parent is not None
-        self._values: dict[str, Any] = {}
-        self._versions: dict[str, int] = {}
-        self._places: dict[str, tuple[Blackboard, str]] = {}
+        self._own = _Entries()
+        self._places: dict[str, tuple[_Entries, str]] = {}
+
+    @property
+    def root(self) -> Blackboard:
+        """The blackboard of the main tree."""
+        return self if self._parent is None else self._parent.root
 
     def get(self, key: str, default: Any = None) -> Any:
         """
@@ -48,8 +60,8 @@ class Blackboard:
             The value to return if it is not set.
 
         """
-        board, name = self._places.get(key) or self._place(key)
-        return board._values.get(name, default)
+        entries, name = self._places.get(key) or self.locate(key)
+        return entries.values.get(name, default)
 
     def set(self, key: str, value: Any) -> None:  # noqa: A003, RUF100
         """
@@ -63,9 +75,9 @@ class Blackboard:
             The value, which is not copied.
 
         """
-        board, name = self._places.get(key) or self._place(key)
-        board._values[name] = value
-        board._versions[name] = board._versions.get(name, 0) + 1
+        entries, name = self._places.get(key) or self.locate(key)
+        entries.values[name] = value
+        entries.versions[name] = entries.versions.get(name, 0) + 1
 
     def keep(self, key: str, value: Any) -> None:
         """
@@ -79,7 +91,7 @@ class Blackboard:
             The value, which is not copied.
 
         """
-        self._places[key] = (self, key)
+        self._places[key] = (self._own, key)
         self.set(key, value)
 
     def unset(self, key: str) -> None:
@@ -92,8 +104,8 @@ class Blackboard:
             Its name on this blackboard; nothing happens if it is not set.
 
         """
-        board, name = self._place(key)
-        board._values.pop(name, None)
+        entries, name = self.locate(key)
+        entries.values.pop(name, None)
 
     def version(self, key: str) -> int:
         """
@@ -105,33 +117,38 @@ class Blackboard:
             Its name on this blackboard.
 
         """
-        board, name = self._place(key)
-        return board._versions.get(name, 0)
+        entries, name = self.locate(key)
+        return entries.versions.get(name, 0)
 
     def keys(self) -> Iterator[str]:
         """Iterate over the names of the entries stored on this blackboard."""
-        return iter(self._values)
+        return iter(self._own.values)
 
     def __contains__(self, key: str) -> bool:
-        board, name = self._place(key)
-        return name in board._values
+        entries, name = self.locate(key)
+        return name in entries.values
 
-    def _place(self, key: str) -> tuple[Blackboard, str]:
-        """Resolve the blackboard that stores an entry, and its name there."""
+    def locate(self, key: str) -> tuple[_Entries, str]:
+        """
+        Resolve which blackboard stores an entry: its entries, and the name there.
+
+        Parameters
+        ----------
+        key
+            The name of the entry on this blackboard.
+
+        """
         if key not in self._places:
             self._places[key] = self._find(key)
         return self._places[key]
 
-    def _find(self, key: str) -> tuple[Blackboard, str]:
+    def _find(self, key: str) -> tuple[_Entries, str]:
         if key.startswith('@'):
-            root = self
-            while root._parent is not None:
-                root = root._parent
-            return root._place(key[1:])
+            return self.root.locate(key[1:])
         if self._parent is None:
-            return self, key
+            return self._own, key
         if key in self._remapping:
-            return self._parent._place(self._remapping[key])
+            return self._parent.locate(self._remapping[key])
         if self._autoremap and not key.startswith('_'):
-            return self._parent._place(key)
-        return self, key
+            return self._parent.locate(key)
+        return self._own, key
