@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from nav_msgs.msg import Path
@@ -216,16 +216,24 @@ def make_path(poses: FloatArray | Iterable[Pose2D], frame: str, stamp: object) -
 def _stamped_in_plane(
     x: float, y: float, sine: float, cosine: float, frame: str, stamp: object
 ) -> PoseStamped:
-    # Message constructors take ten times as long, which matters for whole paths.
-    make = object.__new__
-    message = make(PoseStamped)
-    header, pose = message._header, message._pose = make(Header), make(Pose)
-    point, turn = pose._position, pose._orientation = make(Point), make(Quaternion)
-    header._stamp, header._frame_id = stamp, frame
-    point._x, point._y, point._z = x, y, 0.0
-    turn._x, turn._y, turn._z, turn._w = 0.0, 0.0, sine, cosine
-    for each in (message, header, pose, point, turn):
-        each._check_fields = False
+    message = _bare(PoseStamped)
+    header, pose = message.header, message.pose = _bare(Header), _bare(Pose)
+    point, turn = pose.position, pose.orientation = _bare(Point), _bare(Quaternion)
+    header.stamp, header.frame_id = stamp, frame
+    point.x, point.y, point.z = x, y, 0.0
+    turn.x, turn.y, turn.z, turn.w = 0.0, 0.0, sine, cosine
+    return message
+
+
+def _bare(kind: type) -> Any:
+    """
+    Make a message without fields, which do not check what they are set to.
+
+    Constructors, which make the default of each field, take several times as long: it matters
+    for whole paths.
+    """
+    message: Any = object.__new__(kind)
+    message._check_fields = False
     return message
 
 
