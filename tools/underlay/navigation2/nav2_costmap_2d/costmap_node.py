@@ -329,9 +329,8 @@ def _shared_words(words: list[str]) -> list[str]:
 
 def _taken_overrides(owner: LifecycleNode, name: str) -> list[Parameter]:
     """Move the parameter overrides that are meant for the costmap out of those of its server."""
-    given = owner._parameter_overrides
-    taken = []
-    for full in [each for each in given if each.startswith(f'{name}.{name}.')]:
-        short = full.removeprefix(f'{name}.{name}.').removeprefix('ros__parameters.')
-        taken.append(Parameter(short, value=given.pop(full).value))
-    return taken
+    taken = owner.parameters.take_given(f'{name}.{name}.')
+    return [
+        Parameter(each.removeprefix('ros__parameters.'), value=given.value)
+        for each, given in taken.items()
+    ]

@@ -76,7 +76,7 @@ def explain_unused(node: Costmap2DROS, used: Collection[str]) -> None:
         The names of its layers and filters.
 
     """
-    given = node._parameter_overrides
+    given = node.parameters.given
     for name in given:
         layer = name.partition('.')[0]
         if layer not in used and f'{layer}.plugin' in given:

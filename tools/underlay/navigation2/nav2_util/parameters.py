@@ -188,12 +188,36 @@ class ParameterServer:
         for name, instead in names.items():
             self._unsupported[_full(prefix, name)] = instead
 
+    @property
+    def given(self) -> dict[str, Parameter]:
+        """The values with which the node was started, by the full names of parameters."""
+        given: dict[str, Parameter] = self._node._parameter_overrides  # rclpy has no public name
+        return given
+
+    def take_given(self, prefix: str) -> dict[str, Parameter]:
+        """
+        Remove given values that are meant for another node, and return them.
+
+        Parameters
+        ----------
+        prefix
+            What their names begin with, with the dot.
+
+        Returns
+        -------
+        dict of str to Parameter
+            The values by the rest of their names.
+
+        """
+        given = self.given
+        names = [name for name in given if name.startswith(prefix)]
+        return {name.removeprefix(prefix): given.pop(name) for name in names}
+
     def report(self) -> None:
         """Log given parameters without effect, and suggest similar names."""
-        given = self._node._parameter_overrides
         unknown = [
             name
-            for name in given
+            for name in self.given
             if not self._node.has_parameter(name) and name not in self._complained
         ]
         self._complained.update(unknown)
@@ -205,13 +229,13 @@ class ParameterServer:
                 log.warning(f"There is no parameter '{name}'.{self._advice(name)}")
 
     def _advice(self, name: str) -> str:
-        known = [*self._node._parameters, *self._unsupported]
+        known = [*self._node.list_parameters([], 0).names, *self._unsupported]
         return did_you_mean(name, known, 0.75) or ' It has no effect.'
 
     def _declare_one(self, name: str, default: Any, spec: Spec) -> Any:
         if self._node.has_parameter(name):
             return self._node.get_parameter(name).value
-        given = self._node._parameter_overrides.get(name)
+        given = self.given.get(name)
         if given is not None and given.value is not None:
             try:
                 value = coerced(given.value, default)
@@ -219,7 +243,7 @@ class ParameterServer:
             except ValueError as error:
                 raise ConfigurationError(f"The parameter '{name}' {error}.") from error
             # rclpy does not accept integers for floating-point numbers; parameter files mix them.
-            self._node._parameter_overrides[name] = typed_parameter(name, value, default)
+            self.given[name] = typed_parameter(name, value, default)
         descriptor = ParameterDescriptor(
             name=name, description=spec.description, read_only=spec.read_only, dynamic_typing=True
         )
