@@ -3,12 +3,43 @@
 
 from __future__ import annotations
 
+from rclpy.clock import ROSClock
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.time_source import TimeSource
 
 __all__ = ['SharedClock']
+
+
+class _SharedSource(TimeSource):
+    """Time source whose clocks change while another thread sets them: in a new set each time."""
+
+    def attach_clock(self, clock: ROSClock) -> None:
+        """
+        Set a clock from now on.
+
+        Parameters
+        ----------
+        clock
+            The clock.
+
+        """
+        clock.set_ros_time_override(self._last_time_set)
+        clock._set_ros_time_is_active(True)
+        self._associated_clocks = self._associated_clocks | {clock}
+
+    def detach_clock(self, clock: ROSClock) -> None:
+        """
+        Set a clock no longer.
+
+        Parameters
+        ----------
+        clock
+            The clock; nothing happens if it was not attached.
+
+        """
+        self._associated_clocks = self._associated_clocks - {clock}
 
 
 class SharedClock:
@@ -26,7 +57,8 @@ class SharedClock:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._node: Node | None = None
+        self._listener: Node | None = None
+        self._source = _SharedSource()
 
     def take(self, node: Node) -> Node | None:
         """
@@ -43,12 +75,11 @@ class SharedClock:
             The node with the subscription, if it was just created; spin it with the others.
 
         """
-        source: TimeSource = node._time_source
-        if not source.ros_time_is_active:
+        if not _source_of(node).ros_time_is_active:
             return None
         made = None
-        if self._node is None:
-            made = self._node = Node(
+        if self._listener is None:
+            made = self._listener = Node(
                 'clock_listener',
                 namespace=node.get_namespace(),
                 context=self._context,
@@ -57,13 +88,9 @@ class SharedClock:
                 start_parameter_services=False,
                 parameter_overrides=[Parameter('use_sim_time', value=True)],
             )
-        source.detach_node()
-        shared: TimeSource = self._node._time_source
-        for clock in source._associated_clocks:
-            clock.set_ros_time_override(shared._last_time_set)
-            clock._set_ros_time_is_active(True)
-        # A new set: another thread may be iterating over the old one.
-        shared._associated_clocks = shared._associated_clocks | source._associated_clocks
+            self._share_with(made)
+            self._source.attach_node(made)
+        self._share_with(node)
         return made
 
     def release(self, node: Node) -> None:
@@ -76,7 +103,15 @@ class SharedClock:
             A node that was passed to `take`.
 
         """
-        if self._node is not None:
-            shared: TimeSource = self._node._time_source
-            ended = node._time_source._associated_clocks
-            shared._associated_clocks = shared._associated_clocks - ended
+        self._source.detach_clock(node.get_clock())
+
+    def _share_with(self, node: Node) -> None:
+        """Set the clock of a node from the shared source instead of its own."""
+        _source_of(node).detach_node()
+        self._source.attach_clock(node.get_clock())
+
+
+def _source_of(node: Node) -> TimeSource:
+    """Return what sets the clock of a node; rclpy has no public name for it."""
+    source: TimeSource = node._time_source
+    return source
