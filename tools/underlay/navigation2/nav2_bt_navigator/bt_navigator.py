@@ -5,21 +5,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from nav2_behavior_tree.odometry import OdometrySmoother
-from nav2_behavior_tree.ros_interface import RosInterface
-from nav2_bt_navigator.navigate_through_poses import NavigateThroughPosesNavigator
-from nav2_bt_navigator.navigate_to_pose import NavigateToPoseNavigator
+from nav2_bt_navigator.navigation_node import NavigationNode
 from nav2_bt_navigator.navigator import Navigator
-from nav2_bt_navigator.parameters import BtNavigatorParameters, UNSUPPORTED
-from nav2_bt_navigator.tree_files import TreeFiles
-from nav2_bt_navigator.tree_log import TreeLog
-from nav2_util import ConfigurationError, LifecycleNode
-from nav2_util.odometry import subscribe_velocity
+from nav2_bt_navigator.parameters import UNSUPPORTED
+from nav2_bt_navigator.pose_navigators import (
+    NavigateThroughPosesNavigator,
+    NavigateToPoseNavigator,
+)
+from nav2_util import ConfigurationError
 from nav2_util.plugins import did_you_mean
-from nav2_util.qos import LATCHED
-from nav2_util.twist import Velocity
-from rclpy.qos import qos_profile_sensor_data
-from std_msgs.msg import String
 
 __all__ = ['NAVIGATORS', 'BtNavigator']
 
@@ -35,7 +29,7 @@ _USUAL = {
 }
 
 
-class BtNavigator(LifecycleNode):
+class BtNavigator(NavigationNode):
     """
     Node that offers the actions `navigate_to_pose` and `navigate_through_poses`.
 
@@ -53,33 +47,11 @@ class BtNavigator(LifecycleNode):
     def __init__(self, node_name: str = 'bt_navigator', **options: Any) -> None:
         super().__init__(node_name, **options)
         self.navigators: list[Navigator] = []
-        self.files = TreeFiles()
-        self.inhibition = ''
-        """Why navigation is inhibited; empty if it is not."""
 
     def configure(self) -> None:
         """Create the navigators and their default trees."""
-        self.settings = self.parameters.declare(BtNavigatorParameters)
-        self.parameters.declare_unsupported(UNSUPPORTED)
-        settings = self.settings.current
-        self._odometry = OdometrySmoother(settings.filter_duration)
-        self.ros = RosInterface(
-            self,
-            self._odometry,
-            global_frame=settings.global_frame,
-            robot_base_frame=settings.robot_base_frame,
-            server_timeout_s=1e-3 * settings.default_server_timeout,
-            wait_for_service_timeout_s=1e-3 * settings.wait_for_service_timeout,
-            transform_tolerance_s=settings.transform_tolerance,
-        )
-        self.log = TreeLog(self)
-        subscribe_velocity(self, settings.odom_topic, self._keep_odometry, qos_profile_sensor_data)
-        if settings.inhibit_topic:
-            self.create_subscription(
-                String, settings.inhibit_topic, self._keep_inhibition, LATCHED
-            )
-        _ = self.transforms
-        for name in settings.navigators:
+        super().configure()
+        for name in self.settings.current.navigators:
             self.navigators.append(self._make_navigator(name))
 
     def deactivate(self) -> None:
@@ -92,8 +64,7 @@ class BtNavigator(LifecycleNode):
         for navigator in self.navigators:
             navigator.close()
         self.navigators.clear()
-        if hasattr(self, 'ros'):
-            self.ros.close()
+        super().cleanup()
 
     def _make_navigator(self, name: str) -> Navigator:
         self.parameters.declare_unsupported(UNSUPPORTED, name)
@@ -109,9 +80,3 @@ class BtNavigator(LifecycleNode):
             meant = did_you_mean(plugin, NAVIGATORS, 0.6)
             raise ConfigurationError(f"There is no navigator of the type '{plugin}'.{meant}")
         return kind(self, name)
-
-    def _keep_inhibition(self, message: String) -> None:
-        self.inhibition = message.data
-
-    def _keep_odometry(self, stamp_s: float, velocity: Velocity) -> None:
-        self._odometry.add(stamp_s, velocity.x, velocity.yaw)

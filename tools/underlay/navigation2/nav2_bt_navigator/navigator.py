@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, TYPE_CHECKING
+from typing import Any, ClassVar
 
 from geometry_msgs.msg import PoseStamped
 from nav2_behavior_tree import BehaviorTree, NodeStatus, TreeError
+from nav2_bt_navigator.navigation_node import NavigationNode
 from nav2_bt_navigator.outcome import failure_reason
 from nav2_bt_navigator.progress import PathProgress, time_left_s
 from nav2_bt_navigator.tree_files import find_tree_file
@@ -17,9 +18,6 @@ from nav2_util.services import wait_for
 from nav2_util.timing import steady_clock
 from rclpy.duration import Duration
 from rclpy.task import Future
-
-if TYPE_CHECKING:
-    from nav2_bt_navigator.bt_navigator import BtNavigator
 
 __all__ = ['Navigator']
 
@@ -58,7 +56,7 @@ class Navigator:
     first_code: ClassVar[int]
     """The first of five error codes: unknown, bad tree, no transform, timeout, bad goal."""
 
-    def __init__(self, node: BtNavigator, name: str) -> None:
+    def __init__(self, node: NavigationNode, name: str) -> None:
         self.node, self.name = node, name
         self._progress = PathProgress()
         self._run: _Run | None = None
@@ -138,8 +136,8 @@ class Navigator:
         return BehaviorTree(document, self.node.ros.now_s, self.node.ros)
 
     def _check_goal(self, goal: Any) -> str | None:
-        for other in self.node.navigators:
-            if other is not self and other.server.is_running:
+        for other in self.node.action_servers:
+            if other is not self.server and other.is_running:
                 return f"'{other.name}' is running; cancel it first"
         return None
 

@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The navigator for `navigate_to_pose`, and for goals from the topic `goal_pose`."""
+"""The navigators for `navigate_to_pose`, also from `goal_pose`, and `navigate_through_poses`."""
 
 from __future__ import annotations
 
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from geometry_msgs.msg import PoseStamped
 from nav2_behavior_tree.ros_interface import SYSTEM_DEFAULT
+from nav2_bt_navigator.navigation_node import NavigationNode
 from nav2_bt_navigator.navigator import Navigator
-from nav2_msgs.action import NavigateToPose
+from nav2_msgs.action import NavigateThroughPoses, NavigateToPose
 from rclpy.action import ActionClient
 
-if TYPE_CHECKING:
-    from nav2_bt_navigator.bt_navigator import BtNavigator
-
-__all__ = ['NavigateToPoseNavigator']
+__all__ = ['NavigateThroughPosesNavigator', 'NavigateToPoseNavigator']
 
 
 class NavigateToPoseNavigator(Navigator):
@@ -38,7 +36,7 @@ class NavigateToPoseNavigator(Navigator):
     file_parameter = 'default_nav_to_pose_bt_xml'
     first_code = 9000
 
-    def __init__(self, node: BtNavigator, name: str) -> None:
+    def __init__(self, node: NavigationNode, name: str) -> None:
         super().__init__(node, name)
         self._client = ActionClient(node, NavigateToPose, name)
         node.create_subscription(PoseStamped, 'goal_pose', self._go, SYSTEM_DEFAULT)
@@ -74,3 +72,49 @@ class NavigateToPoseNavigator(Navigator):
 
         """
         blackboard.set(self.node.settings.current.goal_blackboard_id, poses[0])
+
+
+class NavigateThroughPosesNavigator(Navigator):
+    """Navigator that offers `navigate_through_poses`."""
+
+    action = NavigateThroughPoses
+    default_file = 'navigate_through_poses_w_replanning_and_recovery.xml'
+    file_parameter = 'default_nav_through_poses_bt_xml'
+    first_code = 9100
+
+    def goals_of(self, goal: Any) -> list[PoseStamped]:
+        """
+        Return the poses of a goal.
+
+        Parameters
+        ----------
+        goal
+            A goal of `nav2_msgs/NavigateThroughPoses`.
+
+        """
+        return list(goal.poses)
+
+    def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
+        """
+        Write the poses to the entry `goals_blackboard_id`.
+
+        Parameters
+        ----------
+        blackboard, poses
+            As for `Navigator.write_goal`.
+
+        """
+        blackboard.set(self.node.settings.current.goals_blackboard_id, poses)
+
+    def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
+        """
+        Fill in the number of remaining poses.
+
+        Parameters
+        ----------
+        feedback, blackboard
+            As for `Navigator.fill_feedback`.
+
+        """
+        goals = blackboard.get(self.node.settings.current.goals_blackboard_id, [])
+        feedback.number_of_poses_remaining = len(goals)
