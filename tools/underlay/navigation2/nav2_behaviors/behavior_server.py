@@ -1,53 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that offers the behaviours as actions."""
+"""The node that offers the behaviours as actions, and their official types."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
-from nav2_behaviors.collision_checker import CollisionChecker
-from nav2_behaviors.plugins import behavior_type, DEFAULT_TYPES
+from nav2_behaviors.assisted_teleop import AssistedTeleop
+from nav2_behaviors.behavior_node import BehaviorNode, BehaviorServerParameters, DEFAULT_TYPES
+from nav2_behaviors.drive_on_heading import BackUp, DriveOnHeading
+from nav2_behaviors.spin import Spin
 from nav2_behaviors.timed_behavior import TimedBehavior
-from nav2_util import ConfigurationError, LifecycleNode, parameter, ParameterSet
-from nav2_util.twist import TwistPublisher, Velocity
+from nav2_behaviors.wait import Wait
+from nav2_util import ConfigurationError
+from nav2_util.plugins import did_you_mean
+from nav2_util.twist import Velocity
 
-__all__ = ['BehaviorServer', 'BehaviorServerParameters']
+__all__ = ['BehaviorServer', 'behavior_types']
 
-
-@dataclass(frozen=True)
-class BehaviorServerParameters:
-    """The parameters of the behaviour server."""
-
-    behavior_plugins: list[str] = parameter(
-        list(DEFAULT_TYPES), 'The names of the behaviours, and of their actions.'
-    )
-    cycle_frequency: float = parameter(10.0, 'Cycles of a behaviour a second.', low=0.1, high=1000)
-    local_costmap_topic: str = parameter(
-        'local_costmap/costmap_raw', 'Where the costmap around the robot comes from.'
-    )
-    global_costmap_topic: str = parameter(
-        'global_costmap/costmap_raw', 'Where the costmap of the whole map comes from.'
-    )
-    local_footprint_topic: str = parameter(
-        'local_costmap/published_footprint',
-        'Where the footprint for the local costmap comes from.',
-    )
-    global_footprint_topic: str = parameter(
-        'global_costmap/published_footprint', 'Where that for the global costmap comes from.'
-    )
-    local_frame: str = parameter('odom', 'The frame in which the robot moves smoothly.')
-    global_frame: str = parameter('map', 'The frame of the map.')
-    robot_base_frame: str = parameter('base_link', 'The frame of the robot.')
-    transform_tolerance: float = parameter(
-        0.1, "How much older than 1 s the robot's pose may be (s).", low=0.0
-    )
-    enable_stamped_cmd_vel: bool = parameter(
-        False, 'Whether velocities are TwistStamped instead of Twist.', read_only=True
-    )
+behavior_types: dict[str, type[TimedBehavior]] = {
+    'nav2_behaviors::Spin': Spin,
+    'nav2_behaviors::BackUp': BackUp,
+    'nav2_behaviors::DriveOnHeading': DriveOnHeading,
+    'nav2_behaviors::AssistedTeleop': AssistedTeleop,
+    'nav2_behaviors::Wait': Wait,
+}
+"""Registry of behaviour types; add a class here to offer a custom behaviour."""
 
 
-class BehaviorServer(LifecycleNode):
+class BehaviorServer(BehaviorNode):
     """
     Behaviour server; by default spin, backup, drive_on_heading, assisted_teleop and wait.
 
@@ -60,35 +40,22 @@ class BehaviorServer(LifecycleNode):
 
     def __init__(self, node_name: str = 'behavior_server', **options: Any) -> None:
         super().__init__(node_name, **options)
-        self.told: ParameterSet[BehaviorServerParameters]
-        """The parameters of the server."""
-        self.velocities: TwistPublisher
-        """Publisher for `cmd_vel`."""
         self.behaviors: dict[str, TimedBehavior] = {}
-        self._global_checker: CollisionChecker | None = None
 
     def configure(self) -> None:
         """Read the parameters; create the behaviours and their shared resources."""
-        self.told = self.parameters.declare(BehaviorServerParameters)
-        told = self.told.current
-        names = told.behavior_plugins
+        names = self.parameters.declare(BehaviorServerParameters).current.behavior_plugins
         if not names or len(set(names)) < len(names):
             raise ConfigurationError(
                 "The parameter 'behavior_plugins' has to name at least one behaviour, and each "
                 f'once; it is {names}.'
             )
-        self.velocities = TwistPublisher(
-            self, 'cmd_vel', told.enable_stamped_cmd_vel, told.robot_base_frame
-        )
-        self.local_checker = CollisionChecker(
-            self, told.local_costmap_topic, told.local_footprint_topic, told.robot_base_frame
-        )
-        _ = self.transforms  # subscribes from now on
+        super().configure()
         for name in names:
             kind = self.parameters.declare_value(
                 f'{name}.plugin', DEFAULT_TYPES.get(name, ''), 'The type of the behaviour.'
             )
-            self.behaviors[name] = behavior_type(name, kind)(self, name)
+            self.behaviors[name] = _behavior_type(name, kind)(self, name)
 
     def deactivate(self) -> None:
         """Stop the robot if a behaviour is moving it."""
@@ -97,14 +64,37 @@ class BehaviorServer(LifecycleNode):
 
     def cleanup(self) -> None:
         """Release the behaviours."""
-        self.behaviors, self._global_checker = {}, None
+        self.behaviors = {}
+        super().cleanup()
 
-    @property
-    def global_checker(self) -> CollisionChecker:
-        """Get the global costmap's checker, which subscribes when a behaviour first needs it."""
-        if self._global_checker is None:
-            told = self.told.current
-            self._global_checker = CollisionChecker(
-                self, told.global_costmap_topic, told.global_footprint_topic, told.robot_base_frame
-            )
-        return self._global_checker
+
+def _behavior_type(behavior: str, name: str) -> type[TimedBehavior]:
+    """
+    Look up the class of a behaviour.
+
+    Parameters
+    ----------
+    behavior
+        The name of the behaviour.
+    name
+        Its type, as `nav2_behaviors::Spin` or `nav2_behaviors/Spin`.
+
+    Raises
+    ------
+    ConfigurationError
+        There is no such type.
+
+    """
+    official = name.replace('/', '::')
+    if official in behavior_types:
+        return behavior_types[official]
+    if not name:
+        raise ConfigurationError(
+            f"The behaviour '{behavior}' has no type: set the parameter '{behavior}.plugin', as "
+            "'nav2_behaviors::Spin'."
+        )
+    advice = did_you_mean(official, behavior_types, 0.6)
+    raise ConfigurationError(
+        f"The parameter '{behavior}.plugin' is '{name}', which is none of the types "
+        f'{", ".join(behavior_types)}.{advice}'
+    )

@@ -6,18 +6,16 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 import math
-from typing import Any, ClassVar, TYPE_CHECKING
+from typing import Any, ClassVar
 
 from builtin_interfaces.msg import Duration
+from nav2_behaviors.behavior_node import BehaviorNode
 from nav2_behaviors.collision_checker import CannotCheck
 from nav2_util import ActionAborted, ActionServer, parameter, Pose2D, Rate, TransformError
 from nav2_util.timing import now_s
 from nav2_util.twist import Velocity
 import numpy as np
 import numpy.typing as npt
-
-if TYPE_CHECKING:
-    from nav2_behaviors.behavior_server import BehaviorServer
 
 __all__ = ['LookAheadParameters', 'TimedBehavior', 'duration_message', 'seconds']
 
@@ -52,7 +50,7 @@ class TimedBehavior(ABC):
 
     action: ClassVar[Any]
 
-    def __init__(self, node: BehaviorServer, name: str) -> None:
+    def __init__(self, node: BehaviorNode, name: str) -> None:
         self.node, self.name = node, name
         self.configure()
         self.server: ActionServer = node.offer_action(self.action, name, self._work)
