@@ -141,7 +141,7 @@ class ControllerServer(LifecycleNode):
 
     def _older_name(self, name: str, names: list[str]) -> list[str]:
         """Return plugin names, or the one from a deprecated parameter if that is set."""
-        if name not in self._parameter_overrides:
+        if name not in self.parameters.given:
             return names
         return [str(self.parameters.declare_value(name, names[0], 'The name of one checker.'))]
 

@@ -50,7 +50,7 @@ class Costmap2DROS(LifecycleNode):
         self.is_current = False
         """Whether all layers have current data, and the robot's pose is available."""
         self._settings = ParameterSet(CostmapParameters())
-        self._robot = Robot(self, self._take_shape)
+        self._robot = Robot(self, self._settings, self._take_shape)
         self._costmap = LayeredCostmap(Costmap2D(0, 0, 0.1, 0.0, 0.0), FREE_SPACE, False)
         self._sized_by: Layer | None = None
         self._publisher: CostmapPublisher | None = None
@@ -122,9 +122,7 @@ class Costmap2DROS(LifecycleNode):
             It is not available, or older than `transform_tolerance`.
 
         """
-        return self.transforms.pose_of(
-            self.base_frame, self.global_frame, not_older_s=self.settings.transform_tolerance
-        )
+        return self._robot.pose()
 
     def checker(self) -> FootprintCollisionChecker:
         """Make a collision checker for the newest costmap."""
@@ -154,7 +152,7 @@ class Costmap2DROS(LifecycleNode):
         if self._publisher is not None:
             self._publisher.add(region)
             if robot is not None:
-                self._publisher.publish_footprint(robot)
+                self._publisher.publish_footprint(robot, self.footprint)
 
     def touch(self) -> None:
         """Mark the whole costmap for the next update."""
@@ -201,6 +199,7 @@ class Costmap2DROS(LifecycleNode):
         self._settings.on_change = self._change
         self.parameters.declare_unsupported(UNSUPPORTED)
         explain_unused(self, {*self.settings.plugins, *self.settings.filters})
+        self._robot = Robot(self, self._settings, self._take_shape)
         self._robot.set_shape(footprint_of(self.settings))
         default = NO_INFORMATION if self.tracks_unknown else FREE_SPACE
         grid = grid_of(self.settings, default)
@@ -209,7 +208,7 @@ class Costmap2DROS(LifecycleNode):
         self._costmap.filters += [
             make_plugin(self, name) for name in self.settings.filters if name
         ]
-        self._publisher = CostmapPublisher(self, self._costmap.layers)
+        self._publisher = CostmapPublisher(self, self._settings, self._costmap.layers, self.grid)
         CostmapServices(self)
         self._robot.listen()
 

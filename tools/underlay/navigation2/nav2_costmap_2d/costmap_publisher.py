@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from geometry_msgs.msg import PolygonStamped
 from map_msgs.msg import OccupancyGridUpdate
@@ -16,18 +16,18 @@ from nav2_costmap_2d.costmap_messages import (
     make_grid_update,
     make_polygon,
 )
+from nav2_costmap_2d.costmap_parameters import CostmapParameters
 from nav2_costmap_2d.footprint import transformed
-from nav2_costmap_2d.grid import Costmap2D
+from nav2_costmap_2d.grid import Costmap2D, FloatArray
 from nav2_costmap_2d.layers import Layer, Region
 from nav2_msgs.msg import Costmap, CostmapUpdate
 from nav2_util.geometry import Pose2D
+from nav2_util.lifecycle_node import LifecycleNode
+from nav2_util.parameters import ParameterSet
 from nav2_util.qos import LATCHED
 from nav_msgs.msg import OccupancyGrid
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import QoSProfile
-
-if TYPE_CHECKING:
-    from nav2_costmap_2d.costmap_node import Costmap2DROS
 
 __all__ = ['CostmapPublisher']
 
@@ -37,7 +37,7 @@ class _Topic:
 
     def __init__(
         self,
-        node: Costmap2DROS,
+        node: LifecycleNode,
         name: str,
         kinds: tuple[Any, Any | None],
         make: Callable[[Costmap2D], Any],
@@ -81,19 +81,29 @@ class CostmapPublisher:
     ----------
     node
         The costmap's node.
+    settings
+        Its parameters.
     layers
         The layers.
+    grid
+        The costmap, for its size.
 
     """
 
-    def __init__(self, node: Costmap2DROS, layers: Sequence[Layer]) -> None:
-        self._node = node
+    def __init__(
+        self,
+        node: LifecycleNode,
+        settings: ParameterSet[CostmapParameters],
+        layers: Sequence[Layer],
+        grid: Costmap2D,
+    ) -> None:
+        self._node, self._settings = node, settings
         kinds = (OccupancyGridUpdate, CostmapUpdate)
         self._topics = self._make_topics('costmap', 'master', kinds)
         self._layers = [
             (layer, self._make_topics(layer.name, layer.name, (None, None)))
             for layer in layers
-            if layer.costs(node.grid) is not None
+            if layer.costs(grid) is not None
         ]
         self._footprint = node.create_publisher(
             PolygonStamped, 'published_footprint', QoSProfile(depth=1)
@@ -109,7 +119,7 @@ class CostmapPublisher:
                 node,
                 topic,
                 (OccupancyGrid, kinds[0]),
-                lambda grid: make_grid(grid, *self._header(), node.settings.map_vis_z),
+                lambda grid: make_grid(grid, *self._header(), self._settings.current.map_vis_z),
                 lambda grid, region: make_grid_update(grid, region, *self._header()),
             ),
             _Topic(
@@ -144,7 +154,7 @@ class CostmapPublisher:
 
         """
         place = (grid.cells.shape, grid.resolution, grid.origin_x, grid.origin_y)
-        is_whole = place != self._place or self._node.settings.always_send_full_costmap
+        is_whole = place != self._place or self._settings.current.always_send_full_costmap
         if place != self._place:
             self._place, self._region = place, Region.whole(grid)
         region = None if self._region is None else self._region.clipped(grid)
@@ -155,7 +165,7 @@ class CostmapPublisher:
                 topic.publish(partial(layer.costs, grid), region, is_whole)
         self._region = None
 
-    def publish_footprint(self, robot: Pose2D) -> None:
+    def publish_footprint(self, robot: Pose2D, corners: FloatArray) -> None:
         """
         Publish the footprint of the robot in the frame of the costmap.
 
@@ -163,13 +173,15 @@ class CostmapPublisher:
         ----------
         robot
             The pose of the robot in that frame.
+        corners
+            The (N, 2) footprint in the frame of the robot, in m.
 
         """
         if not self._footprint.get_subscription_count():
             return
-        message = PolygonStamped(polygon=make_polygon(transformed(self._node.footprint, *robot)))
+        message = PolygonStamped(polygon=make_polygon(transformed(corners, *robot)))
         message.header.frame_id, message.header.stamp = self._header()
         self._footprint.publish(message)
 
     def _header(self) -> tuple[str, Any]:
-        return self._node.global_frame, self._node.get_clock().now().to_msg()
+        return self._settings.current.global_frame, self._node.get_clock().now().to_msg()

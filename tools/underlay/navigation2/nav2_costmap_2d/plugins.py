@@ -4,14 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import TYPE_CHECKING
 
 from nav2_costmap_2d.layers import Layer
 from nav2_util.errors import ConfigurationError
+from nav2_util.lifecycle_node import LifecycleNode
 from nav2_util.plugins import find_plugin
-
-if TYPE_CHECKING:
-    from nav2_costmap_2d.costmap_node import Costmap2DROS
 
 __all__ = ['PLUGINS', 'explain_unused', 'make_plugin']
 
@@ -35,7 +32,7 @@ _DEFAULT_TYPES = {
 }
 
 
-def make_plugin(node: Costmap2DROS, name: str) -> Layer:
+def make_plugin(node: LifecycleNode, name: str) -> Layer:
     """
     Make a layer or a filter.
 
@@ -64,7 +61,7 @@ def make_plugin(node: Costmap2DROS, name: str) -> Layer:
     return layer
 
 
-def explain_unused(node: Costmap2DROS, used: Collection[str]) -> None:
+def explain_unused(node: LifecycleNode, used: Collection[str]) -> None:
     """
     Warn about parameters of unused layers, and state why they have no effect.
 

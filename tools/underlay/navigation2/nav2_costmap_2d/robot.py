@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from geometry_msgs.msg import Polygon, PolygonStamped
 from nav2_costmap_2d.costmap_messages import corners_of
+from nav2_costmap_2d.costmap_parameters import CostmapParameters
 from nav2_costmap_2d.footprint import Footprint
 from nav2_util.geometry import Pose2D
+from nav2_util.lifecycle_node import LifecycleNode
+from nav2_util.parameters import ParameterSet
 from nav2_util.timing import now_s
 from nav2_util.transforms import TransformError
 import numpy as np
-
-if TYPE_CHECKING:
-    from nav2_costmap_2d.costmap_node import Costmap2DROS
 
 __all__ = ['Robot']
 
@@ -30,13 +29,20 @@ class Robot:
     ----------
     node
         The costmap's node.
+    settings
+        Its parameters.
     on_change
         Callback with a new footprint.
 
     """
 
-    def __init__(self, node: Costmap2DROS, on_change: Callable[[Footprint], None]) -> None:
-        self._node, self._on_change = node, on_change
+    def __init__(
+        self,
+        node: LifecycleNode,
+        settings: ParameterSet[CostmapParameters],
+        on_change: Callable[[Footprint], None],
+    ) -> None:
+        self._node, self._settings, self._on_change = node, settings, on_change
         self._started_s = 0.0
         self._is_known = False
         self.shape = Footprint.of_radius(0.1)
@@ -44,7 +50,7 @@ class Robot:
 
     def listen(self) -> None:
         """Subscribe to the topic `footprint`."""
-        if self._node.settings.subscribe_to_stamped_footprint:
+        if self._settings.current.subscribe_to_stamped_footprint:
             self._node.create_subscription(
                 PolygonStamped, 'footprint', lambda stamped: self._take(stamped.polygon), 10
             )
@@ -74,14 +80,31 @@ class Robot:
         """Start waiting for the first pose."""
         self._started_s, self._is_known = now_s(self._node), False
 
+    def pose(self) -> Pose2D:
+        """
+        Look up the pose of the robot in the frame of the costmap.
+
+        Raises
+        ------
+        TransformError
+            It is not available, or older than `transform_tolerance`.
+
+        """
+        settings = self._settings.current
+        return self._node.transforms.pose_of(
+            settings.robot_base_frame,
+            settings.global_frame,
+            not_older_s=settings.transform_tolerance,
+        )
+
     def find(self) -> Pose2D | None:
-        """Look up the pose of the robot in the frame of the costmap; log if it is unavailable."""
+        """Look up the pose as `pose` does; log if it is unavailable."""
         try:
-            pose = self._node.robot_pose()
+            pose = self.pose()
         except TransformError as error:
             waited_s = now_s(self._node) - self._started_s
             log = self._node.get_logger()
-            if self._is_known or waited_s > self._node.settings.initial_transform_timeout:
+            if self._is_known or waited_s > self._settings.current.initial_transform_timeout:
                 log.error(str(error), throttle_duration_sec=_QUIET_S)
             else:
                 log.info(f'Waiting: {error}', throttle_duration_sec=_QUIET_S)
@@ -97,4 +120,4 @@ class Robot:
                 'used.'
             )
             return
-        self.set_shape(Footprint.of_points(points, self._node.settings.footprint_padding))
+        self.set_shape(Footprint.of_points(points, self._settings.current.footprint_padding))
