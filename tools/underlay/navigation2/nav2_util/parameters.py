@@ -9,7 +9,6 @@ from typing import Any, Generic, TYPE_CHECKING, TypeVar
 
 from nav2_util.errors import ConfigurationError
 from nav2_util.parameter_values import check_limits, coerced, Spec, typed_parameter
-from nav2_util.plugins import did_you_mean
 from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
@@ -18,6 +17,7 @@ from rcl_interfaces.msg import (
 )
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.parameter import Parameter
+from ros_environment.suggestions import did_you_mean
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -226,11 +226,11 @@ class ParameterServer:
             if name in self._unsupported:
                 log.warning(f"The parameter '{name}' has no effect: {self._unsupported[name]}.")
             elif not name.startswith('qos_overrides.'):
-                log.warning(f"There is no parameter '{name}'.{self._advice(name)}")
+                log.warning(f"There is no parameter '{name}'. {self._advice(name)}")
 
     def _advice(self, name: str) -> str:
         known = [*self._node.list_parameters([], 0).names, *self._unsupported]
-        return did_you_mean(name, known, 0.75) or ' It has no effect.'
+        return did_you_mean(name, known, 0.75, ignore_case=True) or 'It has no effect.'
 
     def _declare_one(self, name: str, default: Any, spec: Spec) -> Any:
         if self._node.has_parameter(name):
