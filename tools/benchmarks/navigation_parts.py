@@ -23,7 +23,7 @@ from nav2_controller.surroundings import Surroundings
 from nav2_controller.tracking import PlanTracker
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_costmap_2d.inflation import Inflation
-from nav2_costmap_2d.layers import Region
+from nav2_costmap_2d.regions import Region
 from nav2_msgs.action import ComputePathToPose
 from nav2_planner.global_planner import GlobalPlanner, PLANNERS
 from nav2_planner.turns import finish

@@ -10,7 +10,8 @@ from typing import Any, TYPE_CHECKING
 from nav2_costmap_2d.costs import LETHAL_OBSTACLE, NO_INFORMATION
 from nav2_costmap_2d.footprint import transformed
 from nav2_costmap_2d.grid import CellArray, Costmap2D
-from nav2_costmap_2d.layers import Layer, Region, write_maximum
+from nav2_costmap_2d.layers import Layer
+from nav2_costmap_2d.regions import Region, write_maximum
 from nav2_msgs.msg import CostmapFilterInfo, SpeedLimit
 from nav2_util.errors import ConfigurationError
 from nav2_util.geometry import planar_pose, Pose2D

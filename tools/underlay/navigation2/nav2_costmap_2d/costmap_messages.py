@@ -10,7 +10,7 @@ from geometry_msgs.msg import Point32, Polygon
 from map_msgs.msg import OccupancyGridUpdate
 from nav2_costmap_2d.costs import occupancy_of
 from nav2_costmap_2d.grid import Costmap2D, FloatArray
-from nav2_costmap_2d.layers import Region
+from nav2_costmap_2d.regions import Region
 from nav2_msgs.msg import Costmap, CostmapUpdate
 from nav_msgs.msg import OccupancyGrid
 import numpy as np

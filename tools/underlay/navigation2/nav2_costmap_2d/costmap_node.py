@@ -17,8 +17,9 @@ from nav2_costmap_2d.costmap_services import CostmapServices
 from nav2_costmap_2d.costs import FREE_SPACE, NO_INFORMATION
 from nav2_costmap_2d.footprint import Footprint, FootprintCollisionChecker
 from nav2_costmap_2d.grid import Costmap2D, FloatArray
-from nav2_costmap_2d.layers import Layer, LayeredCostmap, Region
+from nav2_costmap_2d.layers import Layer, LayeredCostmap
 from nav2_costmap_2d.plugins import explain_unused, make_plugin
+from nav2_costmap_2d.regions import Region
 from nav2_costmap_2d.robot import Robot
 from nav2_util.errors import ConfigurationError
 from nav2_util.geometry import Pose2D

@@ -19,7 +19,8 @@ from nav2_costmap_2d.costmap_messages import (
 from nav2_costmap_2d.costmap_parameters import CostmapParameters
 from nav2_costmap_2d.footprint import transformed
 from nav2_costmap_2d.grid import Costmap2D, FloatArray
-from nav2_costmap_2d.layers import Layer, Region
+from nav2_costmap_2d.layers import Layer
+from nav2_costmap_2d.regions import Region
 from nav2_msgs.msg import Costmap, CostmapUpdate
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode

@@ -8,7 +8,7 @@ from typing import Any, TYPE_CHECKING
 from nav2_costmap_2d.costmap_messages import make_costmap_message
 from nav2_costmap_2d.footprint import FootprintCollisionChecker
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_costmap_2d.layers import Region
+from nav2_costmap_2d.regions import Region
 from nav2_msgs.srv import (
     ClearCostmapAroundPose,
     ClearCostmapAroundRobot,

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import cv2
 from nav2_costmap_2d.costs import FREE_SPACE, LETHAL_OBSTACLE
 from nav2_costmap_2d.grid import CellArray, Costmap2D
-from nav2_costmap_2d.layers import Layer, Region
+from nav2_costmap_2d.layers import Layer
+from nav2_costmap_2d.regions import Region
 from nav2_util.parameters import parameter
 import numpy as np
 

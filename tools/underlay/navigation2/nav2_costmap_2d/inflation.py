@@ -15,7 +15,7 @@ from nav2_costmap_2d.costs import (
     NO_INFORMATION,
 )
 from nav2_costmap_2d.grid import CellArray, Costmap2D
-from nav2_costmap_2d.layers import Region
+from nav2_costmap_2d.regions import Region
 import numpy as np
 
 __all__ = ['Inflation', 'decayed_cost']

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from nav2_costmap_2d.footprint import Footprint
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_costmap_2d.inflation import Inflation
-from nav2_costmap_2d.layers import Layer, Region
+from nav2_costmap_2d.layers import Layer
+from nav2_costmap_2d.regions import Region
 from nav2_util.parameters import parameter
 
 if TYPE_CHECKING:

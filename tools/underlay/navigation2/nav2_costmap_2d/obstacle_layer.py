@@ -9,9 +9,10 @@ from typing import Any, TYPE_CHECKING
 from nav2_costmap_2d.costs import FREE_SPACE, NO_INFORMATION
 from nav2_costmap_2d.footprint import fill_polygon, transformed
 from nav2_costmap_2d.grid import CellArray, Costmap2D
-from nav2_costmap_2d.layers import forget_cells, Layer, Region, write_maximum, write_over
+from nav2_costmap_2d.layers import Layer
 from nav2_costmap_2d.observation_source import ObservationSource
 from nav2_costmap_2d.raytracing import clear_rays, mark_points
+from nav2_costmap_2d.regions import forget_cells, Region, write_maximum, write_over
 from nav2_util.geometry import Pose2D
 from nav2_util.parameters import parameter
 import numpy as np

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from nav2_costmap_2d.costs import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION
 from nav2_costmap_2d.grid import CellArray, Costmap2D, shift_cells
-from nav2_costmap_2d.layers import Layer, Region, write_maximum
+from nav2_costmap_2d.layers import Layer
+from nav2_costmap_2d.regions import Region, write_maximum
 from nav2_costmap_2d.sensor_messages import rotation_of
 from nav2_util.geometry import Pose2D
 from nav2_util.parameters import parameter

@@ -11,7 +11,8 @@ from map_msgs.msg import OccupancyGridUpdate
 from nav2_costmap_2d.costs import cost_table, FREE_SPACE, NO_INFORMATION
 from nav2_costmap_2d.footprint import fill_polygon, transformed
 from nav2_costmap_2d.grid import CellArray, Costmap2D, FloatArray
-from nav2_costmap_2d.layers import Layer, Region, write_maximum
+from nav2_costmap_2d.layers import Layer
+from nav2_costmap_2d.regions import Region, write_maximum
 from nav2_util.geometry import planar_pose, Pose2D
 from nav2_util.parameters import parameter
 from nav2_util.transforms import TransformError

@@ -26,15 +26,9 @@ from nav2_costmap_2d.footprint import (
 )
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_costmap_2d.inflation import decayed_cost, Inflation
-from nav2_costmap_2d.layers import (
-    forget_cells,
-    Layer,
-    LayeredCostmap,
-    Region,
-    write_maximum,
-    write_over,
-)
+from nav2_costmap_2d.layers import Layer, LayeredCostmap
 from nav2_costmap_2d.raytracing import clear_rays, mark_points, Observation
+from nav2_costmap_2d.regions import forget_cells, Region, write_maximum, write_over
 from nav2_costmap_2d.sensor_messages import rotation_of, scan_points
 from nav2_util.geometry import Pose2D
 import numpy as np
