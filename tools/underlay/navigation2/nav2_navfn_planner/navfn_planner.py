@@ -7,8 +7,9 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from nav2_costmap_2d.costmap_node import Costmap2DROS
-from nav2_planner.global_planner import GlobalPlanner, poses_along, Rounding
+from nav2_planner.global_planner import GlobalPlanner, poses_along
 from nav2_planner.grid_planner import GridPlanner
+from nav2_planner.path_shape import Rounding
 from nav2_planner.route import SearchOptions, weight_table
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode

@@ -4,17 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import dataclass
 
 from nav2_costmap_2d.costmap_node import Costmap2DROS
-from nav2_planner.path_shape import headings, resample, round_corners
+from nav2_planner.path_shape import headings, resample, round_corners, Rounding
 from nav2_planner.route import Route
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['PLANNERS', 'GlobalPlanner', 'Rounding', 'poses_along']
+__all__ = ['PLANNERS', 'GlobalPlanner', 'poses_along']
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -75,15 +74,6 @@ class GlobalPlanner:
 
         """
         raise NotImplementedError
-
-
-@dataclass(frozen=True)
-class Rounding:
-    """Parameters of corner rounding: the weights of `path_shape.smoothed`, and the iterations."""
-
-    smooth: float
-    data: float
-    times: int = 1
 
 
 def poses_along(

@@ -3,15 +3,26 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from nav2_planner.any_angle import line_costs
 from nav2_planner.grid_graph import FloatGrid
 import numpy as np
 import numpy.typing as npt
 from scipy.linalg import solve_banded
 
-__all__ = ['blend_headings', 'headings', 'resample', 'round_corners', 'smoothed']
+__all__ = ['Rounding', 'blend_headings', 'headings', 'resample', 'round_corners', 'smoothed']
 
 FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Rounding:
+    """Parameters of corner rounding: the weights of `smoothed`, and the iterations."""
+
+    smooth: float
+    data: float
+    times: int = 1
 
 
 def resample(points: FloatArray, spacing: float) -> FloatArray:

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nav2_planner.global_planner import Rounding
-from nav2_planner.path_shape import headings
+from nav2_planner.path_shape import headings, Rounding
 from nav2_planner.route import Route
 from nav2_util.geometry import make_path
 from nav2_util.lifecycle_node import LifecycleNode
