@@ -17,9 +17,8 @@ from nav2_amcl.occupancy_map import OccupancyMap
 from nav2_amcl.particle_filter import FilterOptions
 from nav2_amcl.ray_casting import RayCaster
 from nav2_amcl.scan_projection import Scan
-from nav2_controller.control import ControlState, Velocity
+from nav2_controller.control import ControlState, Surroundings, Velocity
 from nav2_controller.plugins import CONTROLLERS, PluginContext
-from nav2_controller.surroundings import Surroundings
 from nav2_controller.tracking import PlanTracker
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_costmap_2d.inflation import Inflation

@@ -7,8 +7,14 @@ from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING, TypeVar
 
 from nav2_controller.checkers import GoalChecker, ProgressChecker
-from nav2_controller.control import Command, Controller, ControlState, NoValidControl, Velocity
-from nav2_controller.surroundings import Surroundings
+from nav2_controller.control import (
+    Command,
+    Controller,
+    ControlState,
+    NoValidControl,
+    Surroundings,
+    Velocity,
+)
 from nav2_controller.tracking import PlanTracker
 from nav2_msgs.action import FollowPath
 from nav2_util.errors import ActionAborted

@@ -10,9 +10,14 @@ from types import SimpleNamespace
 import cv2
 from dwb_critics.motion import RotateToGoalCritic
 from dwb_plugins.generators import Rollouts
-from nav2_controller.control import ControlState, NoValidControl, SpeedLimit, Velocity
+from nav2_controller.control import (
+    ControlState,
+    NoValidControl,
+    SpeedLimit,
+    Surroundings,
+    Velocity,
+)
 from nav2_controller.plugins import CONTROLLERS, PluginContext
-from nav2_controller.surroundings import Surroundings
 from nav2_controller.tracking import PlanTracker
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_util.errors import ConfigurationError
