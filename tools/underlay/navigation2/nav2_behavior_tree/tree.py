@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Behavior trees that can be ticked and halted."""
+"""Behavior trees: built from their XML file and validated, ticked and halted."""
 
 from __future__ import annotations
 
@@ -7,14 +7,28 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from nav2_behavior_tree.blackboard import Blackboard
-from nav2_behavior_tree.builder import build
-from nav2_behavior_tree.node import TreeContext, TreeNode
+from nav2_behavior_tree.node import (
+    Decorator,
+    NodeConfig,
+    POSTCONDITIONS,
+    PRECONDITIONS,
+    TreeContext,
+    TreeNode,
+)
+from nav2_behavior_tree.ports import bind, Binding, in_port
+from nav2_behavior_tree.registry import node_type, unknown_type
+from nav2_behavior_tree.scripting import Script
 from nav2_behavior_tree.status import Failure, NodeStatus, StatusChange
-from nav2_behavior_tree.tree_xml import Document, read_tree_file, read_tree_text
+from nav2_behavior_tree.tree_xml import Document, Element, read_tree_file, read_tree_text
+from nav2_util.plugins import did_you_mean
 
-__all__ = ['BehaviorTree']
+__all__ = ['BehaviorTree', 'SubTree']
 
 _MOST_ROUNDS = 100
+_GENERIC = {'Action', 'Condition', 'Control', 'Decorator'}
+_CONDITIONS = (*PRECONDITIONS, *POSTCONDITIONS)
+_FOR_EDITORS = {'_description', '_fullpath', '_uid', '_collapsed'}
+_ANY = in_port('any', None, 'A value of a subtree.')
 
 
 class BehaviorTree:
@@ -48,7 +62,9 @@ class BehaviorTree:
     ) -> None:
         self.blackboard = blackboard or Blackboard()
         self.context = TreeContext(now_s, ros)
-        self.root: TreeNode = build(document, self.context, self.blackboard)
+        self.root: TreeNode = _Builder(document, self.context).tree(
+            document.main, self.blackboard, ()
+        )
 
     @classmethod
     def from_file(cls, path: str, now_s: Callable[[], float], ros: Any = None) -> BehaviorTree:
@@ -141,3 +157,140 @@ class BehaviorTree:
         """Return the status changes since the last call."""
         changes, self.context.changes = self.context.changes, []
         return changes
+
+
+class SubTree(Decorator):
+    """Runs another tree; its ports are entries that both trees share."""
+
+    def on_tick(self) -> NodeStatus:
+        """Tick the root of the subtree."""
+        if self.state is NodeStatus.IDLE:
+            self.set_state(NodeStatus.RUNNING)
+        status = self.child.execute_tick()
+        return status if status is NodeStatus.RUNNING else self.finish(status)
+
+
+class _Builder:
+    """Makes the nodes of a document's trees; an error in the document states where it is."""
+
+    def __init__(self, document: Document, context: TreeContext) -> None:
+        self._document, self._context = document, context
+        self._uid = 0
+
+    def tree(self, key: str, blackboard: Blackboard, within: tuple[str, ...]) -> TreeNode:
+        return self._node(self._document.trees[key].children[0], blackboard, (*within, key))
+
+    def _node(self, element: Element, board: Blackboard, within: tuple[str, ...]) -> TreeNode:
+        attributes = dict(element.attributes)
+        type_name = element.tag
+        if type_name in _GENERIC or (type_name == 'SubTree'):
+            type_name = attributes.pop('ID', '')
+            if not type_name:
+                raise element.error(f'<{element.tag}> needs the attribute ID.')
+        name = attributes.pop('name', '') or type_name
+        scripts = {
+            key: Script(attributes.pop(key), element.file, element.line)
+            for key in _CONDITIONS
+            if key in attributes
+        }
+        for key in _FOR_EDITORS & set(attributes):
+            del attributes[key]
+        self._uid += 1
+        uid = self._uid
+        if element.tag == 'SubTree' or (
+            node_type(type_name) is None and type_name in self._document.trees
+        ):
+            board, bindings, kind = self._subtree(element, type_name, attributes, board, within)
+        else:
+            kind = self._type(element, type_name)
+            bindings = _bindings(element, type_name, kind, attributes)
+        config = NodeConfig(
+            type_name,
+            name,
+            uid,
+            self._context,
+            board,
+            bindings,
+            scripts,
+            element.file,
+            element.line,
+        )
+        node = kind(config)
+        if kind is SubTree:
+            children = [self.tree(type_name, board, within)]
+        else:
+            children = [self._node(child, board, within) for child in element.children]
+            _check_children(element, type_name, kind)
+        for child in children:
+            child.parent = node
+        node.children = children
+        return node
+
+    def _type(self, element: Element, type_name: str) -> type[TreeNode]:
+        kind = node_type(type_name)
+        if kind is None:
+            raise element.error(unknown_type(type_name, list(self._document.trees)))
+        return kind
+
+    def _subtree(
+        self,
+        element: Element,
+        key: str,
+        attributes: dict[str, str],
+        parent: Blackboard,
+        within: tuple[str, ...],
+    ) -> tuple[Blackboard, dict[str, Binding], type[TreeNode]]:
+        """Make the blackboard of a subtree, with the remappings and values of its ports."""
+        trees = self._document.trees
+        if key not in trees:
+            meant = did_you_mean(key, trees, 0.6)
+            raise element.error(f"There is no tree with the ID '{key}'.{meant}")
+        if key in within:
+            raise element.error(f"The tree '{key}' contains itself: {' > '.join(within)} > {key}.")
+        if element.children:
+            raise element.error('<SubTree> has no children; its tree is that of its ID.')
+        share = attributes.pop('_autoremap', 'false').lower()
+        if share not in ('true', 'false', '1', '0'):
+            raise element.error(f"_autoremap has to be 'true' or 'false', and is '{share}'.")
+        remapping, values = {}, {}
+        for name, text in attributes.items():
+            match = bind(name, _ANY, text)
+            if match.key is not None:
+                remapping[name] = match.key
+            else:
+                values[name] = text
+        board = Blackboard(parent, remapping, share in ('true', '1'))
+        for name, text in values.items():
+            board.keep(name, text)
+        return board, {}, SubTree
+
+
+def _check_children(element: Element, type_name: str, kind: type[TreeNode]) -> None:
+    count, least, most = len(element.children), kind.least_children, kind.most_children
+    if least <= count <= most:
+        return
+    if least == most:
+        wanted = 'no children' if not least else f'exactly {least} child{"ren" * (least > 1)}'
+    elif count < least:
+        wanted = f'at least {least} child{"ren" * (least > 1)}'
+    else:
+        wanted = f'at most {most} children'
+    raise element.error(f"'{type_name}' has {wanted}, and here {count}.")
+
+
+def _bindings(
+    element: Element, type_name: str, kind: type[TreeNode], attributes: dict[str, str]
+) -> dict[str, Binding]:
+    for name in attributes:
+        if name not in kind.ports:
+            known = ', '.join(f"'{each}'" for each in kind.ports) or 'none'
+            meant = did_you_mean(name, [*kind.ports, 'name', *_CONDITIONS], 0.6)
+            meant = meant or f' It has {known}.'
+            raise element.error(f"'{type_name}' has no port '{name}'.{meant}")
+    found: dict[str, Binding] = {}
+    for name, port in kind.ports.items():
+        try:
+            found[name] = bind(name, port, attributes.get(name))
+        except ValueError as error:
+            raise element.error(f"The port '{name}' of '{type_name}' {error}.") from error
+    return found
