@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from nav2_behavior_tree import StatusChange
 from nav2_behavior_tree.odometry import OdometrySmoother
 from nav2_behavior_tree.ros_interface import RosInterface
+from nav2_behavior_tree.status import StatusChange
 from nav2_bt_navigator.parameters import BtNavigatorParameters, UNSUPPORTED
 from nav2_bt_navigator.tree_files import TreeFiles
 from nav2_msgs.msg import BehaviorTreeLog, BehaviorTreeStatusChange

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import PoseStamped
-from nav2_behavior_tree import BehaviorTree, NodeStatus, TreeError
+from nav2_behavior_tree.status import NodeStatus, TreeError
+from nav2_behavior_tree.tree import BehaviorTree
 from nav2_bt_navigator.navigation_node import NavigationNode
-from nav2_bt_navigator.outcome import failure_reason
 from nav2_bt_navigator.progress import PathProgress, time_left_s
 from nav2_bt_navigator.tree_files import find_tree_file
 from nav2_util import ActionAborted, ConfigurationError, Pose2D, TransformError
@@ -258,7 +258,7 @@ class Navigator:
         if status is NodeStatus.RUNNING:
             self._tell(run)
         elif status is not NodeStatus.SUCCESS:
-            code, message = failure_reason(run.tree, self._error_names())
+            code, message = _failure_reason(run.tree, self._error_names())
             raise ActionAborted(code or self.first_code, message)
         return status
 
@@ -287,3 +287,30 @@ class Navigator:
         )
         self.fill_feedback(feedback, board)
         self.server.publish_feedback(feedback)
+
+
+def _failure_reason(tree: BehaviorTree, names: list[str]) -> tuple[int, str]:
+    """
+    Get the error code, 0 if unknown, and the error message of a failed tree.
+
+    Parameters
+    ----------
+    tree
+        The tree.
+    names
+        The blackboard entries with the error codes of actions. The code of the node that failed
+        last is used, else the lowest one, as Nav2 documents.
+
+    """
+    board, failure = tree.blackboard, tree.failure
+    codes = {name: board.get(name, 0) for name in names}
+    codes = {name: code for name, code in codes.items() if isinstance(code, int) and code > 0}
+    if failure is not None and (failure.code in codes.values() or not codes):
+        return failure.code, failure.message
+    if codes:
+        name = min(codes, key=lambda each: codes[each])
+        message = board.get(f'{name.removesuffix("_error_code")}_error_msg', '')
+        return codes[name], message or (
+            failure.message if failure is not None else f"'{name}' is {codes[name]}."
+        )
+    return 0, 'The behavior tree failed, and none of its nodes said why.'

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 
 from ament_index_python.packages import get_package_share_directory
-from nav2_behavior_tree import Document, read_tree_file
+from nav2_behavior_tree.tree_xml import Document, read_tree_file
 
 __all__ = ['TREE_FOLDER', 'TreeFiles', 'find_tree_file']
 
