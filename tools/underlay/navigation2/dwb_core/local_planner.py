@@ -7,7 +7,19 @@ from dataclasses import dataclass, replace
 import math
 
 from dwb_critics.critic import Critic, Scene
-from dwb_critics.registry import find_critic
+from dwb_critics.map_grid import (
+    GoalAlignCritic,
+    GoalDistCritic,
+    PathAlignCritic,
+    PathDistCritic,
+)
+from dwb_critics.motion import (
+    OscillationCritic,
+    PreferForwardCritic,
+    RotateToGoalCritic,
+    TwirlingCritic,
+)
+from dwb_critics.obstacles import BaseObstacleCritic, ObstacleFootprintCritic
 from dwb_plugins.generators import make_generator, Rollouts
 from nav2_controller.control import (
     Command,
@@ -21,10 +33,24 @@ from nav2_controller.plugins import PluginContext
 from nav2_controller.tracking import path_lengths
 from nav2_util.errors import ConfigurationError
 from nav2_util.parameters import parameter
+from nav2_util.plugins import did_you_mean
 import numpy as np
 
 __all__ = ['DWBLocalPlanner']
 
+_CRITICS: dict[str, type[Critic]] = {
+    'BaseObstacle': BaseObstacleCritic,
+    'GoalAlign': GoalAlignCritic,
+    'GoalDist': GoalDistCritic,
+    'ObstacleFootprint': ObstacleFootprintCritic,
+    'Oscillation': OscillationCritic,
+    'PathAlign': PathAlignCritic,
+    'PathDist': PathDistCritic,
+    'PreferForward': PreferForwardCritic,
+    'RotateToGoal': RotateToGoalCritic,
+    'Twirling': TwirlingCritic,
+}
+"""The critics by their official names."""
 _UNSUPPORTED = {
     'goal_checker_name': 'the goal checkers of the controller server are used',
     'publish_evaluation': 'scores are not published',
@@ -166,8 +192,32 @@ class DWBLocalPlanner(Controller):
 
 
 def _make_critic(context: PluginContext, name: str) -> Critic:
-    kind = find_critic(str(context.value(f'{name}.class', name, 'The kind of the critic.')))
+    kind = _find_critic(str(context.value(f'{name}.class', name, 'The kind of the critic.')))
     return kind(context.named(f'{context.name}.{name}'))
+
+
+def _find_critic(name: str) -> type[Critic]:
+    """
+    Look up the class of a critic.
+
+    Parameters
+    ----------
+    name
+        Such as PathDist, PathDistCritic or dwb_critics::PathDistCritic.
+
+    Raises
+    ------
+    ConfigurationError
+        There is no such critic.
+
+    """
+    plain = name.replace('/', '::').removeprefix('dwb_critics::').removesuffix('Critic')
+    if plain not in _CRITICS:
+        raise ConfigurationError(
+            f"There is no critic '{name}' of DWB.{did_you_mean(plain, _CRITICS)} "
+            f'These exist: {", ".join(_CRITICS)}.'
+        )
+    return _CRITICS[plain]
 
 
 def _shortened(state: ControlState, parameters: DwbParameters) -> ControlState:
