@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from nav2_controller.checkers import GoalChecker, ProgressChecker
 from nav2_controller.control import Controller, SpeedLimit, Velocity
 from nav2_controller.displays import DisplayPublisher
 from nav2_controller.follow_path import PathFollower
-from nav2_controller.odometry import OdometryMonitor
-from nav2_controller.parameters import ServerParameters, UNSUPPORTED
 from nav2_controller.plugins import (
     CONTROLLERS,
     GOAL_CHECKERS,
@@ -24,7 +24,8 @@ from nav2_msgs.msg import SpeedLimit as SpeedLimitMessage
 from nav2_util.actions import ActionServer
 from nav2_util.errors import ConfigurationError
 from nav2_util.lifecycle_node import LifecycleNode
-from nav2_util.parameters import ParameterSet
+from nav2_util.odometry import subscribe_velocity
+from nav2_util.parameters import parameter, ParameterSet
 from nav2_util.plugins import find_plugin
 from nav2_util.timing import now_s
 from nav2_util.twist import TwistPublisher
@@ -37,6 +38,120 @@ _DEFAULT_KINDS = {
     'progress_checker': 'nav2_controller::SimpleProgressChecker',
     'goal_checker': 'nav2_controller::SimpleGoalChecker',
 }
+
+
+_UNSUPPORTED = {
+    'search_window': 'max_robot_pose_search_dist of the controller plugins says how far',
+    'controller_plugin_ids': 'set controller_plugins',
+    'controller_plugin_types': 'set <name>.plugin for each name in controller_plugins',
+}
+
+
+@dataclass(frozen=True)
+class ServerParameters:
+    """The parameters of the controller server."""
+
+    controller_frequency: float = parameter(
+        20.0, 'How often in Hz a velocity is computed.', low=0.1, high=1000.0
+    )
+    costmap_update_timeout: float = parameter(
+        0.3, 'How long in s to wait for a local costmap that is up to date.', low=0.0
+    )
+    publish_zero_velocity: bool = parameter(
+        True, 'Whether to publish a zero velocity when a goal ends.'
+    )
+    controller_plugins: list[str] = parameter(['FollowPath'], 'The names of controllers.')
+    progress_checker_plugins: list[str] = parameter(
+        ['progress_checker'], 'The names of checkers of progress.'
+    )
+    goal_checker_plugins: list[str] = parameter(
+        ['goal_checker'], 'The names of checkers of the goal.'
+    )
+    min_x_velocity_threshold: float = parameter(
+        0.0001, 'A velocity of the odometry along x in m/s below which it counts as 0.', low=0.0
+    )
+    min_y_velocity_threshold: float = parameter(
+        0.0001, 'A velocity of the odometry along y in m/s below which it counts as 0.', low=0.0
+    )
+    min_theta_velocity_threshold: float = parameter(
+        0.0001, 'An angular velocity in rad/s below which it counts as 0.', low=0.0
+    )
+    failure_tolerance: float = parameter(
+        0.0,
+        'How long in s the robot stands and tries on when there is no velocity; -1: for ever.',
+        low=-1.0,
+    )
+    speed_limit_topic: str = parameter('speed_limit', 'The topic of speed limits.')
+    odom_topic: str = parameter('odom', 'The topic of the odometry.')
+    odom_duration: float = parameter(
+        0.3, 'The time in s over which velocities of the odometry are averaged.', low=0.0
+    )
+    use_realtime_priority: bool = parameter(
+        False, 'Has no effect: all nodes of a process run with its priority.'
+    )
+    enable_stamped_cmd_vel: bool = parameter(
+        False, "Whether TwistStamped is published on 'cmd_vel', and not Twist."
+    )
+
+
+class OdometryMonitor:
+    """
+    Moving average of the velocities from odometry.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    topic
+        The topic of the odometry.
+    duration_s
+        The averaging window.
+    now_s
+        Function that returns the time in s.
+
+    """
+
+    def __init__(
+        self, node: Any, topic: str, duration_s: float, now_s: Callable[[], float]
+    ) -> None:
+        self._duration_s, self._now_s = duration_s, now_s
+        self._found: deque[tuple[float, Velocity]] = deque()
+        self.topic = topic
+        subscribe_velocity(node, topic, self._receive)
+
+    def velocity(self, thresholds: Velocity = Velocity()) -> Velocity:
+        """
+        Compute the mean velocity over the window; 0 if none is known.
+
+        Parameters
+        ----------
+        thresholds
+            Components of the mean with a smaller magnitude count as 0 (m/s, m/s, rad/s).
+
+        Returns
+        -------
+        Velocity
+            In the base frame.
+
+        """
+        count = len(self._found)
+        if not count:
+            return Velocity()
+        means = (sum(each[1][k] for each in self._found) / count for k in range(3))
+        return Velocity(*(v if abs(v) >= low else 0.0 for v, low in zip(means, thresholds)))
+
+    @property
+    def age_s(self) -> float | None:
+        """Return the time in s since the newest message; None before the first."""
+        return self._now_s() - self._found[-1][0] if self._found else None
+
+    def _receive(self, _: float, velocity: tuple[float, float, float]) -> None:
+        now = self._now_s()
+        if self._found and now < self._found[-1][0]:
+            self._found.clear()
+        self._found.append((now, Velocity(*velocity)))
+        while now - self._found[0][0] > self._duration_s:
+            self._found.popleft()
 
 
 class ControllerServer(LifecycleNode):
@@ -69,7 +184,7 @@ class ControllerServer(LifecycleNode):
     def configure(self) -> None:
         """Create the plugins, publishers and subscriptions."""
         self.settings = self.parameters.declare(ServerParameters)
-        self.parameters.declare_unsupported(UNSUPPORTED)
+        self.parameters.declare_unsupported(_UNSUPPORTED)
         current = self.settings.current
         self.period_s = 1.0 / current.controller_frequency
         if current.use_realtime_priority:
