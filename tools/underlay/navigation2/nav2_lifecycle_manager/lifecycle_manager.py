@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from lifecycle_msgs.msg import State, Transition
 from nav2_lifecycle_manager.managed_node import ManagedNode, TransitionError
-from nav2_lifecycle_manager.parameters import LifecycleManagerParameters
 from nav2_msgs.srv import ManageLifecycleNodes
-from nav2_util.parameters import ParameterServer
+from nav2_util.parameters import parameter, ParameterServer
 from nav2_util.services import create_async_service, ServiceError, wait_for
 from nav2_util.timing import steady_clock
 from rclpy.node import Node
@@ -24,6 +24,35 @@ __all__ = ['LifecycleManager']
 _LOOK_S = 0.1
 _ANSWER_S = 0.5
 _PATIENCE_S = 5.0
+
+
+@dataclass(frozen=True)
+class LifecycleManagerParameters:
+    """Parameters of the lifecycle manager."""
+
+    node_names: list[str] = parameter(
+        ['controller_server', 'planner_server', 'behavior_server', 'bt_navigator'],
+        'The nodes, in the order in which they are brought up.',
+        read_only=True,
+    )
+    autostart: bool = parameter(
+        False, 'Whether the nodes are brought up without being asked for.', read_only=True
+    )
+    bond_timeout: float = parameter(
+        4.0,
+        'How long a node may not answer until it counts as gone, s; 0 watches none.',
+        low=0.0,
+        read_only=True,
+    )
+    attempt_respawn_reconnection: bool = parameter(
+        True, 'Whether nodes that come back are brought up again.', read_only=True
+    )
+    bond_respawn_max_duration: float = parameter(
+        10.0, 'How long it is waited for nodes to come back, s.', low=0.0, read_only=True
+    )
+    service_timeout: float = parameter(
+        10.0, 'How long a node may take for a transition, s.', low=0.1, read_only=True
+    )
 
 
 class LifecycleManager(Node):
