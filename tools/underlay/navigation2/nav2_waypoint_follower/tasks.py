@@ -13,7 +13,8 @@ from nav2_util import ConfigurationError, LifecycleNode, NavigationError, Rate
 from nav2_util.parameters import parameter
 from nav2_util.plugins import did_you_mean
 from nav2_util.timing import now_s, steady_clock
-from nav2_waypoint_follower.image import to_bgr
+import numpy as np
+import numpy.typing as npt
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import Image
 from std_msgs.msg import Empty
@@ -142,7 +143,7 @@ class PhotoAtWaypoint:
         name = f'{index}_{image.header.stamp.sec}.{settings.image_format}'
         path = os.path.join(settings.save_dir, name)
         try:
-            pixels = to_bgr(image.data, image.height, image.width, image.step, image.encoding)
+            pixels = _to_bgr(image.data, image.height, image.width, image.step, image.encoding)
             is_saved = cv2.imwrite(path, pixels)
         except (ValueError, cv2.error) as error:
             raise NavigationError(f"The photo '{path}' could not be saved: {error}") from error
@@ -236,3 +237,53 @@ def make_task(node: LifecycleNode, name: str) -> Any:
         meant = did_you_mean(plugin, TASKS, 0.6) or f' There are {", ".join(TASKS)}.'
         raise ConfigurationError(f"'{name}.plugin' is '{plugin}', which is no task.{meant}")
     return kind(node, name)
+
+
+_ENCODINGS: dict[str, tuple[int, int | None]] = {
+    'bgr8': (3, None),
+    '8UC3': (3, None),
+    'rgb8': (3, cv2.COLOR_RGB2BGR),
+    'bgra8': (4, cv2.COLOR_BGRA2BGR),
+    'rgba8': (4, cv2.COLOR_RGBA2BGR),
+    'mono8': (1, None),
+    '8UC1': (1, None),
+}
+
+
+def _to_bgr(data: Any, height: int, width: int, step: int, encoding: str) -> npt.NDArray[np.uint8]:
+    """
+    Convert an image to the pixel format that OpenCV writes.
+
+    Parameters
+    ----------
+    data
+        The bytes, row by row.
+    height, width
+        The size in pixels.
+    step
+        The number of bytes per row.
+    encoding
+        As in `sensor_msgs/Image`, such as rgb8.
+
+    Returns
+    -------
+    numpy.ndarray
+        (height, width, 3) blue, green, red, or (height, width) grey.
+
+    Raises
+    ------
+    ValueError
+        The encoding is not supported, or the data are too short.
+
+    """
+    if encoding not in _ENCODINGS:
+        raise ValueError(f"images of the encoding '{encoding}' cannot be read")
+    channels, conversion = _ENCODINGS[encoding]
+    values = np.frombuffer(bytes(data), np.uint8)
+    if step < width * channels or len(values) < height * step:
+        raise ValueError('the image has too few bytes for its size')
+    rows = values[: height * step].reshape(height, step)[:, : width * channels]
+    pixels = rows.reshape((height, width) if channels == 1 else (height, width, channels))
+    if conversion is None:
+        return pixels
+    return np.asarray(cv2.cvtColor(np.ascontiguousarray(pixels), conversion), np.uint8)
