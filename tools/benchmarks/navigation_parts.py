@@ -24,8 +24,7 @@ from nav2_costmap_2d.grid import Costmap2D
 from nav2_costmap_2d.inflation import Inflation
 from nav2_costmap_2d.regions import Region
 from nav2_msgs.action import ComputePathToPose
-from nav2_planner.global_planner import GlobalPlanner, PLANNERS
-from nav2_planner.turns import finish
+from nav2_planner.global_planner import finish, GlobalPlanner, PLANNERS
 from nav2_smoother.smoothers import SMOOTHERS
 from nav2_util.geometry import make_path, Pose2D
 from nav2_util.lifecycle_node import LifecycleNode

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from typing import TypeVar
 
 from nav2_costmap_2d.costmap_node import Costmap2DROS
 from nav2_planner.path_shape import headings, resample, round_corners, Rounding
@@ -13,9 +14,10 @@ from nav2_util.lifecycle_node import LifecycleNode
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['PLANNERS', 'GlobalPlanner', 'poses_along']
+__all__ = ['PLANNERS', 'GlobalPlanner', 'finish', 'poses_along']
 
 FloatArray = npt.NDArray[np.float64]
+ResultT = TypeVar('ResultT')
 
 PLANNERS = {
     'nav2_navfn_planner::NavfnPlanner': 'nav2_navfn_planner.navfn_planner:NavfnPlanner',
@@ -123,3 +125,26 @@ def poses_along(
     if len(places) == 1 and use_final_approach_orientation:
         yaws[:] = start.yaw
     return np.column_stack([places, yaws])
+
+
+def finish(work: Generator[None, None, ResultT]) -> ResultT:
+    """
+    Run a generator to its end in one step.
+
+    Parameters
+    ----------
+    work
+        The generator, such as that of `GlobalPlanner.create_plan`.
+
+    Returns
+    -------
+    ResultT
+        The return value of the generator.
+
+    """
+    while True:
+        try:
+            next(work)
+        except StopIteration as stop:
+            result: ResultT = stop.value
+            return result

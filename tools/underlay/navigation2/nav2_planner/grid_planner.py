@@ -65,7 +65,7 @@ class GridPlanner:
 
         See Also
         --------
-        nav2_planner.turns.finish : Plans in one step.
+        nav2_planner.global_planner.finish : Plans in one step.
 
         """
         began = time.monotonic()

@@ -11,10 +11,16 @@ from typing import Any
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import PoseStamped
 from nav2_costmap_2d.costmap_node import make_costmap
+from nav2_costmap_2d.costs import (
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+)
+from nav2_costmap_2d.footprint import FootprintCollisionChecker
+from nav2_costmap_2d.grid import Costmap2D
 from nav2_msgs.action import ComputePathThroughPoses, ComputePathToPose
 from nav2_msgs.srv import IsPathValid
 from nav2_planner.global_planner import GlobalPlanner, PLANNERS
-from nav2_planner.path_validity import invalid_poses
 from nav2_planner.route import PlanningError
 from nav2_util.actions import ActionServer
 from nav2_util.errors import ActionAborted, ConfigurationError
@@ -31,7 +37,7 @@ import numpy.typing as npt
 from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.task import Future
 
-__all__ = ['PlannerServer']
+__all__ = ['PlannerServer', 'invalid_poses']
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -258,3 +264,36 @@ class PlannerServer(LifecycleNode):
         response.is_valid = not len(found)
         response.invalid_pose_indices = [int(each) for each in found]
         return response
+
+
+def invalid_poses(
+    costmap: Costmap2D,
+    poses: npt.NDArray[np.float64],
+    footprint: npt.NDArray[np.float64] | None,
+    robot: Pose2D | None,
+) -> npt.NDArray[np.intp]:
+    """
+    Find the poses of a path at which the robot is in collision.
+
+    Parameters
+    ----------
+    costmap
+        The costmap. Unknown space is free; space beyond the grid is an obstacle.
+    poses
+        (N, 3) x and y in m, yaw in rad.
+    footprint
+        (M, 2) corners of the robot in m; None for a circular one, of which the centre is checked.
+    robot
+        The pose of the robot: poses before the nearest one are behind it, and are ignored.
+
+    Returns
+    -------
+    The indices of poses.
+
+    """
+    first = 0
+    if robot is not None and len(poses):
+        first = int(np.argmin(np.hypot(poses[:, 0] - robot.x, poses[:, 1] - robot.y)))
+    costs = FootprintCollisionChecker(costmap).footprint_costs(poses[first:], footprint)
+    limit = INSCRIBED_INFLATED_OBSTACLE if footprint is None else LETHAL_OBSTACLE
+    return np.flatnonzero((costs >= limit) & (costs != NO_INFORMATION)) + first

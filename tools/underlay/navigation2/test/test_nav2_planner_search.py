@@ -10,6 +10,7 @@ import cv2
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_planner.any_angle import line_costs, pull_taut
 from nav2_planner.corridor import block_graph, corridor
+from nav2_planner.global_planner import finish
 from nav2_planner.grid_graph import cost_to_go, CostToGo, way_cost
 from nav2_planner.grid_planner import GridPlanner
 from nav2_planner.grid_search import GridSearch
@@ -20,9 +21,8 @@ from nav2_planner.path_shape import (
     round_corners,
     smoothed,
 )
-from nav2_planner.path_validity import invalid_poses
+from nav2_planner.planner_server import invalid_poses
 from nav2_planner.route import PlanningError, Route, SearchOptions, weight_table
-from nav2_planner.turns import finish
 from nav2_util.geometry import Pose2D
 import numpy as np
 import pytest
