@@ -21,7 +21,7 @@ from nav2_controller.control import ControlState, Surroundings, Velocity
 from nav2_controller.plugins import CONTROLLERS, PluginContext
 from nav2_controller.tracking import PlanTracker
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_costmap_2d.inflation import Inflation
+from nav2_costmap_2d.inflation_layer import Inflation
 from nav2_costmap_2d.regions import Region
 from nav2_msgs.action import ComputePathToPose
 from nav2_planner.global_planner import finish, GlobalPlanner, PLANNERS

@@ -25,7 +25,7 @@ from nav2_costmap_2d.footprint import (
     radii_of,
 )
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_costmap_2d.inflation import decayed_cost, Inflation
+from nav2_costmap_2d.inflation_layer import decayed_cost, Inflation
 from nav2_costmap_2d.layers import Layer, LayeredCostmap
 from nav2_costmap_2d.raytracing import clear_rays, mark_points, Observation
 from nav2_costmap_2d.regions import forget_cells, Region, write_maximum, write_over
