@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from nav2_bt_navigator.navigation_node import NavigationNode
+from nav2_bt_navigator.navigation_node import NavigationNode, UNSUPPORTED
 from nav2_bt_navigator.navigator import Navigator
-from nav2_bt_navigator.parameters import UNSUPPORTED
 from nav2_bt_navigator.pose_navigators import (
     NavigateThroughPosesNavigator,
     NavigateToPoseNavigator,
