@@ -124,9 +124,9 @@ class DWBLocalPlanner(Controller):
         names = context.value('critics', [], 'The critics, by their names.')
         if not names:
             raise ConfigurationError(
-                f"The parameter '{context.name}.critics' names no critic. Such as "
-                "['RotateToGoal', 'Oscillation', 'BaseObstacle', 'GoalAlign', 'PathAlign', "
-                "'PathDist', 'GoalDist'] is usual."
+                f"The parameter '{context.name}.critics' names no critics. A usual "
+                "choice is ['RotateToGoal', 'Oscillation', 'BaseObstacle', 'GoalAlign', "
+                "'PathAlign', 'PathDist', 'GoalDist']."
             )
         self._critics = [_make_critic(context, name) for name in names]
 
@@ -214,7 +214,7 @@ def _find_critic(name: str) -> type[Critic]:
     plain = name.replace('/', '::').removeprefix('dwb_critics::').removesuffix('Critic')
     if plain not in _CRITICS:
         raise ConfigurationError(
-            f"There is no critic '{name}' of DWB.{did_you_mean(plain, _CRITICS)} "
+            f"DWB has no critic '{name}'.{did_you_mean(plain, _CRITICS)} "
             f'These exist: {", ".join(_CRITICS)}.'
         )
     return _CRITICS[plain]
@@ -237,7 +237,7 @@ def _explanation(count: int, objections: list[tuple[int, Critic]]) -> str:
         f'{100.0 * refused / count:.0f} % {critic.objection()} ({critic.name})'
         for refused, critic in objections
     )
-    return f'No velocity of {count} is valid: {reasons}. Plan another way.'
+    return f'None of {count} velocities is valid: {reasons}. Plan another path.'
 
 
 def _displays(rollouts: Rollouts, best: int) -> Displays:

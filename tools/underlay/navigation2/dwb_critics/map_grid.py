@@ -33,8 +33,8 @@ class _MapGridCritic(Critic):
         )
         if self._aggregation not in _AGGREGATIONS:
             raise ConfigurationError(
-                f"The parameter '{context.name}.aggregation_type' has to be one of "
-                f"'last', 'sum', 'product', and is '{self._aggregation}'."
+                f"The parameter '{context.name}.aggregation_type' must be one of "
+                f"'last', 'sum', 'product', but is '{self._aggregation}'."
             )
 
     def scale(self, scene: Scene) -> float:

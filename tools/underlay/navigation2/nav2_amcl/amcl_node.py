@@ -73,7 +73,7 @@ class AmclNode(LifecycleNode):
         try:
             settings = settings_of(values)
         except ValueError as error:
-            raise ConfigurationError(f'The parameters do not go together: {error}.') from error
+            raise ConfigurationError(f'The parameters are inconsistent: {error}.') from error
         seed = values.random_seed
         random = np.random.default_rng(seed if seed >= 0 else None)
         self._localizer = Localizer(settings, random)
@@ -200,7 +200,7 @@ class AmclNode(LifecycleNode):
             return
         pose = planar_pose(message.pose.pose) @ self._motion_since(message.header.stamp)
         if not np.isfinite(pose).all():
-            self.get_logger().error('Ignored an initial pose that is no number.')
+            self.get_logger().error('Ignored an initial pose that is not finite.')
             return
         self._localizer.start_at(pose, covariance_of(message))
         self.get_logger().info(

@@ -46,7 +46,9 @@ def map_of(message: Any) -> OccupancyMap:
     if not info.width or not info.height or info.resolution <= 0.0:
         raise ValueError('it has no cells')
     if len(message.data) != info.width * info.height:
-        raise ValueError(f'it has {len(message.data)} cells and not {info.width} x {info.height}')
+        raise ValueError(
+            f'it has {len(message.data)} cells instead of {info.width} x {info.height}'
+        )
     cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
     corner = info.origin
     origin = corner.position.x, corner.position.y, yaw_of(corner.orientation)

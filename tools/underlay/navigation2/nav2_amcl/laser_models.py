@@ -291,7 +291,7 @@ def make_laser_model(
 
     """
     if not math.isfinite(noise.sigma_hit_m):
-        raise ValueError('sigma_hit has to be finite')
+        raise ValueError('sigma_hit must be finite')
     if name == 'beam':
         return BeamModel(grid, noise)
     if name == 'likelihood_field_prob':

@@ -40,25 +40,25 @@ def describe_missing(inputs: Inputs) -> list[str]:
     found = []
     if not inputs.has_map:
         found.append(
-            f"No map has come on '{inputs.map_topic}'. Start map_server with a map and activate "
-            'it, or set map_topic.'
+            f"No map was received on '{inputs.map_topic}'. Start map_server with a map and "
+            'activate it, or set map_topic.'
         )
     if not inputs.is_started:
         found.append(
-            "It is not known where the robot is. Set its pose with '2D Pose Estimate' in RViz, on "
+            "The pose of the robot is unknown. Set it with '2D Pose Estimate' in RViz, on "
             'initialpose, or with set_initial_pose and initial_pose; or call '
             'reinitialize_global_localization.'
         )
     if inputs.scan_age_s > _SCAN_LATE_S:
         found.append(
-            f"No scan has come on '{inputs.scan_topic}' for {inputs.scan_age_s:.0f} s. Check that "
-            'the laser runs, and scan_topic.'
+            f"No scan was received on '{inputs.scan_topic}' for {inputs.scan_age_s:.0f} s. Check "
+            'that the laser is running, and that scan_topic is right.'
         )
     elif inputs.transform_problem:
         found.append(
             f'Scans wait for a transform: {inputs.transform_problem.rstrip(".")}. Check that '
-            'odometry and robot_state_publisher run, that clocks agree (use_sim_time), and '
-            'odom_frame_id and base_frame_id.'
+            'odometry and robot_state_publisher are running, that clocks agree (use_sim_time), '
+            'and that odom_frame_id and base_frame_id are right.'
         )
     return found
 

@@ -196,7 +196,9 @@ class ActionNode(TreeNode):
             if self._call is not None:
                 self._call.ask_again(now_s)
         elif now_s - self._looked_s > _LOOK_AGAIN_S + self.ros.wait_for_service_timeout_s:
-            return self._failed(f"The server of '{self.server_name}' has gone while it worked.")
+            return self._failed(
+                f"The server of '{self.server_name}' disappeared while it executed the goal."
+            )
         return RUNNING
 
     def _absence(self) -> str:

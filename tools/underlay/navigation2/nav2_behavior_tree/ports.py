@@ -118,9 +118,7 @@ def bind(name: str, port: Port, text: str | None) -> Binding:
         return Binding(name if match[1] == '=' else match[1], None, port.kind)
     if port.is_output:
         if source and text is not None:
-            raise ValueError(
-                f"has to be a key of the blackboard such as '{{{name}}}', not a value"
-            )
+            raise ValueError(f"must be a key of the blackboard such as '{{{name}}}', not a value")
         return Binding(None, None, port.kind)
     return Binding(None, convert(source, port.kind), port.kind)
 
@@ -145,7 +143,7 @@ def convert(text: str, kind: str) -> Any:
     try:
         return CONVERTERS[kind](text)
     except ValueError as error:
-        raise ValueError(f"has to be {_NAMES.get(kind, kind)}, and is '{text}'") from error
+        raise ValueError(f"must be {_NAMES.get(kind, kind)}, but is '{text}'") from error
 
 
 def _boolean(text: str) -> bool:

@@ -36,8 +36,8 @@ _RENAMED = {
     'BlackboardCheckString': 'Precondition',
 }
 _MISSING = {
-    'ManualSelector': 'nobody could answer it',
-    'ConsumeQueue': 'nodes of BehaviorTree.CPP that are deprecated are left out',
+    'ManualSelector': 'it would need a user who selects a child',
+    'ConsumeQueue': 'deprecated nodes of BehaviorTree.CPP are left out',
 }
 
 

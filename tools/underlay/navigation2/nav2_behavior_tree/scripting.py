@@ -182,7 +182,7 @@ class Script:
             }
             apply = signs[token.text]
             return lambda board: apply(operand(board))
-        raise self._error(f"a value is expected, and there is '{token.text or 'the end'}'")
+        raise self._error(f"expected a value instead of '{token.text or 'the end'}'")
 
 
 def _name(name: str) -> Evaluate:

@@ -248,10 +248,10 @@ class _Builder:
         if key in within:
             raise element.error(f"The tree '{key}' contains itself: {' > '.join(within)} > {key}.")
         if element.children:
-            raise element.error('<SubTree> has no children; its tree is that of its ID.')
+            raise element.error('<SubTree> must not have children; its ID names its tree.')
         share = attributes.pop('_autoremap', 'false').lower()
         if share not in ('true', 'false', '1', '0'):
-            raise element.error(f"_autoremap has to be 'true' or 'false', and is '{share}'.")
+            raise element.error(f"_autoremap must be 'true' or 'false', but is '{share}'.")
         remapping, values = {}, {}
         for name, text in attributes.items():
             match = bind(name, _ANY, text)
@@ -275,7 +275,7 @@ def _check_children(element: Element, type_name: str, kind: type[TreeNode]) -> N
         wanted = f'at least {least} child{"ren" * (least > 1)}'
     else:
         wanted = f'at most {most} children'
-    raise element.error(f"'{type_name}' has {wanted}, and here {count}.")
+    raise element.error(f"'{type_name}' must have {wanted}, but has {count}.")
 
 
 def _bindings(

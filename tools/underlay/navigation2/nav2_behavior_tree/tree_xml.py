@@ -84,7 +84,7 @@ def read_tree_text(text: str, file: str = 'behavior tree') -> Document:
     """
     root = _parse(text, file)
     if root.tag != 'root':
-        raise root.error(f'The outermost element has to be <root>, and is <{root.tag}>.')
+        raise root.error(f'The outermost element must be <root>, but is <{root.tag}>.')
     trees: dict[str, Element] = {}
     warnings: list[str] = []
     _collect(root, trees, warnings, {os.path.abspath(file)})
@@ -101,7 +101,7 @@ def read_tree_text(text: str, file: str = 'behavior tree') -> Document:
         main = own[0]
     if main not in trees:
         known = ', '.join(f"'{each}'" for each in trees)
-        raise root.error(f"main_tree_to_execute is '{main}', and the trees are {known}.")
+        raise root.error(f"main_tree_to_execute is '{main}', but the trees are {known}.")
     return Document(trees, main, file, warnings)
 
 
@@ -118,7 +118,9 @@ def _collect(
 ) -> None:
     version = root.attributes.get('BTCPP_format')
     if version is None:
-        warnings.append(f'{root.file}:{root.line}: <root> has no BTCPP_format="4"; it is read so.')
+        warnings.append(
+            f'{root.file}:{root.line}: <root> has no BTCPP_format="4"; format 4 is assumed.'
+        )
     elif version != '4':
         raise root.error(f"BTCPP_format is '{version}'; only format 4 can be read.")
     for child in root.children:
@@ -128,8 +130,8 @@ def _collect(
             _keep(child, trees)
         elif child.tag != 'TreeNodesModel':
             raise child.error(
-                f'<{child.tag}> cannot stand in <root>; <BehaviorTree>, <include> and '
-                '<TreeNodesModel> can.'
+                f'<{child.tag}> is not allowed in <root>; <BehaviorTree>, <include> and '
+                '<TreeNodesModel> are.'
             )
 
 
@@ -139,7 +141,7 @@ def _keep(tree: Element, trees: dict[str, Element]) -> None:
         raise tree.error(f"There are two trees with the ID '{key}'.")
     if len(tree.children) != 1:
         raise tree.error(
-            f"The tree '{key}' needs exactly one node at its root, and has {len(tree.children)}."
+            f"The tree '{key}' needs exactly one node at its root, but has {len(tree.children)}."
         )
     trees[key] = tree
 
@@ -193,5 +195,5 @@ def _parse(text: str, file: str) -> Element:
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
         where = f' Look at <{stack[-1].tag}> from line {stack[-1].line}.' if stack else ''
-        raise TreeError(f'This is no XML: {reason}.{where}', file, error.lineno) from error
+        raise TreeError(f'This is not valid XML: {reason}.{where}', file, error.lineno) from error
     return roots[0]

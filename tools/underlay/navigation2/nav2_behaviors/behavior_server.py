@@ -47,7 +47,7 @@ class BehaviorServer(BehaviorNode):
         names = self.parameters.declare(BehaviorServerParameters).current.behavior_plugins
         if not names or len(set(names)) < len(names):
             raise ConfigurationError(
-                "The parameter 'behavior_plugins' has to name at least one behaviour, and each "
+                "The parameter 'behavior_plugins' must name at least one behaviour, each only "
                 f'once; it is {names}.'
             )
         super().configure()
@@ -90,11 +90,11 @@ def _behavior_type(behavior: str, name: str) -> type[TimedBehavior]:
         return behavior_types[official]
     if not name:
         raise ConfigurationError(
-            f"The behaviour '{behavior}' has no type: set the parameter '{behavior}.plugin', as "
-            "'nav2_behaviors::Spin'."
+            f"The behaviour '{behavior}' has no type: set the parameter '{behavior}.plugin', "
+            "such as 'nav2_behaviors::Spin'."
         )
     advice = did_you_mean(official, behavior_types, 0.6)
     raise ConfigurationError(
-        f"The parameter '{behavior}.plugin' is '{name}', which is none of the types "
+        f"The parameter '{behavior}.plugin' is '{name}', which is not one of the types "
         f'{", ".join(behavior_types)}.{advice}'
     )

@@ -112,7 +112,7 @@ class CollisionChecker:
         if self._checker is None:
             if self._costmap is None:
                 raise CannotCheck(
-                    f"No costmap has come on '{self._topics[0]}' yet. Is its server active?"
+                    f"No costmap was received on '{self._topics[0]}' so far. Is its server active?"
                 )
             self._checker = FootprintCollisionChecker(_grid_of(self._costmap))
         return self._checker
@@ -128,7 +128,7 @@ class CollisionChecker:
                 self._footprint = found
         if self._footprint is None:
             raise CannotCheck(
-                f"No footprint has come on '{self._topics[1]}' yet. Is the costmap active?"
+                f"No footprint was received on '{self._topics[1]}' so far. Is the costmap active?"
             )
         return self._footprint
 
@@ -162,7 +162,7 @@ def _grid_of(message: Costmap) -> Costmap2D:
     if not meta.size_x or cells.size != meta.size_x * meta.size_y or not meta.resolution > 0.0:
         raise CannotCheck(
             f'The costmap is malformed: {cells.size} cells are not {meta.size_x} x {meta.size_y}, '
-            f'or the resolution {meta.resolution} m is none.'
+            f'or the resolution {meta.resolution} m is invalid.'
         )
     return Costmap2D(
         meta.size_x,

@@ -59,11 +59,11 @@ class DriveOnHeading(TimedBehavior):
         """
         target, speed = goal.target, goal.speed
         if not all(map(math.isfinite, (target.x, target.y, target.z, speed))):
-            raise self.abort('INVALID_INPUT', 'The target and the speed have to be finite.')
+            raise self.abort('INVALID_INPUT', 'The target and the speed must be finite.')
         if target.y or target.z:
             raise self.abort(
                 'INVALID_INPUT',
-                f"'{self.name}' drives along x only; y and z of the target have to be 0, and are "
+                f"'{self.name}' drives along x only; y and z of the target must be 0, but are "
                 f'{target.y:g} and {target.z:g} m.',
             )
         self._distance_m, self._speed = self._command(target.x, speed)
@@ -119,8 +119,8 @@ class DriveOnHeading(TimedBehavior):
         if (x > 0.0) != (speed > 0.0) or (x and not speed):
             raise self.abort(
                 'INVALID_INPUT',
-                f"The signs of the target's x, {x:g} m, and of the speed, {speed:g} m/s, have to "
-                'be the same, and the speed not 0.',
+                f"The signs of the target's x, {x:g} m, and of the speed, {speed:g} m/s, "
+                'must be the same, and the speed must not be 0.',
             )
         return abs(x), speed
 

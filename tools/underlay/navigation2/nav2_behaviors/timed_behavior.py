@@ -156,7 +156,7 @@ class TimedBehavior(ABC):
             hit = self.node.local_checker.first_collision(poses)
         except CannotCheck as error:
             raise self.abort(
-                'COLLISION_AHEAD', f"'{self.name}' cannot see whether its way is free. {error}"
+                'COLLISION_AHEAD', f"'{self.name}' cannot check whether its path is free. {error}"
             ) from error
         if hit is not None:
             distance = math.hypot(poses[hit, 0], poses[hit, 1])

@@ -37,7 +37,7 @@ DESCRIPTIONS = {
         'nav2_container',
         'Name of the container that nodes are loaded into if use_composition is true.',
     ),
-    'use_respawn': ('False', 'Whether to start a process anew that has ended.'),
+    'use_respawn': ('False', 'Whether to restart a process that has ended.'),
     'log_level': ('info', 'Log level.'),
 }
 """Default and description of each argument of the launch files."""

@@ -72,10 +72,10 @@ class BtNavigator(NavigationNode):
         )
         if not plugin:
             raise ConfigurationError(
-                f"The parameter '{name}.plugin' is missing: it names the type of the navigator."
+                f"The parameter '{name}.plugin' is missing: set it to the type of the navigator."
             )
         kind = NAVIGATORS.get(plugin.replace('/', '::'))
         if kind is None:
             meant = did_you_mean(plugin, NAVIGATORS, 0.6)
-            raise ConfigurationError(f"There is no navigator of the type '{plugin}'.{meant}")
+            raise ConfigurationError(f"There is no navigator of type '{plugin}'.{meant}")
         return kind(self, name)

@@ -24,14 +24,14 @@ __all__ = ['UNSUPPORTED', 'BtNavigatorParameters', 'NavigationNode', 'TreeLog']
 
 UNSUPPORTED = {
     'default_cancel_timeout': 'canceling does not wait for the servers',
-    'bond_heartbeat_period': 'the lifecycle manager looks after the node otherwise',
+    'bond_heartbeat_period': 'the lifecycle manager polls the state of the node instead',
     'service_introspection_mode': 'services are not introspected',
     'introspection_mode': 'services are not introspected',
     'allow_parameter_qos_overrides': 'QoS is fixed',
-    'enable_groot_monitoring': 'Groot cannot connect; listen to behavior_tree_log',
-    'groot_server_port': 'Groot cannot connect; listen to behavior_tree_log',
-    'groot_zmq_publisher_port': 'Groot cannot connect; listen to behavior_tree_log',
-    'groot_zmq_server_port': 'Groot cannot connect; listen to behavior_tree_log',
+    'enable_groot_monitoring': 'Groot cannot connect; subscribe to behavior_tree_log instead',
+    'groot_server_port': 'Groot cannot connect; subscribe to behavior_tree_log instead',
+    'groot_zmq_publisher_port': 'Groot cannot connect; subscribe to behavior_tree_log instead',
+    'groot_zmq_server_port': 'Groot cannot connect; subscribe to behavior_tree_log instead',
     'bt_search_directories': 'trees are named by their files',
 }
 """The parameters of Nav2 that have no effect, and what happens instead."""

@@ -127,7 +127,7 @@ class Navigator:
         try:
             self._make_tree(self._default())
         except TreeError as error:
-            raise ConfigurationError(f"The tree of '{self.name}' is not right. {error}") from error
+            raise ConfigurationError(f"The tree of '{self.name}' is invalid. {error}") from error
 
     def _make_tree(self, file: str) -> BehaviorTree:
         document = self.node.files.read(file)

@@ -49,7 +49,7 @@ class CollisionDetector(LifecycleNode):
             if zone.parameters.current.kind == 'velocity_polygon':
                 raise ConfigurationError(
                     f"The polygon '{zone.name}' is a velocity_polygon; the collision detector "
-                    'knows no velocity. Use polygon or circle.'
+                    'does not know the velocity. Use polygon or circle.'
                 )
         self._sources = Sources(self, current)
         self._markers = PointMarkers(self, current.base_frame_id)

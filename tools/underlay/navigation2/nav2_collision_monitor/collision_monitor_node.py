@@ -155,7 +155,7 @@ class CollisionMonitor(LifecycleNode):
                 reason = 'because of its sensors. ' + ' '.join(invalid.values())
             log.warning(f'{_DONE[action.kind]} {reason}')
         elif not is_first:
-            log.info('The robot goes on as it is told to.')
+            log.info('The robot moves as commanded again.')
 
     def _show(self, points: Mapping[str, FloatArray]) -> None:
         self._markers.publish(points)

@@ -114,7 +114,9 @@ def points_of_cloud(cloud: Any) -> FloatArray:
     kinds = {_FLOAT32: order + 'f4', _FLOAT64: order + 'f8'}
     used = [fields[name] for name in 'xyz']
     if any(field.datatype not in kinds for field in used):
-        raise ValueError('The fields x, y and z of the point cloud are no floating-point numbers.')
+        raise ValueError(
+            'The fields x, y and z of the point cloud are not floating-point numbers.'
+        )
     count = cloud.width * cloud.height
     if not count:
         return np.empty((0, 3))
@@ -127,7 +129,7 @@ def points_of_cloud(cloud: Any) -> FloatArray:
         }
     )
     if len(cloud.data) < cloud.row_step * (cloud.height - 1) + cloud.width * cloud.point_step:
-        raise ValueError('The point cloud has fewer bytes than its size says.')
+        raise ValueError('The point cloud has fewer bytes than its size requires.')
     rows = np.ndarray(
         (cloud.height, cloud.width), kind, cloud.data, strides=(cloud.row_step, cloud.point_step)
     )

@@ -76,7 +76,7 @@ class MonitoredZone:
                     f"The polygon '{name}' needs the parameter '{name}.{needed}'."
                 )
         node.parameters.declare_unsupported(
-            {'max_points': "it is named 'min_points' now, and is one more"}, prefix=name
+            {'max_points': "it is now named 'min_points', and is one greater"}, prefix=name
         )
         self.sources = _sources_of(node, name, common)
         self._shape: Shape | None = None
@@ -149,8 +149,8 @@ class MonitoredZone:
         for name, attribute in _FIXED.items():
             if getattr(new, attribute) != getattr(old, attribute):
                 raise ValueError(
-                    f"'{self.name}.{name}' has effect when the node is configured: clean it up, "
-                    'set it, and configure it again.'
+                    f"'{self.name}.{name}' takes effect only when the node is configured: "
+                    'clean it up, set it, and configure it again.'
                 )
         if new.kind == 'polygon' and new.points != old.points:
             try:
@@ -160,7 +160,7 @@ class MonitoredZone:
             self._moving = None
         elif new.kind == 'circle' and new.radius != old.radius:
             if new.radius <= 0.0:
-                raise ValueError(f"The radius of '{self.name}' has to be more than 0.")
+                raise ValueError(f"The radius of '{self.name}' must be more than 0.")
             self._shape = Circle(new.radius)
 
     def _prepare_shape(self, current: PolygonParameters) -> None:
@@ -212,8 +212,8 @@ class MonitoredZone:
             else:
                 self._warn(
                     f"No velocity polygon of '{self.name}' covers the velocity x {command.x:.3g}, "
-                    f'y {command.y:.3g} m/s, yaw rate {command.yaw:.3g} rad/s; the one before is '
-                    'kept.'
+                    f'y {command.y:.3g} m/s, yaw rate {command.yaw:.3g} rad/s; the previous one '
+                    'is kept.'
                 )
         if self._shape is None:
             self._warn(f"The shape of '{self.name}' is not known yet; the zone has no effect.")
@@ -285,14 +285,14 @@ def make_zones(
 
     """
     if not common.polygons:
-        raise ConfigurationError("The parameter 'polygons' has to name at least one zone.")
+        raise ConfigurationError("The parameter 'polygons' must name at least one zone.")
     zones = [MonitoredZone(node, name, common) for name in common.polygons]
     for zone in zones:
         kind = zone.parameters.current.action_type
         if kind not in allowed:
             raise ConfigurationError(
-                f"The parameter '{zone.name}.action_type' has to be one of {', '.join(allowed)} "
-                f"in this node, and is '{kind}'."
+                f"The parameter '{zone.name}.action_type' must be one of {', '.join(allowed)} "
+                f"in this node, but is '{kind}'."
             )
     return zones
 
@@ -304,7 +304,7 @@ def _sources_of(node: LifecycleNode, name: str, common: CommonParameters) -> lis
     for each in sources:
         if each not in common.observation_sources:
             raise ConfigurationError(
-                f"'{name}.sources_names' has the name '{each}', which is not one of the "
+                f"'{name}.sources_names' has '{each}', which is not one of the "
                 f'observation_sources: {", ".join(common.observation_sources)}.'
             )
     return list(sources)
@@ -322,7 +322,7 @@ def _velocity_polygons(
 ) -> list[VelocityPolygon]:
     if not current.velocity_polygons:
         raise ConfigurationError(
-            f"The parameter '{name}.velocity_polygons' has to name at least one polygon."
+            f"The parameter '{name}.velocity_polygons' must name at least one polygon."
         )
     polygons = []
     for each in current.velocity_polygons:
@@ -331,7 +331,7 @@ def _velocity_polygons(
         for low, high in (('linear_min', 'linear_max'), ('theta_min', 'theta_max')):
             if getattr(values, low) > getattr(values, high):
                 raise ConfigurationError(
-                    f"The parameter '{full}.{low}' has to be at most '{full}.{high}'."
+                    f"The parameter '{full}.{low}' must be at most '{full}.{high}'."
                 )
         polygons.append(
             VelocityPolygon(

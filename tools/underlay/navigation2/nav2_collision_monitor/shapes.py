@@ -128,9 +128,11 @@ def parse_points(text: str) -> FloatArray:
     try:
         values = json.loads(text)
     except ValueError as error:
-        raise ValueError(f'are no list of pairs as "[[0.3, 0.2], ...]": {error}') from error
+        raise ValueError(
+            f'are not a list of pairs such as "[[0.3, 0.2], ...]": {error}'
+        ) from error
     if not isinstance(values, list) or not all(_is_pair(each) for each in values):
-        raise ValueError(f'have to be a list of pairs as "[[0.3, 0.2], ...]", and are "{text}"')
+        raise ValueError(f'must be a list of pairs such as "[[0.3, 0.2], ...]", but are "{text}"')
     return checked_corners(np.asarray(values, dtype=np.float64).reshape(-1, 2))
 
 
@@ -155,9 +157,9 @@ def checked_corners(corners: FloatArray) -> FloatArray:
 
     """
     if len(corners) < 3:
-        raise ValueError(f'have to be at least 3, and are {len(corners)}')
+        raise ValueError(f'must be at least 3, but are {len(corners)}')
     if not np.all(np.isfinite(corners)):
-        raise ValueError('have to be finite numbers')
+        raise ValueError('must be finite numbers')
     return corners
 
 

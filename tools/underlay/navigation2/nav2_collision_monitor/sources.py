@@ -114,12 +114,14 @@ class Source:
                 return np.empty((0, 2))
             topic = self._told.current.topic
             raise SourceInvalid(
-                reason or self._fault or f"No data of '{self.name}' has come on '{topic}' yet."
+                reason
+                or self._fault
+                or f"No data of '{self.name}' has been received on '{topic}' yet."
             )
         if self._is_old(newest, now):
             age_s = (now - newest.stamp).nanoseconds * 1e-9
             raise SourceInvalid(
-                f"The newest data of '{self.name}' is {age_s:.1f} s old, and its source_timeout "
+                f"The newest data of '{self.name}' is {age_s:.1f} s old, but its source_timeout "
                 f'is {self.timeout_s:g} s.'
             )
         points = np.concatenate([data.points for data in self._located.values()])
@@ -178,7 +180,7 @@ class Source:
                 del self._new[key]
                 continue
             except TransformException as error:
-                reason = f"Where '{self.name}' measured is not known: {error}"
+                reason = f"The pose of '{self.name}' at the time of its data is unknown: {error}"
                 if self._is_old(data, now):
                     del self._new[key]
                 continue
@@ -229,7 +231,7 @@ class Sources:
     def __init__(self, node: LifecycleNode, common: CommonParameters) -> None:
         if not common.observation_sources:
             raise ConfigurationError(
-                "The parameter 'observation_sources' has to name at least one sensor."
+                "The parameter 'observation_sources' must name at least one sensor."
             )
         self._node, self._common = node, common
         self.all = [Source(node, name, common) for name in common.observation_sources]
@@ -242,7 +244,7 @@ class Sources:
         try:
             matrix = self._base_from_fixed()
         except TransformException as error:
-            reason = f'Where the robot is is not known: {error}'
+            reason = f'The pose of the robot is unknown: {error}'
             return {}, {source.name: reason for source in enabled}
         now = self._node.get_clock().now()
         for source in enabled:
@@ -291,6 +293,6 @@ def _timeout(node: LifecycleNode, name: str, default_s: float) -> float:
     )
     if not 0.0 <= value < float('inf'):
         raise ConfigurationError(
-            f"The parameter '{name}.source_timeout' has to be at least 0, and is {value}."
+            f"The parameter '{name}.source_timeout' must be at least 0, but is {value}."
         )
     return float(value)

@@ -107,7 +107,7 @@ class ProgressChecker:
 
     def reason(self) -> str:
         """Describe the lack of progress in a sentence."""
-        return 'The robot does not get ahead.'
+        return 'The robot makes no progress.'
 
 
 class SimpleProgressChecker(ProgressChecker):

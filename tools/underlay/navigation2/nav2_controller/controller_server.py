@@ -41,7 +41,7 @@ _DEFAULT_KINDS = {
 
 
 _UNSUPPORTED = {
-    'search_window': 'max_robot_pose_search_dist of the controller plugins says how far',
+    'search_window': 'max_robot_pose_search_dist of the controller plugins limits the search',
     'controller_plugin_ids': 'set controller_plugins',
     'controller_plugin_types': 'set <name>.plugin for each name in controller_plugins',
 }
@@ -270,7 +270,7 @@ class ControllerServer(LifecycleNode):
     ) -> None:
         made.clear()
         if not names:
-            raise ConfigurationError(f'There has to be at least one {what}.')
+            raise ConfigurationError(f'There must be at least one {what}.')
         for name in names:
             default = _DEFAULT_KINDS.get(name, '')
             kind = self.parameters.declare_value(
@@ -294,4 +294,4 @@ class ControllerServer(LifecycleNode):
 
 def _require(what: str, done: str, outcome: TransitionCallbackReturn) -> None:
     if outcome is not TransitionCallbackReturn.SUCCESS:
-        raise ConfigurationError(f'The {what} could not be {done}; it has said why.')
+        raise ConfigurationError(f'The {what} could not be {done}; its log says why.')

@@ -172,7 +172,7 @@ class PathFollower:
             raise _NoVelocity(
                 Code.TF_ERROR,
                 f"The newest odometry on '{node.odometry.topic}' is {age:.1f} s old. "
-                'The robot stands until it goes on.',
+                'The robot waits until odometry resumes.',
             )
         into = Pose2D(0.0, 0.0, 0.0)
         try:
@@ -217,7 +217,7 @@ class PathFollower:
         elif now - self._current_s > self._node.settings.current.costmap_update_timeout:
             raise ActionAborted(
                 Code.CONTROLLER_TIMED_OUT,
-                'The local costmap is not up to date. Is what its layers observe published?',
+                'The local costmap is not up to date. Are the topics of its layers published?',
             )
         else:
             raise _NoVelocity(Code.CONTROLLER_TIMED_OUT, 'The local costmap is not up to date.')
@@ -269,7 +269,7 @@ def _chosen(known: dict[str, PluginT], name: str, what: str, code: int) -> str:
         return name
     names = ', '.join(f"'{each}'" for each in sorted(known))
     if not name:
-        raise ActionAborted(code, f'The goal has to name one {what} of {names}.')
+        raise ActionAborted(code, f'The goal must name a {what}, one of {names}.')
     advice = did_you_mean(name, known)
     raise ActionAborted(code, f"There is no {what} '{name}'.{advice} These exist: {names}.")
 
@@ -281,7 +281,7 @@ def _checked_path(path: Any) -> tuple[Any, str]:
     frame = path.header.frame_id or path.poses[0].header.frame_id
     if not frame:
         raise ActionAborted(
-            Code.TF_ERROR, 'The path has no frame_id. Give it the frame of its poses, as map.'
+            Code.TF_ERROR, 'The path has no frame_id. Give it the frame of its poses, such as map.'
         )
     poses = path_poses(path)
     if not np.isfinite(poses).all():

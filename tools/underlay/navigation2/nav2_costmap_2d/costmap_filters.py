@@ -140,8 +140,8 @@ class CostmapFilter(Layer):
         cells = np.asarray(message.data, dtype=np.int8).view(np.uint8)
         if not info.width or cells.size != info.width * info.height or info.resolution <= 0.0:
             self._node.get_logger().error(
-                f"Filter '{self.name}': the mask is not used: it has {cells.size} cells, and says "
-                f'that it has {info.width} x {info.height}.'
+                f"Filter '{self.name}': ignored a mask of {cells.size} cells instead of "
+                f'{info.width} x {info.height}.'
             )
             return
         origin = planar_pose(info.origin)
@@ -326,8 +326,8 @@ class SpeedFilter(CostmapFilter):
         limit = self._meaning(value) if value else 0.0
         if value and not 0.0 < limit <= (100.0 if is_percentage else math.inf):
             self._node.get_logger().warning(
-                f"Filter '{self.name}': a speed limit of {limit:g} is not possible; there is none "
-                'now.',
+                f"Filter '{self.name}': a speed limit of {limit:g} is not possible; no limit "
+                'applies.',
                 throttle_duration_sec=_QUIET_S,
             )
             limit = 0.0

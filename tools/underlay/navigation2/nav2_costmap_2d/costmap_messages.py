@@ -143,8 +143,7 @@ def costmap_from(message: Costmap) -> Costmap2D:
     cells = np.asarray(message.data, np.uint8)
     if cells.size != data.size_x * data.size_y:
         raise ValueError(
-            f'The costmap has {cells.size} cells, and says that it has {data.size_x} x '
-            f'{data.size_y}.'
+            f'The costmap has {cells.size} cells instead of {data.size_x} x {data.size_y}.'
         )
     return Costmap2D(
         data.size_x,

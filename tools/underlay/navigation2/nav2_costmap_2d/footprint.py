@@ -97,7 +97,7 @@ def parse_footprint(text: str) -> FloatArray:
     try:
         points: Any = json.loads(text.strip() or '[]')
     except ValueError:
-        raise ValueError(f'is no list of corners, {example}, and is {text!r}') from None
+        raise ValueError(f'must be a list of corners, {example}, but is {text!r}') from None
     if points == []:
         return np.empty((0, 2))
     is_list = isinstance(points, list) and all(
@@ -107,9 +107,9 @@ def parse_footprint(text: str) -> FloatArray:
         for point in points
     )
     if not is_list:
-        raise ValueError(f'has to be a list of corners [x, y], {example}, and is {text!r}')
+        raise ValueError(f'must be a list of corners [x, y], {example}, but is {text!r}')
     if len(points) < 3:
-        raise ValueError(f'has to have at least three corners, and has {len(points)}')
+        raise ValueError(f'must have at least three corners, but has {len(points)}')
     return np.array(points, float)
 
 

@@ -113,7 +113,7 @@ class ObservationSource:
         if age_s > limit_s:
             self._node.get_logger().warning(
                 f"The observation source '{self._name}' has sent nothing for {age_s:.2f} s; "
-                f'{limit_s:g} s are expected.',
+                f'at most {limit_s:g} s are expected.',
                 throttle_duration_sec=_QUIET_S,
             )
         return age_s <= limit_s and self._last_s is not None
@@ -154,7 +154,7 @@ class ObservationSource:
                 found = self._observation(self._waiting[index])
             except TransformException as error:
                 if index == 0 and len(self._waiting) == _KEPT_MESSAGES:
-                    self._warn(f'where it was is not known: {error}')
+                    self._warn(f'the pose of the sensor is unknown: {error}')
                 continue
             except ValueError as error:
                 self._warn(str(error))
@@ -189,6 +189,6 @@ class ObservationSource:
 
     def _warn(self, reason: str) -> None:
         self._node.get_logger().warning(
-            f"A message of the observation source '{self._name}' does not count: {reason}",
+            f"A message of the observation source '{self._name}' was ignored: {reason}",
             throttle_duration_sec=_QUIET_S,
         )

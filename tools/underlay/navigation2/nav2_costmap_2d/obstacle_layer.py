@@ -79,7 +79,7 @@ class ObstacleLayer(Layer):
         self._settings = node.parameters.declare(self.parameters_kind, name)
         self._settings.on_change = lambda _: node.touch()
         node.parameters.declare_unsupported(
-            {'tf_filter_tolerance': 'messages wait until it is known where their sensor was'}, name
+            {'tf_filter_tolerance': 'messages wait until the pose of their sensor is known'}, name
         )
         self._default = NO_INFORMATION if node.tracks_unknown else FREE_SPACE
         self._grid = node.grid

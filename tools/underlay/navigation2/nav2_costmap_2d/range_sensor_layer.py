@@ -251,7 +251,7 @@ class RangeSensorLayer(Layer):
             ).transform
         except TransformException as error:
             self._node.get_logger().warning(
-                f"Layer '{self.name}': a message does not count: {error}",
+                f"Layer '{self.name}': ignored a message: {error}",
                 throttle_duration_sec=_QUIET_S,
             )
             return None

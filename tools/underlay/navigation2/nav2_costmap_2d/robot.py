@@ -116,8 +116,8 @@ class Robot:
         points = corners_of(polygon)
         if len(points) < 3 or not np.isfinite(points).all():
             self._node.get_logger().error(
-                f'A footprint has at least three corners; this one has {len(points)} and is not '
-                'used.'
+                f'Ignored a footprint of {len(points)} points: it needs at least three corners, '
+                'all finite.'
             )
             return
         self.set_shape(Footprint.of_points(points, self._settings.current.footprint_padding))

@@ -101,8 +101,8 @@ def cloud_points(cloud: PointCloud2) -> FloatArray:
             )
         except (TypeError, KeyError, ValueError):
             raise ValueError(
-                f"The field '{name}' of the cloud, or the number of its {len(data)} bytes, is not "
-                'as it says.'
+                f"The field '{name}' of the cloud, or its size of {len(data)} bytes, does not fit "
+                'its description.'
             ) from None
     flat = points.reshape(-1, 3)
     finite: FloatArray = flat[np.isfinite(flat).all(axis=1)]

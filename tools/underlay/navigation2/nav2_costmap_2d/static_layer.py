@@ -199,15 +199,15 @@ class StaticLayer(Layer):
         cells = np.asarray(message.data, dtype=np.int8).view(np.uint8)
         if not info.width or cells.size != info.width * info.height or info.resolution <= 0.0:
             self._node.get_logger().error(
-                f'The map is not used: it has {cells.size} cells, and says that it has '
+                f'Ignored a map of {cells.size} cells instead of '
                 f'{info.width} x {info.height} of {info.resolution:g} m.'
             )
             return
         origin = planar_pose(info.origin)
         if abs(origin.yaw) > 1e-3:
             self._node.get_logger().warning(
-                f'The map is turned by {math.degrees(origin.yaw):.1f} degrees; costmaps take it '
-                'as not turned.'
+                f'The map is rotated by {math.degrees(origin.yaw):.1f} degrees; costmaps take it '
+                'as not rotated.'
             )
         self._map = Costmap2D(
             info.width,
@@ -236,8 +236,8 @@ class StaticLayer(Layer):
         cells = np.asarray(message.data, dtype=np.int8).view(np.uint8)
         if region.clipped(self._map) != region or cells.size != message.width * message.height:
             self._node.get_logger().error(
-                f'An update of the map is not used: {message.width} x {message.height} cells at '
-                f'{message.x}, {message.y} are not in the map, or not all there.'
+                f'Ignored an update of the map: {message.width} x {message.height} cells at '
+                f'{message.x}, {message.y} are outside the map, or incomplete.'
             )
             return
         changed = self._table[cells.reshape(message.height, message.width)]

@@ -189,7 +189,7 @@ class GracefulController(Controller):
             return Command(Velocity(v, yaw=w), shown)
         raise NoValidControl(
             'Every way to a pose of the path within the lookahead distance hits an obstacle. '
-            'Plan another way.'
+            'Plan another path.'
         )
 
     def _turn(self, state: ControlState, angle: float, p: GracefulParameters) -> Command:

@@ -202,7 +202,7 @@ class LifecycleManager(Node):
     async def _alone(self, work: Any) -> bool:
         """Run an operation, unless another one is in progress; return whether it succeeded."""
         if self._is_busy:
-            self.get_logger().warning('Busy with another change of state: ask again')
+            self.get_logger().warning('Busy with another change of state: try again later')
             return False
         self._is_busy = True
         try:
@@ -265,10 +265,8 @@ class LifecycleManager(Node):
             seen_s = self._seen_s.setdefault(each.name, now_s - self._watch_s)
             if state is None and now_s - seen_s < self._told.bond_timeout:
                 continue
-            why = 'does not answer any more' if state is None else 'is not active any more'
-            self.get_logger().error(
-                f"'{each.name}' {why}. The others of the stack are brought down."
-            )
+            why = 'no longer responds' if state is None else 'is no longer active'
+            self.get_logger().error(f"'{each.name}' {why}. The other nodes are brought down.")
             await self._alone(self._recover)
             return
 
@@ -287,7 +285,7 @@ class LifecycleManager(Node):
             return False
         if not await self._answer(self._told.bond_respawn_max_duration):
             return False
-        self.get_logger().info('All nodes are there again: bringing them up')
+        self.get_logger().info('All nodes are available again: bringing them up')
         return await self.startup()
 
     def _publish_diagnostics(self) -> None:

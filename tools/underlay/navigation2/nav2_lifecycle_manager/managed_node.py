@@ -91,7 +91,7 @@ class ManagedNode:
                 return int(response.current_state.id)
             except ServiceError:
                 left_s -= _AGAIN_S  # requests can get lost during discovery
-        raise ServiceError(f"'{self.name}' has not told its state within {all_s:g} s.")
+        raise ServiceError(f"'{self.name}' did not report its state within {all_s:g} s.")
 
     async def answers(self, timeout_s: float) -> bool:
         """
@@ -131,9 +131,7 @@ class ManagedNode:
         except ServiceError as error:
             raise TransitionError(str(error)) from error
         if not response.success:
-            raise TransitionError(
-                f"'{self.name}' did not do it ({WORDS[transition].lower()}): its own log says why."
-            )
+            raise TransitionError(f"{WORDS[transition]} '{self.name}' failed: its log says why.")
 
     async def shut_down(self) -> None:
         """Shut the node down from any state; raise TransitionError like `change`."""

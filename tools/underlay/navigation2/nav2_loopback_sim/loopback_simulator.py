@@ -242,7 +242,7 @@ class LoopbackSimulator(Node):
             if self._looks < _LASER_LOOKS:
                 return
             self.get_logger().info(
-                f"Nobody says where '{laser}' is in '{base}': it is published as the same."
+                f"There is no transform from '{laser}' to '{base}': the identity is published."
             )
             self._laser_in_base = Pose2D(0.0, 0.0, 0.0)
             self._static_broadcaster.sendTransform(

@@ -217,14 +217,14 @@ def _read_metadata(file: Path) -> _Metadata:
     except (OSError, UnicodeDecodeError) as error:
         raise MissingMapError(f"The map '{file}' cannot be read: {error}.") from error
     except yaml.YAMLError as error:
-        raise MapMetadataError(f"The map '{file}' is no YAML: {error}.") from error
+        raise MapMetadataError(f"The map '{file}' is not valid YAML: {error}.") from error
     if not isinstance(content, dict):
         raise MapMetadataError(f"The map '{file}' has no keys, such as 'image: map.pgm'.")
     reader = _Reader(file, content)
     try:
         thresholds = Thresholds(reader.number('free_thresh'), reader.number('occupied_thresh'))
     except ValueError as error:
-        raise MapMetadataError(f"The map '{file}' has wrong thresholds: {error}.") from error
+        raise MapMetadataError(f"The map '{file}' has invalid thresholds: {error}.") from error
     resolution = reader.number('resolution')
     if resolution <= 0.0:
         reader.fail('resolution', 'a number above 0, in m')
@@ -279,7 +279,7 @@ class _Reader:
 
     def fail(self, key: str, wanted: str) -> None:
         raise MapMetadataError(
-            f"The key '{key}' of the map '{self._file}' has to be {wanted}, and is "
+            f"The key '{key}' of the map '{self._file}' must be {wanted}, but is "
             f'{self._content.get(key)!r}.'
         )
 
@@ -298,7 +298,9 @@ def _read_image(image: Path, file: Path) -> tuple[Any, Any]:
     except cv2.error:
         pixels = None
     if pixels is None:
-        raise MapDataError(f"'{image}', of the map '{file}', is no image that OpenCV can read.")
+        raise MapDataError(
+            f"'{image}', of the map '{file}', is not an image that OpenCV can read."
+        )
     if pixels.dtype == np.uint16:
         pixels = (pixels // 257).astype(np.uint8)
     if pixels.ndim == 2:

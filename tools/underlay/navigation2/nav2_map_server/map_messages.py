@@ -56,7 +56,7 @@ def map_from(message: OccupancyGrid) -> OccupancyMap:
     cells = np.asarray(message.data, dtype=np.int8)
     if not cells.size or cells.size != info.width * info.height:
         raise MapError(
-            f'The map is not complete: it has {cells.size} cells, and says that it has '
+            f'The map is not complete: it has {cells.size} cells instead of '
             f'{info.width} x {info.height}.'
         )
     origin = planar_pose(info.origin)

@@ -108,9 +108,9 @@ class MapSaver(LifecycleNode):
             self.destroy_subscription(subscription)
         if not is_there:
             raise MapError(
-                f"No map came on '{options.topic}' within {values.save_map_timeout:g} s. Is it "
-                "published, and on this topic? The parameter 'save_map_timeout' is how long to "
-                'wait.'
+                f"No map was received on '{options.topic}' within {values.save_map_timeout:g} s. "
+                "Is it published, and on this topic? The parameter 'save_map_timeout' says how "
+                'long to wait.'
             )
         file, image = write_map(
             map_from(found.result()),

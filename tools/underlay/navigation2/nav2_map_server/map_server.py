@@ -95,8 +95,8 @@ class MapServer(LifecycleNode):
         )
         if abs(found.origin[2]) > 1e-6:
             self.get_logger().warning(
-                f"The map '{path}' is turned by {math.degrees(found.origin[2]):.1f} degrees; "
-                'costmaps and localization take it as not turned. Turn the image instead.'
+                f"The map '{path}' is rotated by {math.degrees(found.origin[2]):.1f} degrees; "
+                'costmaps and localization take it as not rotated. Rotate the image instead.'
             )
         return make_grid(found, self._frame, self.get_clock().now().to_msg())
 
@@ -107,14 +107,16 @@ class MapServer(LifecycleNode):
 
     def _tell(self, _: GetMap.Request, response: GetMap.Response) -> GetMap.Response:
         if not self.is_active:
-            self.get_logger().warning('The service map does nothing: the node is not active.')
+            self.get_logger().warning('The service map is not available: the node is not active.')
         elif self._map is not None:
             response.map = self._map
         return response
 
     def _load(self, request: LoadMap.Request, response: LoadMap.Response) -> LoadMap.Response:
         if not self.is_active:
-            self.get_logger().warning('The service load_map does nothing: the node is not active.')
+            self.get_logger().warning(
+                'The service load_map is not available: the node is not active.'
+            )
             response.result = LoadMap.Response.RESULT_UNDEFINED_FAILURE
             return response
         try:

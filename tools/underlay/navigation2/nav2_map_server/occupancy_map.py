@@ -44,7 +44,7 @@ class Thresholds:
     def __post_init__(self) -> None:
         if not 0.0 <= self.free < self.occupied <= 1.0:
             raise ValueError(
-                f'The threshold of free cells ({self.free:g}) has to be less than that of '
+                f'The threshold of free cells ({self.free:g}) must be less than that of '
                 f'occupied ones ({self.occupied:g}), and both from 0 to 1'
             )
 

@@ -137,7 +137,7 @@ def _find(name: str) -> type[Critic]:
     plain = name.replace('/', '::').rpartition('::')[2]
     if plain not in _CRITICS:
         raise ConfigurationError(
-            f"There is no critic '{name}' of MPPI.{did_you_mean(plain, _CRITICS)} "
+            f"MPPI has no critic '{name}'.{did_you_mean(plain, _CRITICS)} "
             f'These exist: {", ".join(_CRITICS)}.'
         )
     return _CRITICS[plain]

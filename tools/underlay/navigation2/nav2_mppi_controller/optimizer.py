@@ -87,7 +87,7 @@ class Optimizer:
             self._best = np.zeros((3, settings.time_steps), np.float32)
             if attempt == settings.retry_attempt_limit:
                 raise NoValidControl(
-                    f'All {settings.batch_size} trajectories hit an obstacle. Plan another way.'
+                    f'All {settings.batch_size} trajectories hit an obstacle. Plan another path.'
                 )
         self._best = smoothed(self._best, self._history)
         control = limit_controls(self._best, state.velocity, settings, ratio)[:, 0]

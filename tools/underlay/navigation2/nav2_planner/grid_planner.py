@@ -90,7 +90,7 @@ class GridPlanner:
     def _check_inside(self, costmap: Costmap2D, pose: Pose2D, what: str) -> None:
         if not (math.isfinite(pose.x) and math.isfinite(pose.y) and math.isfinite(pose.yaw)):
             raise PlanningError(
-                f'{what.upper()}_OUTSIDE_MAP', f'The {what} has a coordinate that is no number.'
+                f'{what.upper()}_OUTSIDE_MAP', f'The {what} has a coordinate that is not a number.'
             )
         if costmap.world_to_map(pose.x, pose.y) is None:
             right = costmap.origin_x + costmap.size_x * costmap.resolution
@@ -157,9 +157,9 @@ class GridPlanner:
         if grid.free[target]:
             raise PlanningError(
                 'NO_VALID_PATH',
-                f'No way leads from the start to the goal {_at(goal)}: obstacles or unknown space '
-                f'cut it off. {closest} Open the way, clear the global costmap, or choose another '
-                'goal.',
+                f'There is no path from the start to the goal {_at(goal)}: obstacles or unknown '
+                f'space cut it off. {closest} Clear the way, clear the global costmap, or choose '
+                'another goal.',
             )
         cost = costmap.cost_at(goal.x, goal.y)
         raise PlanningError(

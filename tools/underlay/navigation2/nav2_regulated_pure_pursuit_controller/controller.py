@@ -246,7 +246,7 @@ def _check(state: ControlState, arc: FloatArray) -> None:
         x, y, _ = arc[int(np.argmax(hits))]
         raise NoValidControl(
             f'An obstacle is ahead: the robot would hit it at x {x:.2f} m, y {y:.2f} m. '
-            'Plan another way.'
+            'Plan another path.'
         )
 
 

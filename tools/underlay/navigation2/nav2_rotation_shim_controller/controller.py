@@ -90,7 +90,7 @@ class RotationShimController(Controller):
         wanted = self._parameters.current.primary_controller
         if not wanted or wanted.replace('/', '::') == _NAME:
             raise ConfigurationError(
-                f"The parameter '{context.name}.primary_controller' has to be the type of "
+                f"The parameter '{context.name}.primary_controller' must be the type of "
                 "another controller, such as 'dwb_core::DWBLocalPlanner'."
             )
         self._primary: Controller = find_plugin(CONTROLLERS, wanted, 'controller')(context)

@@ -106,7 +106,7 @@ class ActionWatch:
             elif not response.accepted:
                 self._fail(
                     goal,
-                    f'{self._full_name()} has refused the goal. Its log says why; is navigation '
+                    f'{self._full_name()} rejected the goal. Its log says why; is navigation '
                     'active?',
                 )
             else:
@@ -153,7 +153,7 @@ class ActionWatch:
         goal = self.goal
         if goal is None or goal.phase.is_over or goal.phase is Phase.SENDING or self.is_there:
             return
-        self._fail(goal, f'{self._full_name()} is gone: nobody works on the goal any longer.')
+        self._fail(goal, f'{self._full_name()} has disappeared: the goal is no longer executed.')
 
     def close(self) -> None:
         """Stop monitoring the action."""

@@ -10,7 +10,7 @@ __all__ = ['MISSING', 'interface', 'is_built']
 
 MISSING = (
     'The message package nav2_msgs is not built. Run `make setup` in the project, source the '
-    'workspace again, and start this page anew.'
+    'workspace again, and start this page again.'
 )
 
 

@@ -85,7 +85,7 @@ class ManagerWatch:
         elif self.is_there:
             self.state, self.note = UNKNOWN, f'{self._client.srv_name} does not connect.'
         else:
-            self.state, self.note = UNKNOWN, f'Nobody offers {self._client.srv_name}.'
+            self.state, self.note = UNKNOWN, f'No node offers {self._client.srv_name}.'
 
     def _take(self, now_s: float) -> None:
         if self._future.done():

@@ -67,7 +67,7 @@ def read_particles(data: bytes) -> ParticleMessage:
         at = _aligned(at + 4, 8) if count else at
         rows = np.frombuffer(data, f'{order}f8', count * ROW, at).reshape(count, ROW)
     except (struct.error, ValueError) as error:
-        raise ValueError(f'its {len(data)} bytes are no ParticleCloud: {error}.') from error
+        raise ValueError(f'its {len(data)} bytes are not a ParticleCloud: {error}.') from error
     stamp = SimpleNamespace(sec=sec, nanosec=nanosec)
     header = SimpleNamespace(stamp=stamp, frame_id=frame_id)
     return ParticleMessage(header, rows[:, :7].astype(float), rows[:, 7].astype(float))

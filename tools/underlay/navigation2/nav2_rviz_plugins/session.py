@@ -180,7 +180,7 @@ class NavigationSession:
         managers = [each for each in self._managers if each.is_there]
         if not managers:
             names = ' and '.join(each.name for each in self._managers)
-            self.note = f'There is no lifecycle manager: nobody offers services of {names}.'
+            self.note = f'There is no lifecycle manager: no node offers the services of {names}.'
             return
         if command not in ('startup', 'resume'):
             managers.reverse()  # navigation stops before the localization that it depends on

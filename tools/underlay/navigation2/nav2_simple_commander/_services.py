@@ -207,7 +207,7 @@ class Services(Tasks):
         reasons = {
             srv.LoadMap.Response.RESULT_MAP_DOES_NOT_EXIST: 'the file does not exist',
             srv.LoadMap.Response.RESULT_INVALID_MAP_DATA: 'its image cannot be read',
-            srv.LoadMap.Response.RESULT_INVALID_MAP_METADATA: 'its yaml file is not right',
+            srv.LoadMap.Response.RESULT_INVALID_MAP_METADATA: 'its YAML file is invalid',
         }
         reason = reasons.get(result, 'the map server failed')
         self.setTaskError(result, f"The map '{map_filepath}' could not be loaded: {reason}.")

@@ -28,9 +28,9 @@ class LineIterator:
 
     def __init__(self, x0: float, y0: float, x1: float, y1: float, step_size: float = 1.0) -> None:
         if isinstance(step_size, bool) or not isinstance(step_size, (int, float)):
-            raise TypeError(f'step_size has to be a number, and is {step_size!r}.')
+            raise TypeError(f'step_size must be a number, but is {step_size!r}.')
         if step_size <= 0:
-            raise ValueError(f'step_size has to be greater than 0, and is {step_size:g}.')
+            raise ValueError(f'step_size must be greater than 0, but is {step_size:g}.')
         self._x0, self._y0, self._x1, self._y1 = x0, y0, x1, y1
         self._x, self._y, self._step = x0, y0, step_size
         self._is_valid = True

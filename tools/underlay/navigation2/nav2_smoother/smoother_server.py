@@ -116,7 +116,7 @@ class SmootherServer(LifecycleNode):
         if not np.isfinite(found).all():
             raise ActionAborted(
                 codes.FAILED_TO_SMOOTH_PATH,
-                f"The smoother '{smoother.name}' gave poses that are no numbers. Check its "
+                f"The smoother '{smoother.name}' gave poses that are not numbers. Check its "
                 'weights.',
             )
         elapsed_s = time.monotonic() - began
@@ -164,7 +164,7 @@ class SmootherServer(LifecycleNode):
         if not np.isfinite(poses).all():
             index = int(np.flatnonzero(~np.isfinite(poses).all(axis=1))[0])
             raise ActionAborted(
-                code, f'Pose {index} of the path has a coordinate that is no number.'
+                code, f'Pose {index} of the path has a coordinate that is not a number.'
             )
         return poses
 
@@ -190,8 +190,8 @@ class SmootherServer(LifecycleNode):
                 codes.FAILED_TO_SMOOTH_PATH,
                 'The smooth path could not be checked for collisions: no costmap on '
                 f"'{self._surroundings.costmap_topic}', no footprint on "
-                f"'{self._surroundings.footprint_topic}', or no transform to them has come yet. "
-                'Activate the costmap, or set check_for_collisions to false.',
+                f"'{self._surroundings.footprint_topic}', or no transform to them has been "
+                'received yet. Activate the costmap, or set check_for_collisions to false.',
             )
         if len(hits):
             x, y, _ = poses[hits[0]]

@@ -198,6 +198,6 @@ class SavitzkyGolaySmoother(Smoother):
 def _check_window(values: SavitzkyGolayParameters) -> None:
     if values.window_size % 2 == 0 or values.poly_order >= values.window_size:
         raise ValueError(
-            f'window_size has to be odd and more than poly_order; they are {values.window_size} '
+            f'window_size must be odd and more than poly_order; they are {values.window_size} '
             f'and {values.poly_order}.'
         )

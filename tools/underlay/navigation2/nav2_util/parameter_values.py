@@ -72,19 +72,19 @@ def coerced(value: Any, like: Any) -> Any:
     """
     if isinstance(like, list):
         if isinstance(value, (str, bytes)) or not hasattr(value, '__iter__'):
-            raise ValueError(f'has to be a list, and is {value!r}')
+            raise ValueError(f'must be a list, but is {value!r}')
         first = like[0] if like else None
         return [each if first is None else coerced(each, first) for each in value]
     if isinstance(like, bool) or isinstance(value, bool):
         if not (isinstance(like, bool) and isinstance(value, bool)):
-            raise ValueError(f'has to be {_kind(like)}, and is {value!r}')
+            raise ValueError(f'must be {_kind(like)}, but is {value!r}')
         return value
     if isinstance(like, float) and isinstance(value, int):
         return float(value)
     if isinstance(like, int) and isinstance(value, float) and value.is_integer():
         return int(value)
     if type(value) is not type(like):
-        raise ValueError(f'has to be {_kind(like)}, and is {value!r}')
+        raise ValueError(f'must be {_kind(like)}, but is {value!r}')
     return value
 
 
@@ -112,13 +112,13 @@ def check_limits(value: Any, spec: Spec) -> None:
     """
     for each in value if isinstance(value, list) else [value]:
         if isinstance(each, float) and math.isnan(each):
-            raise ValueError('has to be a number, and is nan')
+            raise ValueError('must be a number, but is nan')
         if spec.choices and each not in spec.choices:
             close = closest_name(str(each), map(str, spec.choices))
             meant = f"; did you mean '{close}'?" if close else ''
             allowed = ', '.join(f"'{choice}'" for choice in spec.choices)
-            raise ValueError(f"has to be one of {allowed}, and is '{each}'{meant}")
+            raise ValueError(f"must be one of {allowed}, but is '{each}'{meant}")
         if spec.low is not None and each < spec.low:
-            raise ValueError(f'has to be at least {spec.low:g}, and is {each:g}')
+            raise ValueError(f'must be at least {spec.low:g}, but is {each:g}')
         if spec.high is not None and each > spec.high:
-            raise ValueError(f'has to be at most {spec.high:g}, and is {each:g}')
+            raise ValueError(f'must be at most {spec.high:g}, but is {each:g}')

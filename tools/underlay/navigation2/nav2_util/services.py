@@ -114,7 +114,7 @@ async def call(node: Node, client: Client, request: Any, timeout_s: float) -> An
     left_s = timeout_s
     while not client.service_is_ready():
         if left_s <= 0.0:
-            raise ServiceError(f"The service '{client.srv_name}' is not there.")
+            raise ServiceError(f"The service '{client.srv_name}' is not available.")
         await wait_for(node, Future(), _LOOK_S)
         left_s -= _LOOK_S
     answer = client.call_async(request)

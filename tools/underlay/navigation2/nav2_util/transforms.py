@@ -111,7 +111,7 @@ class Transforms:
             found = self.buffer.lookup_transform(in_frame, frame, time or Time())
         except TransformException as error:
             raise TransformError(
-                f"The pose of '{frame}' in '{in_frame}' is not known: {error}"
+                f"The pose of '{frame}' in '{in_frame}' is unknown: {error}"
             ) from error
         if not_older_s is not None:
             age = self._entry.node.get_clock().now() - Time.from_msg(
@@ -149,7 +149,7 @@ class Transforms:
         """
         frame = pose.header.frame_id
         if not frame:
-            raise TransformError('The pose has no frame_id. Give it the frame, as map.')
+            raise TransformError('The pose has no frame_id. Set it, such as to map.')
         planar = planar_pose(pose.pose)
         if frame == in_frame:
             return planar

@@ -161,7 +161,7 @@ def subscribe_twist(
             callback(velocity, message.header if is_stamped else None)
             return
         node.get_logger().error(
-            f"Ignored a velocity of '{topic}' that is not finite: "
+            f"Ignored a velocity on '{topic}' that is not finite: "
             f'x {velocity.x}, y {velocity.y}, yaw rate {velocity.yaw}.',
             throttle_duration_sec=1.0,
         )

@@ -187,15 +187,15 @@ class OdometryAverage:
 def _vector(name: str, values: Sequence[float], sign: int, meaning: str) -> FloatArray:
     if len(values) != 3:
         raise ValueError(
-            f"The parameter '{name}' needs 3 numbers, for {_AXES}, and has {len(values)}."
+            f"The parameter '{name}' needs 3 numbers, for {_AXES}, but has {len(values)}."
         )
     vector = np.asarray(values, dtype=np.float64)
     if not np.all(np.isfinite(vector)):
-        raise ValueError(f"The parameter '{name}' has to be finite, and is {list(values)}.")
+        raise ValueError(f"The parameter '{name}' must be finite, but is {list(values)}.")
     if np.any(vector * sign < 0.0):
         wanted = 'negative' if sign < 0 else 'positive'
         raise ValueError(
-            f"The numbers of the parameter '{name}' have to be {wanted} or zero: it is "
+            f"The numbers of the parameter '{name}' must be {wanted} or zero: it is "
             f'{meaning}. They are {list(values)}.'
         )
     return vector

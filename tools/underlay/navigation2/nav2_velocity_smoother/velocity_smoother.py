@@ -189,8 +189,8 @@ class VelocitySmoother(LifecycleNode):
         measured = self._odometry.velocity(now_s(self), _STALE_ODOMETRY_S)
         if measured is None:
             self.get_logger().warning(
-                f"No odometry comes on '{self._told.current.odom_topic}'; "
-                'smoothing goes on from the last command.',
+                f"No odometry is received on '{self._told.current.odom_topic}'; "
+                'smoothing continues from the last command.',
                 throttle_duration_sec=5.0,
             )
             return self._velocity

@@ -235,7 +235,7 @@ def make_task(node: LifecycleNode, name: str) -> Any:
     kind = TASKS.get(plugin.replace('/', '::'))
     if kind is None:
         meant = did_you_mean(plugin, TASKS, 0.6) or f' There are {", ".join(TASKS)}.'
-        raise ConfigurationError(f"'{name}.plugin' is '{plugin}', which is no task.{meant}")
+        raise ConfigurationError(f"'{name}.plugin' is '{plugin}', which is not a task.{meant}")
     return kind(node, name)
 
 

@@ -25,7 +25,7 @@ _UNKNOWN = FollowWaypoints.Result.UNKNOWN
 _TASK_FAILED = FollowWaypoints.Result.TASK_EXECUTOR_FAILED
 _SERVER_TIMEOUT_S = 2.0
 _UNSUPPORTED = {
-    'bond_heartbeat_period': 'the lifecycle manager looks after the node otherwise',
+    'bond_heartbeat_period': 'the lifecycle manager polls the state of the node instead',
     'introspection_mode': 'services are not introspected',
     'allow_parameter_qos_overrides': 'QoS is fixed',
 }
@@ -108,7 +108,7 @@ class WaypointFollower(LifecycleNode):
 
     def _check_gps(self, goal: Any) -> str | None:
         if self._from_ll is None:
-            return "places on the earth need the service fromLL of 'robot_localization'"
+            return "GPS poses need the service fromLL of 'robot_localization'"
         if not self._from_ll.service_is_ready():
             return "there is no service fromLL; is robot_localization's navsat_transform running?"
         return 'follow_waypoints is running' if self._server.is_running else None
@@ -135,7 +135,7 @@ class WaypointFollower(LifecycleNode):
                 _UNKNOWN,
                 'There are no waypoints. Give at least one.'
                 if not poses
-                else f'goal_index is {goal.goal_index}, and there are {len(poses)} waypoints.',
+                else f'goal_index is {goal.goal_index}, but there are {len(poses)} waypoints.',
             )
         try:
             for loop in range(goal.number_of_loops + 1):
@@ -156,7 +156,7 @@ class WaypointFollower(LifecycleNode):
             except ActionAborted:
                 raise
             except NavigationError as error:
-                raise _Missed(_TASK_FAILED, f'The task at it failed. {error}') from error
+                raise _Missed(_TASK_FAILED, f'Its task failed. {error}') from error
         except _Missed as missed:
             self._note(server, pose, index, missed)
 
@@ -190,7 +190,7 @@ class WaypointFollower(LifecycleNode):
             await self._until(server, rate, index, ending.done, None)
         answer, self._handle = ending.result(), None
         if answer.status == GoalStatus.STATUS_CANCELED:
-            raise _Missed(_UNKNOWN, 'Somebody canceled the navigation to it.')
+            raise _Missed(_UNKNOWN, 'The navigation to it was canceled by another client.')
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
             reason = answer.result.error_msg or 'The navigator gave no reason.'
             raise _Missed(answer.result.error_code or _UNKNOWN, reason)

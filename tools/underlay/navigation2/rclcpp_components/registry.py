@@ -80,7 +80,7 @@ def find_component(package: str, name: str) -> Any:
     module, _, attribute = components[name].partition(':')
     if not attribute or '/' in module:
         raise ComponentError(
-            f"'{name}' is a library of C++ ({components[name]}); this container loads classes of "
+            f"'{name}' is a C++ library ({components[name]}); this container loads classes of "
             'Python only'
         )
     try:

@@ -475,7 +475,7 @@ def test_missing_inputs_are_named():
     nothing = Inputs(False, False, 9.0, '', '/map', '/scan')
     texts = describe_missing(nothing)
     assert [word in text for word, text in zip(("'/map'", 'RViz', "'/scan'"), texts)] == [True] * 3
-    waiting = Inputs(True, True, 0.1, "'odom' is not known", '/map', '/scan')
+    waiting = Inputs(True, True, 0.1, "'odom' is unknown", '/map', '/scan')
     assert 'odom_frame_id' in describe_missing(waiting)[0]
     assert not describe_missing(Inputs(True, True, 0.1, '', '/map', '/scan'))
 

@@ -336,11 +336,11 @@ def test_py_trees_sees_the_tree() -> None:
     'body, words',
     [
         ('<Sequense/>', "There is no node type 'Sequense'. Did you mean 'Sequence'?"),
-        ('<Sequence/>', "'Sequence' has at least 1 child, and here 0"),
+        ('<Sequence/>', "'Sequence' must have at least 1 child, but has 0"),
         ('<Inverter><AlwaysSuccess/><AlwaysSuccess/></Inverter>', 'exactly 1 child'),
-        ('<AlwaysSuccess><AlwaysSuccess/></AlwaysSuccess>', 'has no children'),
+        ('<AlwaysSuccess><AlwaysSuccess/></AlwaysSuccess>', 'must have no children'),
         ('<RateController herz="1"><AlwaysSuccess/></RateController>', "Did you mean 'hz'?"),
-        ('<RateController hz="fast"><AlwaysSuccess/></RateController>', 'has to be a number'),
+        ('<RateController hz="fast"><AlwaysSuccess/></RateController>', 'must be a number'),
         ('<Repeat><AlwaysSuccess/></Repeat>', "The port 'num_cycles' of 'Repeat' is missing"),
         ('<SequenceStar><AlwaysSuccess/></SequenceStar>', "'SequenceWithMemory'"),
         ('<SubTree ID="Moin"/>', "Did you mean 'Main'?"),
@@ -363,8 +363,8 @@ def test_what_cannot_be_right_is_an_error_with_its_line(body: str, words: str) -
 @pytest.mark.parametrize(
     'text, words, line',
     [
-        ('<root BTCPP_format="4">\n<BehaviorTree ID="A">\n</root>', 'This is no XML', 3),
-        ('<tree/>', 'outermost element has to be <root>', 1),
+        ('<root BTCPP_format="4">\n<BehaviorTree ID="A">\n</root>', 'This is not valid XML', 3),
+        ('<tree/>', 'outermost element must be <root>', 1),
         ('<root BTCPP_format="3"/>', 'only format 4', 1),
         ('<root BTCPP_format="4"/>', 'There is no <BehaviorTree>', 1),
         ('<root BTCPP_format="4">\n<BehaviorTree ID="A"/></root>', 'exactly one node', 2),

@@ -118,10 +118,10 @@ def test_files_that_cannot_be_read(context, tmp_path):
     ):
         RewrittenYaml('/no.yaml', {}).perform(context)
     (tmp_path / 'bad.yaml').write_text('a: [')
-    with pytest.raises(SubstitutionFailure, match=r"bad.yaml' is no YAML: "):
+    with pytest.raises(SubstitutionFailure, match=r"bad.yaml' is not valid YAML: "):
         RewrittenYaml(str(tmp_path / 'bad.yaml'), {}).perform(context)
     (tmp_path / 'list.yaml').write_text('- a\n- b\n')
-    with pytest.raises(SubstitutionFailure, match=r"list.yaml' has no names of nodes"):
+    with pytest.raises(SubstitutionFailure, match=r"list.yaml' must map the names of nodes"):
         RewrittenYaml(str(tmp_path / 'list.yaml'), {'a.b': '1'}).perform(context)
     (tmp_path / 'empty.yaml').write_text('')
     assert _rewritten(context, str(tmp_path / 'empty.yaml'), {'a.b': '1'}) == {'a': {'b': '1'}}

@@ -263,7 +263,7 @@ def test_newer_goal_may_name_another_controller(story):
         ([], {}, Code.INVALID_PATH, 'empty'),
         ([(1.0, 0.0, 0.0), (float('nan'), 0.0, 0.0)], {}, Code.INVALID_PATH, 'finite'),
         (line(2.0), {'controller_id': 'FolowPath'}, Code.INVALID_CONTROLLER, "mean 'FollowPath'"),
-        (line(2.0), {'controller_id': ''}, Code.INVALID_CONTROLLER, 'has to name one controller'),
+        (line(2.0), {'controller_id': ''}, Code.INVALID_CONTROLLER, 'must name a controller'),
         (line(2.0), {'goal_checker_id': 'chekcer'}, Code.UNKNOWN, 'goal checker'),
         (line(2.0), {'progress_checker_id': 'x'}, Code.UNKNOWN, 'progress checker'),
         (line(2.0), {'frame': 'moon'}, Code.TF_ERROR, 'moon'),

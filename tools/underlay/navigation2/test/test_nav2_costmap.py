@@ -97,7 +97,7 @@ def test_footprint_texts():
     for text, said in (
         ('[[1, 2], [3, 4]]', 'three corners'),
         ('[[1, 2], [3], [4, 5]]', r'corners \[x, y\]'),
-        ('[1, 2', 'no list of corners'),
+        ('[1, 2', 'must be a list of corners, as'),
         ('true', r'corners \[x, y\]'),
     ):
         with pytest.raises(ValueError, match=said):

@@ -622,7 +622,9 @@ def test_wrong_messages_do_not_stop_a_costmap(world, capfd):
         world.maps.publish(broken)
         world.ros.spin(0.05)
         said += capfd.readouterr().err
-        return all(each in said for each in ('is not as it says', '7 x 3', 'three corners'))
+        return all(
+            each in said for each in ('does not fit its description', '7 x 3', 'three corners')
+        )
 
     world.ros.wait_until(all_named, what='three sentences')
     assert costmap.is_active

@@ -233,7 +233,7 @@ def test_node_that_never_answers(ros, capfd):
     deaf.create_service(GetState, 'deaf/get_state', lambda *_: None).send_response = lambda *_: 0
     deaf.create_service(ChangeState, 'deaf/change_state', lambda *_: None)
     assert not rig.command(Request.STARTUP)
-    assert "'deaf' has not told its state within 1 s." in capfd.readouterr().err
+    assert "'deaf' did not report its state within 1 s." in capfd.readouterr().err
     assert rig.command(Request.RESET) is False and not rig.is_active
 
 
@@ -269,7 +269,7 @@ def test_unknown_command(rig):
 
 def test_wrong_parameter(ros):
     """A manager that cannot work with what it is told says why."""
-    with pytest.raises(ConfigurationError, match="'bond_timeout' has to be at least 0"):
+    with pytest.raises(ConfigurationError, match="'bond_timeout' must be at least 0"):
         ros.make(LifecycleManager, {'bond_timeout': -1.0})
 
 

@@ -110,11 +110,11 @@ def test_coloured_image(room, shape):
         ('[-1.0, -2.0, 0.0]', '[1, 2]', MapMetadataError, "'origin' of the map"),
         ('negate: 0', 'negate: 2', MapMetadataError, "'negate' of the map"),
         ('negate: 0', 'mode: tertiary', MapMetadataError, 'one of trinary, scale, raw'),
-        ('0.196', '0.75', MapMetadataError, 'wrong thresholds'),
+        ('0.196', '0.75', MapMetadataError, 'invalid thresholds'),
         (YAML, '- 1', MapMetadataError, 'has no keys'),
-        (YAML, 'a: [', MapMetadataError, 'is no YAML'),
+        (YAML, 'a: [', MapMetadataError, 'is not valid YAML'),
         ('room.pgm', 'hall.pgm', MapDataError, 'No such file or directory'),
-        ('room.pgm', 'room.yaml', MapDataError, 'is no image'),
+        ('room.pgm', 'room.yaml', MapDataError, 'is not an image'),
     ],
 )
 def test_errors_are_sentences(room, old, new, kind, said):

@@ -166,5 +166,5 @@ def test_command_without_a_map(domain, tmp_path):
     words = ['-t', '/nobody', '--ros-args', '-p', 'save_map_timeout:=0.2']
     output, _ = (process := run_cli(domain, tmp_path, *words)).communicate(timeout=60)
     assert process.returncode == 1
-    assert "No map came on '/nobody' within 0.2 s" in output
+    assert "No map was received on '/nobody' within 0.2 s" in output
     assert os.listdir(tmp_path) == []

@@ -336,7 +336,7 @@ def test_unknown_space():
     grid = costmap(cells)
     planner, start, goal = GridPlanner(), at(grid, 20, 5), at(grid, 20, 35)
     assert plan(planner, grid, start, goal, options()).is_exact
-    with pytest.raises(PlanningError, match='No way leads') as caught:
+    with pytest.raises(PlanningError, match='There is no path') as caught:
         plan(planner, grid, start, goal, options(allow_unknown=False))
     assert caught.value.reason == 'NO_VALID_PATH'
     cells[30:34, 20:24] = 0

@@ -160,7 +160,7 @@ def test_goals_that_cannot_be_reached(ros):
     """Each has its code, and a sentence that helps."""
     nav = Navigation(ros).start()
     for (x, y), code, words in [
-        ((1.0, 0.5), TO_POSE.NO_VALID_PATH, 'No way leads'),
+        ((1.0, 0.5), TO_POSE.NO_VALID_PATH, 'There is no path'),
         ((9.0, 0.5), TO_POSE.GOAL_OUTSIDE_MAP, 'outside the global costmap'),
     ]:
         answer = nav.plan(x, y)

@@ -254,7 +254,7 @@ def test_paths_and_smoothers_that_cannot_be_used(ros):
                 'a.plugin': 'nav2_smoother::SavitzkyGolaySmoother',
                 'a.window_size': 4,
             },
-            'has to be odd',
+            'must be odd',
         ),
     ],
 )

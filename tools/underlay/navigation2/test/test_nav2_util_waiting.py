@@ -126,7 +126,7 @@ def test_give_way(stand) -> None:
 def test_call_without_a_service(stand) -> None:
     """A service that is not there is named."""
     client = stand.node.create_client(Trigger, 'nobody')
-    assert stand.error_of_call(client, 0.2) == "The service 'nobody' is not there."
+    assert stand.error_of_call(client, 0.2) == "The service 'nobody' is not available."
 
 
 def test_call_that_is_not_answered(stand) -> None:

@@ -75,11 +75,11 @@ class TestSmooth:
         'change, sentence',
         [
             ({'max_velocity': [1.0]}, "'max_velocity' needs 3 numbers, for x, y and theta"),
-            ({'max_velocity': [-1.0, 0, 0]}, "'max_velocity' have to be positive"),
-            ({'min_velocity': [0, 0, 0.5]}, "'min_velocity' have to be negative"),
-            ({'max_decel': [0, 0, 0.5]}, "'max_decel' have to be negative"),
-            ({'max_accel': [0, 0, -0.5]}, "'max_accel' have to be positive"),
-            ({'max_accel': [0, 0, math.nan]}, 'has to be finite'),
+            ({'max_velocity': [-1.0, 0, 0]}, "'max_velocity' must be positive"),
+            ({'min_velocity': [0, 0, 0.5]}, "'min_velocity' must be negative"),
+            ({'max_decel': [0, 0, 0.5]}, "'max_decel' must be negative"),
+            ({'max_accel': [0, 0, -0.5]}, "'max_accel' must be positive"),
+            ({'max_accel': [0, 0, math.nan]}, 'must be finite'),
         ],
     )
     def test_wrong_limits(self, change, sentence):

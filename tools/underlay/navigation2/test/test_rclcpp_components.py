@@ -131,7 +131,7 @@ def test_what_a_component_is_given(box):
         ('Talker', 'empty_components', "'empty_components' registers no components"),
         ('NoModule', PACKAGE, 'cannot be imported'),
         ('NoClass', PACKAGE, 'cannot be imported'),
-        ('OfCpp', PACKAGE, 'is a library of C++'),
+        ('OfCpp', PACKAGE, 'is a C++ library'),
     ],
 )
 def test_what_cannot_be_loaded(shared_box, plugin, package, sentence):

@@ -183,7 +183,7 @@ class Parallel(Control):
         count, children = int(self.input(port)), len(self.children)
         needed = count if count >= 0 else max(children + count + 1, 0)
         if needed > children:
-            raise self.error(f"'{port}' is {count}, and there are only {children} children.")
+            raise self.error(f"'{port}' is {count}, but there are only {children} children.")
         return needed
 
     def on_tick(self) -> NodeStatus:

@@ -273,7 +273,7 @@ class Precondition(Decorator):
         otherwise = self.input('else')
         if otherwise not in NodeStatus.__members__ or otherwise == 'IDLE':
             raise self.error(
-                f"'else' has to be FAILURE, SUCCESS, SKIPPED or RUNNING, and is '{otherwise}'."
+                f"'else' must be FAILURE, SUCCESS, SKIPPED or RUNNING, but is '{otherwise}'."
             )
         self._else = NodeStatus[otherwise]
         self._has_begun = False
@@ -307,7 +307,7 @@ class _WhenUpdated(Decorator):
         super().__init__(config)
         self._seen = 0
         if config.bindings['entry'].key is None:
-            raise self.error("'entry' has to be a key of the blackboard such as '{goal}'.")
+            raise self.error("'entry' must be a key of the blackboard such as '{goal}'.")
 
     def on_tick(self) -> NodeStatus:
         """Check for an update of the entry, and tick the child."""

@@ -111,7 +111,7 @@ class SmoothPath(ActionNode):
     """Smooths a path."""
 
     action, server = action.SmoothPath, 'smooth_path'
-    purpose = 'The path could not be made smooth'
+    purpose = 'The path could not be smoothed'
     ports: ClassVar[dict[str, Port]] = {
         'unsmoothed_path': in_port('path', '{path}', 'The path.'),
         'max_smoothing_duration': in_port('number', '3.0', 'For how long to try, in s.'),

@@ -131,9 +131,9 @@ class SpeedController(_Paced):
     def __init__(self, config: NodeConfig) -> None:
         super().__init__(config)
         if self.input('min_rate') <= 0.0 or self.input('max_rate') <= 0.0:
-            raise self.error("'min_rate' and 'max_rate' have to be greater than 0.")
+            raise self.error("'min_rate' and 'max_rate' must be greater than 0.")
         if self.input('max_speed') <= self.input('min_speed'):
-            raise self.error("'max_speed' has to be greater than 'min_speed'.")
+            raise self.error("'max_speed' must be greater than 'min_speed'.")
 
     def begin(self) -> None:
         """Restart the period, at the rate of the current speed."""

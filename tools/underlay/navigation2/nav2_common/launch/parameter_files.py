@@ -259,9 +259,11 @@ def _read(path: str) -> Any:
     try:
         data = yaml.safe_load(_text(path))
     except yaml.YAMLError as error:
-        raise SubstitutionFailure(f"The file '{path}' is no YAML: {error}") from error
+        raise SubstitutionFailure(f"The file '{path}' is not valid YAML: {error}") from error
     if data is not None and not isinstance(data, dict):
-        raise SubstitutionFailure(f"The file '{path}' has no names of nodes, but {data!r:.40}.")
+        raise SubstitutionFailure(
+            f"The file '{path}' must map the names of nodes to parameters, but is {data!r:.40}."
+        )
     return data or {}
 
 

@@ -45,7 +45,7 @@ class ParseMultiRobotPose:
             pose = _pose(text)
             if not name.strip() or pose is None:
                 raise ValueError(
-                    f"'{part}' does not say where a robot begins. Write it as "
+                    f"'{part}' does not give the initial pose of a robot. Write it as "
                     'name={x: 1.0, y: 2.0, yaw: 1.57}, and a semicolon between two robots.'
                 )
             robots[name.strip()] = pose

@@ -87,9 +87,9 @@ def test_particles_are_read_from_bytes(frame: str) -> None:
 
 def test_bytes_that_are_no_particles() -> None:
     """Too short a message is refused with a sentence."""
-    with pytest.raises(ValueError, match='are no ParticleCloud'):
+    with pytest.raises(ValueError, match='are not a ParticleCloud'):
         read_particles(cloud(1.0)[:-8])
-    with pytest.raises(ValueError, match='are no ParticleCloud'):
+    with pytest.raises(ValueError, match='are not a ParticleCloud'):
         read_particles(b'')
 
 

@@ -92,12 +92,12 @@ def test_goal_that_is_refused_or_forgotten(world: NavigationWorld) -> None:
     world.servers[TO_POSE].accepts = False
     visitor = world.visit()
     drag(world, 1.0, 2.0)
-    assert '/navigate_to_pose has refused the goal' in visitor.wait_for_phase('failed')['text']
+    assert '/navigate_to_pose rejected the goal' in visitor.wait_for_phase('failed')['text']
     world.servers[TO_POSE].accepts = True
     drag(world, 1.0, 2.0)
     visitor.wait_for_phase('executing')
     with mock.patch.object(ActionWatch, 'is_there', False):
-        assert 'nobody works on the goal' in visitor.wait_for_phase('failed')['text']
+        assert 'the goal is no longer executed' in visitor.wait_for_phase('failed')['text']
 
 
 def test_no_server(world: NavigationWorld) -> None:
@@ -196,7 +196,7 @@ def test_lifecycle_managers(world: NavigationWorld) -> None:
     visitor = world.visit()
     state = visitor.wait_for('no reason', lambda state: state['navigation']['note'])
     assert state['navigation']['state'] == 'unknown'
-    assert 'Nobody offers' in state['navigation']['note']
+    assert 'No node offers' in state['navigation']['note']
     visitor.ask('command', command='pause')
     visitor.wait_for('not said', lambda state: 'no lifecycle manager' in state['note'])
     world.manage('localization', 'navigation')
