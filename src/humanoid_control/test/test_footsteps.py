@@ -9,7 +9,7 @@ import math
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, other, outwards, PlanarPose, RIGHT
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand, VelocityLimits
 import numpy as np
 import pytest
 
@@ -17,7 +17,7 @@ P = WalkParameters()
 PLANNER = FootstepPlanner(P)
 RANDOM = np.random.default_rng(2)
 COMMANDS = [
-    P.velocity.limits.applied(
+    VelocityLimits.of(P.velocity).applied(
         VelocityCommand(*(RANDOM.uniform(-1, 1, 3) * (0.5, 0.3, 1.5)).tolist())
     )
     for _ in range(60)

@@ -7,11 +7,11 @@ import math
 
 from humanoid_control.errors import WalkingError
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.velocity_command import VelocityCommand
+from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
 import numpy as np
 import pytest
 
-LIMITS = WalkParameters().velocity.limits
+LIMITS = VelocityLimits.of(WalkParameters().velocity)
 RANDOM = np.random.default_rng(1)
 
 

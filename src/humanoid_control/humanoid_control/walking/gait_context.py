@@ -21,7 +21,12 @@ from humanoid_control.walking.pendulum import BalanceReference, DcmPlan, Pendulu
 from humanoid_control.walking.planar import PlanarPose, Point, SIDES, Turning
 from humanoid_control.walking.step_adjustment import StepAdjuster
 from humanoid_control.walking.swing_foot import Swing
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.velocity_command import (
+    largest_change,
+    STANDING,
+    VelocityCommand,
+    VelocityLimits,
+)
 
 
 @dataclass(frozen=True)
@@ -156,12 +161,14 @@ class GaitContext:
     adjuster: StepAdjuster = field(init=False)
     path: ReferencePath = field(init=False)
     guard: ObstacleGuard = field(init=False)
+    limits: VelocityLimits = field(init=False)
 
     def __post_init__(self) -> None:
         self.planner = FootstepPlanner(self.parameters)
         self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
         self.path = ReferencePath(self.planner)
         self.guard = ObstacleGuard(self.parameters)
+        self.limits = VelocityLimits.of(self.parameters.velocity)
 
     def heed_obstacles(self, now: GaitInput, leg: LegInAir | None) -> bool:
         """
@@ -183,12 +190,11 @@ class GaitContext:
 
         """
         left, right = (self.planner.middle_beside(self.footing.pose(side), side) for side in SIDES)
-        limits = self.parameters.velocity.limits
-        wanted = limits.applied(now.velocity)
+        wanted = self.limits.applied(now.velocity)
         going = self.velocity if self.velocity.linear_m_s else wanted
         contact = ExternalForces(now.force_n, now.touch.arms_nm, leg)
         met = self.guard.update(contact, (left, right), wanted, going, now.error_m, now.passed_s)
-        self.target = limits.applied(self.guard.allowed(wanted, left.halfway(right).yaw_rad))
+        self.target = self.limits.applied(self.guard.allowed(wanted, left.halfway(right).yaw_rad))
         if met:
             self.velocity = STANDING
             self.path.restart()
@@ -204,7 +210,8 @@ class GaitContext:
             Duration over which to accelerate: a control period, or a step.
 
         """
-        self.velocity = self.velocity.towards(self.target, self.parameters.velocity.change(time_s))
+        most = largest_change(self.parameters.velocity, time_s)
+        self.velocity = self.velocity.towards(self.target, most)
 
     def learn_slope(self, tilt: Point) -> None:
         """

@@ -8,7 +8,6 @@ from typing import Any
 
 from humanoid_common.parameters import parameter, ParameterError
 from humanoid_control.errors import WalkingError
-from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
 
 _POWER = 'humanoid_control.power'
 """Metadata key of the power of the robot's size with which a field scales."""
@@ -127,38 +126,6 @@ class VelocityParameters:
     forward_acceleration_m_s2: float = _fixed(0.4, 'Maximum acceleration along x.')
     left_acceleration_m_s2: float = _fixed(0.2, 'Maximum acceleration along y.')
     turn_acceleration_rad_s2: float = _growing(-1.0, 0.8, 'Maximum yaw acceleration.')
-
-    @property
-    def limits(self) -> VelocityLimits:
-        """Return the velocity limits."""
-        return VelocityLimits(
-            self.forward_limit_m_s,
-            self.backward_limit_m_s,
-            self.left_limit_m_s,
-            self.turn_limit_rad_s,
-            self.sum_of_shares,
-        )
-
-    def change(self, time_s: float) -> VelocityCommand:
-        """
-        Compute the largest change of the velocity in a given time.
-
-        Parameters
-        ----------
-        time_s
-            Time for which the robot accelerates at its limits.
-
-        Returns
-        -------
-        VelocityCommand
-            The largest change of each component.
-
-        """
-        return VelocityCommand(
-            self.forward_acceleration_m_s2 * time_s,
-            self.left_acceleration_m_s2 * time_s,
-            self.turn_acceleration_rad_s2 * time_s,
-        )
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from dataclasses import astuple, dataclass
 import math
 
 from humanoid_control.errors import WalkingError
+from humanoid_control.walking.parameters import VelocityParameters
 from humanoid_control.walking.planar import limited, Point
 
 
@@ -83,6 +84,25 @@ class VelocityLimits:
     turn_rad_s: float
     sum_of_shares: float
 
+    @classmethod
+    def of(cls, parameters: VelocityParameters) -> VelocityLimits:
+        """
+        Read the limits from the parameters of the gait.
+
+        Parameters
+        ----------
+        parameters : VelocityParameters
+            Limits of the velocity, scaled to the size of the robot.
+
+        """
+        return cls(
+            parameters.forward_limit_m_s,
+            parameters.backward_limit_m_s,
+            parameters.left_limit_m_s,
+            parameters.turn_limit_rad_s,
+            parameters.sum_of_shares,
+        )
+
     def applied(self, command: VelocityCommand) -> VelocityCommand:
         """
         Clamp a velocity to the limits of the gait.
@@ -125,6 +145,30 @@ class VelocityLimits:
             + abs(command.left_m_s) / self.left_m_s
             + abs(command.turn_rad_s) / self.turn_rad_s
         )
+
+
+def largest_change(parameters: VelocityParameters, time_s: float) -> VelocityCommand:
+    """
+    Compute the largest change of the velocity in a given time.
+
+    Parameters
+    ----------
+    parameters : VelocityParameters
+        Limits of the acceleration, scaled to the size of the robot.
+    time_s
+        Time for which the robot accelerates at its limits.
+
+    Returns
+    -------
+    VelocityCommand
+        The largest change of each component.
+
+    """
+    return VelocityCommand(
+        parameters.forward_acceleration_m_s2 * time_s,
+        parameters.left_acceleration_m_s2 * time_s,
+        parameters.turn_acceleration_rad_s2 * time_s,
+    )
 
 
 def _nearer(value: float, target: float, most: float) -> float:
