@@ -23,7 +23,7 @@ from humanoid_control.hosting.reports import Refusals
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.mock_backend import MockBackend
-from humanoid_control.walking.velocity_command import VelocityCommand
+from humanoid_control.walking.commands import VelocityCommand
 from humanoid_description.drives import load_drives
 from humanoid_description.errors import DescriptionError
 from humanoid_description.expansion import humanoid_urdf

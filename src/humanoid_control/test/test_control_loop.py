@@ -8,7 +8,7 @@ from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.mock_backend import MockBackend
 from humanoid_control.testing import DRIVES, JOINTS, LIMITS
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 import pytest
 
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 from itertools import islice, pairwise
 import math
 
+from humanoid_control.walking.commands import STANDING, VelocityCommand, VelocityLimits
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, other, outwards, PlanarPose, RIGHT
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand, VelocityLimits
 import numpy as np
 import pytest
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_control.walking.footing import Foothold, Footing, SoleReading
 from humanoid_control.walking.gait import Gait
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
@@ -21,7 +22,6 @@ from humanoid_control.walking.planar import (
 )
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.swing_foot import SoleMotion
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 import cmath
 import math
 
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_control.walking.obstacle_guard import ExternalForces, LegInAir, ObstacleGuard
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
 from humanoid_control.walking.touch import ForceObserver
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest
 

@@ -9,7 +9,7 @@ from humanoid_control.controllers import CommandError
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.walking_robot import WalkingController, WalkingRobotControl
 from humanoid_control.mock_backend import MockBackend
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_description.drives import load_drives
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot

@@ -12,7 +12,7 @@ from humanoid_control.controllers import (
     TrajectoryPoint,
     TrajectoryRequest,
 )
-from humanoid_control.walking.body_pose import BodyPose
+from humanoid_control.walking.commands import BodyPose
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot

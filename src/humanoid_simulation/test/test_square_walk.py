@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import math
 
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_simulation.examples.square_walk import (
     Corner,
     NotRoundError,

@@ -28,8 +28,7 @@ from humanoid_control.controllers.gripper_controller import gripper_controllers
 from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
 from humanoid_control.controllers.modes import Still
 from humanoid_control.limits import JointLimits
-from humanoid_control.walking.body_pose import BodyPose
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.commands import BodyPose, STANDING, VelocityCommand
 
 WalkAt = Callable[[VelocityCommand], None]
 HoldBody = Callable[[BodyPose | None], None]

@@ -12,9 +12,8 @@ from humanoid_control.controllers.command_controllers import Clock
 from humanoid_control.controllers.modes import Mode
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.limits import JointLimits
-from humanoid_control.walking.body_pose import BodyPose
+from humanoid_control.walking.commands import BodyPose, VelocityCommand
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot

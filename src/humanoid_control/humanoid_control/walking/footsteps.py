@@ -7,9 +7,9 @@ import cmath
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from humanoid_control.walking.commands import VelocityCommand
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import limited, other, outwards, PlanarPose, Point
-from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.rotations import wrap_angle
 
 

@@ -7,6 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from humanoid_control.walking.commands import (
+    largest_change,
+    STANDING,
+    VelocityCommand,
+    VelocityLimits,
+)
 from humanoid_control.walking.footing import Footing, SoleReading
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner, ReferencePath
 from humanoid_control.walking.obstacle_guard import (
@@ -21,12 +27,6 @@ from humanoid_control.walking.pendulum import BalanceReference, DcmPlan, Pendulu
 from humanoid_control.walking.planar import PlanarPose, Point, SIDES, Turning
 from humanoid_control.walking.step_adjustment import StepAdjuster
 from humanoid_control.walking.swing_foot import Swing
-from humanoid_control.walking.velocity_command import (
-    largest_change,
-    STANDING,
-    VelocityCommand,
-    VelocityLimits,
-)
 
 
 @dataclass(frozen=True)

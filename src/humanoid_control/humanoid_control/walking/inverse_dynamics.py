@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.walking.body_pose import BodyPoseFollower
+from humanoid_control.walking.commands import BodyPoseFollower
 from humanoid_control.walking.footing import Footing, GroundReaction, Loads, loads_for
 from humanoid_control.walking.gait_context import GaitOutput
 from humanoid_control.walking.parameters import WalkParameters

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 import math
 
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import cross, dot, PlanarPose, Point
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 _ALONG = 0.5
 """Fraction of a velocity that must lead along the obstacle for the robot to walk past it."""

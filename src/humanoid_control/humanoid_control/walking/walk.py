@@ -4,7 +4,13 @@
 from __future__ import annotations
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.walking.body_pose import BodyPose, BodyPoseFollower, UPRIGHT
+from humanoid_control.walking.commands import (
+    BodyPose,
+    BodyPoseFollower,
+    STANDING,
+    UPRIGHT,
+    VelocityCommand,
+)
 from humanoid_control.walking.footing import Footing, loads_for, SoleReading
 from humanoid_control.walking.gait import Gait, STAND
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
@@ -35,7 +41,6 @@ from humanoid_control.walking.terrain import (
     soles_below,
 )
 from humanoid_control.walking.touch import ForceObserver, TouchObserver
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_control.walking.whole_body import base_below, JointMotion, WholeBody, within_reach
 import numpy as np

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
-from humanoid_control.walking.body_pose import BodyPose, UPRIGHT
+from humanoid_control.walking.commands import BodyPose, STANDING, UPRIGHT, VelocityCommand
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
@@ -15,7 +15,6 @@ from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
 from humanoid_control.walking.recovery import Recovery, StandingState
 from humanoid_control.walking.state_estimator import RobotState, StateEstimator
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walk import Walk
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import Drive

@@ -8,8 +8,8 @@ from typing import Any
 
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Twist, Vector3
+from humanoid_control.walking.commands import VelocityCommand
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_interfaces.srv import ApplyWrench
 from humanoid_simulation.examples.fall_watch import tilt_rad
 from humanoid_simulation.examples.push_series import DIRECTIONS, Push

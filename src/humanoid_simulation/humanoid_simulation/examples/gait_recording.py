@@ -10,7 +10,7 @@ from humanoid_control.backends import Array, Observation
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking import VelocityCommand
-from humanoid_control.walking.velocity_command import STANDING
+from humanoid_control.walking.commands import STANDING
 from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import MujocoBackend, Snapshot
 from humanoid_simulation.errors import SimulationError

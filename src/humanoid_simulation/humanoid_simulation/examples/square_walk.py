@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_control.walking.planar import limited, PlanarPose
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_description.rotations import wrap_angle
 
 REST_S = 3.0

@@ -8,8 +8,8 @@ import math
 from geometry_msgs.msg import Twist
 from humanoid_common.qos import COMMAND, LATCHED, STATE
 from humanoid_control.hosting.conversions import seconds
+from humanoid_control.walking.commands import VelocityCommand
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_interfaces.srv import ApplyWrench
 from humanoid_simulation.examples.conversions import (
     height_and_tilt,

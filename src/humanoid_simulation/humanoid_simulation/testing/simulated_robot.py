@@ -8,8 +8,8 @@ import math
 from typing import Any
 
 from humanoid_common.testing.ros import RosSandbox
+from humanoid_control.walking.commands import VelocityCommand
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_simulation.examples.conversions import push_request, refusal, state_request
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.push_series import Push
