@@ -6,10 +6,9 @@ from __future__ import annotations
 import math
 
 from geometry_msgs.msg import Pose, Quaternion
-from humanoid_control.errors import WalkingError
 from humanoid_control.hosting.conversions import body_pose_of
 from humanoid_control.walking.commands import BodyPose, BodyPoseFollower, UPRIGHT
-from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.parameters import WalkingError, WalkParameters
 import pytest
 
 P = WalkParameters()

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.errors import WalkingError
 from humanoid_control.walking.commands import VelocityCommand, VelocityLimits
-from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.parameters import WalkingError, WalkParameters
 import numpy as np
 import pytest
 

@@ -6,10 +6,9 @@ from __future__ import annotations
 import math
 
 from humanoid_common.parameters import build, ParameterError
-from humanoid_control.errors import WalkingError
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.walking.commands import largest_change
-from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.parameters import WalkingError, WalkParameters
 import pytest
 
 

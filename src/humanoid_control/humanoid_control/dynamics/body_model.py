@@ -11,8 +11,7 @@ import math
 from humanoid_common.naming import did_you_mean
 from humanoid_control.dynamics.body_matrices import BodyMatrices, ForwardKinematics
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.tree import JointGroup, Mount, Tree
-from humanoid_control.errors import DynamicsError
+from humanoid_control.dynamics.tree import DynamicsError, JointGroup, Mount, Tree
 from humanoid_description.robot import Robot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray

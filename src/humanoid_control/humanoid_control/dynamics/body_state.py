@@ -8,8 +8,7 @@ from functools import cached_property
 
 from humanoid_common.naming import did_you_mean
 from humanoid_control.dynamics.body_matrices import axial, BodyMatrices
-from humanoid_control.dynamics.tree import JointGroup, Mount, Tree
-from humanoid_control.errors import DynamicsError
+from humanoid_control.dynamics.tree import DynamicsError, JointGroup, Mount, Tree
 from humanoid_description.rotations import skew
 import numpy as np
 from numpy.typing import NDArray

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.errors import DynamicsError
+from humanoid_control.dynamics.tree import DynamicsError
 from humanoid_description.drives import SIDES
 from humanoid_description.kinematics import chain, poses
 from humanoid_description.robot import Array, Joint, named, Robot

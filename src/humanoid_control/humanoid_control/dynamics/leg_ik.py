@@ -14,7 +14,7 @@ import math
 
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_geometry import LegGeometry
-from humanoid_control.errors import DynamicsError
+from humanoid_control.dynamics.tree import DynamicsError
 
 # The last fraction of the leg length, in which the leg smoothly stops following the foot.
 SOFT = 0.002

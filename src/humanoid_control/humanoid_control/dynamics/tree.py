@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.errors import DynamicsError
 from humanoid_description.kinematics import chain
 from humanoid_description.robot import Body, Joint, named, repeated, Robot
 import numpy as np
@@ -16,6 +15,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 TURNING = ('revolute', 'continuous')
+
+
+class DynamicsError(Exception):
+    """A robot model or state that the dynamics cannot handle; the message states why."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,6 @@ from humanoid_common.qos import COMMAND
 from humanoid_control.backends import Observation
 from humanoid_control.controllers import CommandError
 from humanoid_control.emergency_stop import StopListener
-from humanoid_control.errors import WalkingError
 from humanoid_control.hosting.controller_actions import ControllerActions
 from humanoid_control.hosting.controller_services import ControllerServices
 from humanoid_control.hosting.conversions import body_pose_of, points_of, velocity_of
@@ -29,6 +28,7 @@ from humanoid_control.hosting.topics.walk import (
     WalkingStateTopic,
 )
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_control.walking.parameters import WalkingError
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory

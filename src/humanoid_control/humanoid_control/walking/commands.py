@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import astuple, dataclass
 import math
 
-from humanoid_control.errors import WalkingError
-from humanoid_control.walking.parameters import VelocityParameters, WalkParameters
+from humanoid_control.walking.parameters import VelocityParameters, WalkingError, WalkParameters
 from humanoid_control.walking.planar import limited, Point
 
 

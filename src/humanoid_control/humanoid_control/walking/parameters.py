@@ -7,12 +7,15 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 from humanoid_common.parameters import parameter, ParameterError
-from humanoid_control.errors import WalkingError
 
 _POWER = 'humanoid_control.power'
 """Metadata key of the power of the robot's size with which a field scales."""
 _MOST_CHANGE = 4.0
 """Factor by which a parameter may be above or below its default."""
+
+
+class WalkingError(ValueError):
+    """An input that walking cannot handle; the message states which, and why."""
 
 
 def _growing(power: float, value: float, description: str) -> float:

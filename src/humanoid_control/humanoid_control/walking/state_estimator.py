@@ -10,8 +10,9 @@ import math
 from humanoid_control.backends import Observation
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.errors import DynamicsError, WalkingError
+from humanoid_control.dynamics.tree import DynamicsError
 from humanoid_control.walking.footing import Footing
+from humanoid_control.walking.parameters import WalkingError
 from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion
 from humanoid_control.walking.planar import limited, Point, SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot

@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_control.errors import WalkingError
-from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.parameters import WalkingError, WalkParameters
 from humanoid_control.walking.planar import cross, dot, limited, outwards, PlanarPose, Point
 from humanoid_description.geometry import convex_hull, outline
 from humanoid_description.kinematics import chain, pose_along
