@@ -11,10 +11,10 @@ from humanoid_control.walking.inverse_dynamics import ground_efforts, hip_effort
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
 from humanoid_control.walking.planar import SIDES, Turning
-from humanoid_control.walking.state_estimator import Attitude, base_on, RobotState
+from humanoid_control.walking.state_estimator import base_on
 from humanoid_control.walking.support_polygon import FootShape, SupportPolygon
 from humanoid_control.walking.terrain import footing_below
-from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.walking_robot import Attitude, HomePosture, RobotState, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 from humanoid_description.rotations import from_rpy

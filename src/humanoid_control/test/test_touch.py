@@ -8,9 +8,8 @@ import math
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, Point, RIGHT
-from humanoid_control.walking.state_estimator import Attitude, RobotState
 from humanoid_control.walking.touch import TouchObserver
-from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.walking_robot import Attitude, HomePosture, RobotState, WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 from humanoid_description.rotations import from_rpy

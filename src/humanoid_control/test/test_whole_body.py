@@ -8,14 +8,14 @@ from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.dynamics.leg_ik import leg_posture
 from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.odometry import BaseEstimate, BaseMotion
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion
 from humanoid_control.walking.planar import GroundPlane, LEFT, PlanarPose, RIGHT, SIDES, Turning
-from humanoid_control.walking.state_estimator import Attitude, BaseEstimate, BaseMotion, RobotState
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.terrain import footing_below, soles_below
-from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.walking_robot import Attitude, HomePosture, RobotState, WalkingRobot
 from humanoid_control.walking.whole_body import (
     base_below,
     JointMotion,

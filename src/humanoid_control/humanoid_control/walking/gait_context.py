@@ -25,7 +25,6 @@ from humanoid_control.walking.obstacle_guard import (
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import BalanceReference, DcmPlan, Pendulum, ZmpSegment
 from humanoid_control.walking.planar import PlanarPose, Point, SIDES, Turning
-from humanoid_control.walking.step_adjustment import StepAdjuster
 from humanoid_control.walking.swing_foot import Swing
 
 
@@ -158,14 +157,12 @@ class GaitContext:
     slope: Point = 0j
     """Expected tilt of the ground ahead."""
     planner: FootstepPlanner = field(init=False)
-    adjuster: StepAdjuster = field(init=False)
     path: ReferencePath = field(init=False)
     guard: ObstacleGuard = field(init=False)
     limits: VelocityLimits = field(init=False)
 
     def __post_init__(self) -> None:
         self.planner = FootstepPlanner(self.parameters)
-        self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
         self.path = ReferencePath(self.planner)
         self.guard = ObstacleGuard(self.parameters)
         self.limits = VelocityLimits.of(self.parameters.velocity)

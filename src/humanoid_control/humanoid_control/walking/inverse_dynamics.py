@@ -18,8 +18,7 @@ from humanoid_control.walking.footing import Footing, GroundReaction, Loads, loa
 from humanoid_control.walking.gait_context import GaitOutput
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import SIDES, Turning
-from humanoid_control.walking.state_estimator import Attitude, RobotState
-from humanoid_control.walking.walking_robot import Leg, WalkingRobot
+from humanoid_control.walking.walking_robot import Attitude, Leg, RobotState, WalkingRobot
 from humanoid_description.rotations import skew, wrap_angle
 import numpy as np
 from numpy.typing import NDArray

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Odometry of the base, and its covariance."""
+"""Motion of the base: its estimate, its odometry, and the covariance of that."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from humanoid_control.backends import ImuNoise
+from humanoid_control.dynamics.body_state import BodyState
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.walking.pendulum import Motion
 from humanoid_control.walking.planar import PlanarPose, Point
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +25,63 @@ _SCALE = 1e-3
 _SMALLEST = 1e-6
 _STEP_M, _STEP_S = 0.02, 0.5
 """Distance and time between propagations of the covariance: it changes too little in between."""
+
+
+@dataclass(frozen=True, eq=False)
+class BaseMotion:
+    """Pose and twist of the base in the odom frame, measured or wanted."""
+
+    frame: Frame
+    twist: Twist
+
+
+@dataclass(frozen=True, eq=False)
+class BaseEstimate:
+    """Estimated position and velocity of the origin of the base, in the odom frame."""
+
+    position_m: Array
+    """(3,)"""
+    velocity_m_s: Array
+    """(3,)"""
+
+    def motion(self, state: BodyState) -> BaseMotion:
+        """
+        Combine the estimated position and velocity with the measured rotation of the base.
+
+        Parameters
+        ----------
+        state
+            State of the robot, which holds the rotation and the angular velocity of the base.
+
+        Returns
+        -------
+        BaseMotion
+            Pose and twist of base_link, both in the odom frame.
+
+        """
+        return BaseMotion(
+            Frame(self.position_m, state.base_rotation),
+            Twist(self.velocity_m_s, state.base_angular_velocity_rad_s),
+        )
+
+    def com_motion(self, state: BodyState) -> Motion:
+        """
+        Compute the horizontal motion of the centre of mass.
+
+        Parameters
+        ----------
+        state
+            State of the robot, with the centre of mass relative to the origin of base_link.
+
+        Returns
+        -------
+        Motion
+            Position in m and velocity in m/s, in the plane of the odom frame.
+
+        """
+        position = self.position_m + state.com_m
+        velocity = self.velocity_m_s + state.com_velocity_m_s
+        return Motion(complex(position[0], position[1]), complex(velocity[0], velocity[1]))
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,7 @@ import math
 from humanoid_control.backends import Array, JointTargets
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import NAMES, outwards, SIDES
-from humanoid_control.walking.state_estimator import RobotState
-from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.walking_robot import HomePosture, RobotState, WalkingRobot
 import numpy as np
 
 _CROUCHED_RAD = {'hip_pitch': -1.1, 'knee': 1.9, 'ankle_pitch': -0.8}

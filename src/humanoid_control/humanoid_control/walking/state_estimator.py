@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 import math
 
 from humanoid_control.backends import Observation
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.tree import DynamicsError
 from humanoid_control.walking.footing import Footing
+from humanoid_control.walking.odometry import BaseEstimate
 from humanoid_control.walking.parameters import WalkingError
-from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion
+from humanoid_control.walking.pendulum import GRAVITY_M_S2
 from humanoid_control.walking.planar import limited, Point, SIDES
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.walking_robot import Attitude, RobotState, WalkingRobot
 from humanoid_description.rotations import about_z, from_quaternion, to_rpy, yaw_of
 import numpy as np
 from numpy.typing import NDArray
@@ -25,33 +24,6 @@ _SURE_LOAD = 0.2
 """A foot that carries this fraction of the weight certainly stands on the ground."""
 _LEAST_TRUST = 0.02
 """Below this total the robot is airborne or falling: the commanded shares are used instead."""
-
-
-@dataclass(frozen=True)
-class Attitude:
-    """Attitude of the pelvis, and its angular velocity in its own axes."""
-
-    roll_rad: float
-    pitch_rad: float
-    yaw_rad: float
-    rates_rad_s: tuple[float, float, float]
-
-
-@dataclass(frozen=True, eq=False)
-class RobotState:
-    """Estimated state of the robot at a time, with the heading relative to the odom frame."""
-
-    time_s: float
-    state: BodyState
-    attitude: Attitude
-    loads: tuple[float, float]
-    """Normal forces on the soles, as fractions of the weight of the robot."""
-    drags: tuple[Point, Point]
-    """Horizontal forces on the soles, of the ground or an obstacle, as fractions of the weight."""
-    efforts_nm: Array
-    """(n,) measured actuator torques"""
-    acceleration_m_s2: Array
-    """(3,) acceleration of the IMU without gravity, in the axes of the odom frame"""
 
 
 class StateEstimator:
@@ -203,63 +175,6 @@ class HeadingFrame:
         """
         rates: Array = self._base_in_imu.T @ angular_velocity_rad_s
         return rates
-
-
-@dataclass(frozen=True, eq=False)
-class BaseMotion:
-    """Pose and twist of the base in the odom frame, measured or wanted."""
-
-    frame: Frame
-    twist: Twist
-
-
-@dataclass(frozen=True, eq=False)
-class BaseEstimate:
-    """Estimated position and velocity of the origin of the base, in the odom frame."""
-
-    position_m: Array
-    """(3,)"""
-    velocity_m_s: Array
-    """(3,)"""
-
-    def motion(self, state: BodyState) -> BaseMotion:
-        """
-        Combine the estimated position and velocity with the measured rotation of the base.
-
-        Parameters
-        ----------
-        state
-            State of the robot, which holds the rotation and the angular velocity of the base.
-
-        Returns
-        -------
-        BaseMotion
-            Pose and twist of base_link, both in the odom frame.
-
-        """
-        return BaseMotion(
-            Frame(self.position_m, state.base_rotation),
-            Twist(self.velocity_m_s, state.base_angular_velocity_rad_s),
-        )
-
-    def com_motion(self, state: BodyState) -> Motion:
-        """
-        Compute the horizontal motion of the centre of mass.
-
-        Parameters
-        ----------
-        state
-            State of the robot, with the centre of mass relative to the origin of base_link.
-
-        Returns
-        -------
-        Motion
-            Position in m and velocity in m/s, in the plane of the odom frame.
-
-        """
-        position = self.position_m + state.com_m
-        velocity = self.velocity_m_s + state.com_velocity_m_s
-        return Motion(complex(position[0], position[1]), complex(velocity[0], velocity[1]))
 
 
 def carrying(shares: tuple[float, float], loads: tuple[float, float]) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from humanoid_control.walking.planar import (
     smooth_turn,
     Turning,
 )
-from humanoid_control.walking.step_adjustment import Residual
+from humanoid_control.walking.step_adjustment import Residual, StepAdjuster
 from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
 
 _INSTANT_S = 1e-4
@@ -66,6 +66,7 @@ class CurrentStep:
         self._lifted_from = context.footing[self.side]
         self._lift_off = self._lifted_from.pose
         self._foot = SwingFoot(self._lift_off)
+        self._adjuster = StepAdjuster(context.planner, context.pendulum.rate_1_s)
         p = context.parameters
         self._lift = Lift(
             p.swing.height_m, p.timing.swing_s, p.swing.reach_down_m_s, p.swing.deepest_m
@@ -350,7 +351,7 @@ class CurrentStep:
             self._context.footing.polygon(self.sides),
             support,
         )
-        adjustment = self._context.adjuster.adjusted(
+        adjustment = self._adjuster.adjusted(
             self._nominal,
             support,
             self.support,

@@ -24,9 +24,8 @@ from humanoid_control.walking.planar import (
     SIDES,
     tilt_of,
 )
-from humanoid_control.walking.state_estimator import RobotState
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.walking_robot import RobotState, WalkingRobot
 from humanoid_description.rotations import yaw_of
 import numpy as np
 from numpy.typing import NDArray

@@ -23,8 +23,7 @@ import math
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import NAMES, Point
-from humanoid_control.walking.state_estimator import RobotState
-from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.walking_robot import RobotState, WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
 

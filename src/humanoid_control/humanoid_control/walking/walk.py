@@ -16,6 +16,7 @@ from humanoid_control.walking.gait import Gait, STAND
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.inverse_dynamics import InverseDynamics, PlannedAcceleration, within
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
+from humanoid_control.walking.odometry import BaseEstimate, BaseMotion
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import (
     ComObserver,
@@ -25,13 +26,7 @@ from humanoid_control.walking.pendulum import (
     Pendulum,
 )
 from humanoid_control.walking.planar import Point, SIDES
-from humanoid_control.walking.state_estimator import (
-    base_on,
-    BaseEstimate,
-    BaseMotion,
-    carrying,
-    RobotState,
-)
+from humanoid_control.walking.state_estimator import base_on, carrying
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.terrain import (
     FootholdAdaptation,
@@ -41,7 +36,7 @@ from humanoid_control.walking.terrain import (
     soles_below,
 )
 from humanoid_control.walking.touch import ForceObserver, TouchObserver
-from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.walking_robot import HomePosture, RobotState, WalkingRobot
 from humanoid_control.walking.whole_body import base_below, JointMotion, WholeBody, within_reach
 import numpy as np
 from numpy.typing import NDArray

@@ -13,10 +13,10 @@ from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
 from humanoid_control.walking.recovery import Recovery, StandingState
-from humanoid_control.walking.state_estimator import RobotState, StateEstimator
+from humanoid_control.walking.state_estimator import StateEstimator
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.walk import Walk
-from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
+from humanoid_control.walking.walking_robot import HomePosture, RobotState, WalkingRobot
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
 from humanoid_description.rotations import quaternion_of

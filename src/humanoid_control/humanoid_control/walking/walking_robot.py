@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walking model of a robot: its legs, its joints and its standing posture."""
+"""Walking model of a robot: its legs, its joints, its standing posture, and its state."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.dynamics.body_model import BodyModel
+from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.dynamics.leg_ik import leg_posture
 from humanoid_control.dynamics.tree import JointGroup
 from humanoid_control.walking.parameters import WalkingError, WalkParameters
-from humanoid_control.walking.planar import LEFT, NAMES, outwards, RIGHT, SIDES
+from humanoid_control.walking.planar import LEFT, NAMES, outwards, Point, RIGHT, SIDES
 from humanoid_description.drives import Drive
 from humanoid_description.kinematics import chain, pose_along
 from humanoid_description.robot import Robot
@@ -211,6 +212,33 @@ class WalkingRobot:
 
         """
         return self.body.index(self.prefix + joint)
+
+
+@dataclass(frozen=True)
+class Attitude:
+    """Attitude of the pelvis, and its angular velocity in its own axes."""
+
+    roll_rad: float
+    pitch_rad: float
+    yaw_rad: float
+    rates_rad_s: tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class RobotState:
+    """Estimated state of the robot at a time, with the heading relative to the odom frame."""
+
+    time_s: float
+    state: BodyState
+    attitude: Attitude
+    loads: tuple[float, float]
+    """Normal forces on the soles, as fractions of the weight of the robot."""
+    drags: tuple[Point, Point]
+    """Horizontal forces on the soles, of the ground or an obstacle, as fractions of the weight."""
+    efforts_nm: Array
+    """(n,) measured actuator torques"""
+    acceleration_m_s2: Array
+    """(3,) acceleration of the IMU without gravity, in the axes of the odom frame"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,10 +12,10 @@ from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates
 from humanoid_control.walking.footing import Footing
+from humanoid_control.walking.odometry import BaseEstimate, BaseMotion
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion
 from humanoid_control.walking.planar import LEFT, NAMES, RIGHT, SIDES, Turning
-from humanoid_control.walking.state_estimator import BaseEstimate, BaseMotion
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.rotations import about_y, about_z, skew
