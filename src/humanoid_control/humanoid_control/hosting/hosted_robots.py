@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Protocol
 
 from geometry_msgs.msg import Pose, Twist
 from humanoid_common.qos import COMMAND
@@ -27,14 +28,26 @@ from humanoid_control.hosting.topics.walk import (
     OdometryTopics,
     WalkingStateTopic,
 )
-from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking.parameters import WalkingError
+from humanoid_control.walking.walker import Walker
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
 BLOCKED = 'blocked'
 """Walking state of a robot that an obstacle blocks, whether it steps back or stands."""
+
+
+class HostedRobot(Protocol):
+    """What a node needs to know of a robot, however it is built."""
+
+    @property
+    def walker(self) -> Walker:
+        """Return its walker, whose state is published."""
+
+    @property
+    def control(self) -> RobotControl:
+        """Return its control, which takes the commands."""
 
 
 class HostedRobots:
@@ -62,7 +75,7 @@ class HostedRobots:
     def __init__(
         self,
         node: Node,
-        robots: Mapping[str, WalkingRobotControl],
+        robots: Mapping[str, HostedRobot],
         parameters: HostParameters,
         hardware: str,
     ) -> None:
@@ -236,7 +249,7 @@ class RobotOutputs:
     """
 
     def __init__(
-        self, node: Node, name: str, robot: WalkingRobotControl, parameters: HostParameters
+        self, node: Node, name: str, robot: HostedRobot, parameters: HostParameters
     ) -> None:
         odom = parameters.prefix + ODOM
         self._robot = robot

@@ -6,7 +6,8 @@ from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry
 from humanoid_control.walking.parameters import WalkingError, WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.walker import Walker, WalkStatus
+from humanoid_control.walking.walk import WalkStatus
+from humanoid_control.walking.walker import Walker
 
 __all__ = [
     'Footstep',

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Control loop of a walk: from the estimated state of the robot to joint targets."""
+"""Control loop of a walk, from the estimated state to joint targets, and its status."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from humanoid_control.backends import JointTargets
 from humanoid_control.walking.commands import (
@@ -12,11 +15,12 @@ from humanoid_control.walking.commands import (
     VelocityCommand,
 )
 from humanoid_control.walking.footing import Footing, loads_for, SoleReading
+from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gait import Gait, STAND
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.inverse_dynamics import InverseDynamics, PlannedAcceleration, within
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
-from humanoid_control.walking.odometry import BaseEstimate, BaseMotion
+from humanoid_control.walking.odometry import BaseEstimate, BaseMotion, Odometry
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import (
     ComObserver,
@@ -25,7 +29,7 @@ from humanoid_control.walking.pendulum import (
     Motion,
     Pendulum,
 )
-from humanoid_control.walking.planar import Point, SIDES
+from humanoid_control.walking.planar import PlanarPose, Point, SIDES
 from humanoid_control.walking.state_estimator import base_on, carrying
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.terrain import (
@@ -291,3 +295,23 @@ class Walk:
             soles,
             motion.accelerations_rad_s2,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class WalkStatus:
+    """Status of the walk at a time; points are in the ground plane of the odom frame."""
+
+    phase: str
+    """'stand', 'walk', 'stop', 'fallen' or 'stand_up'."""
+    support: tuple[int, ...]
+    """Sides of the feet that carry the robot: 0 left, 1 right; empty while it is down."""
+    feet: tuple[PlanarPose, PlanarPose]
+    """Present or last footholds, left and right."""
+    footsteps: Sequence[Footstep]
+    """Planned landings, the next one first."""
+    odometry: Odometry
+    dcm_m: Point
+    dcm_reference_m: Point
+    zmp_m: Point
+    """Commanded zero-moment point."""
+    zmp_reference_m: Point

@@ -8,14 +8,13 @@ from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
 from humanoid_control.walking.commands import BodyPose, STANDING, UPRIGHT, VelocityCommand
-from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
 from humanoid_control.walking.recovery import Recovery, StandingState
 from humanoid_control.walking.state_estimator import StateEstimator
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.walk import Walk
+from humanoid_control.walking.walk import Walk, WalkStatus
 from humanoid_control.walking.walking_robot import HomePosture, RobotState, WalkingRobot
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
@@ -264,23 +263,3 @@ class Walker:
             angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
             covariance=self._uncertainty.covariance,
         )
-
-
-@dataclass(frozen=True, eq=False)
-class WalkStatus:
-    """Status of the walk at a time; points are in the ground plane of the odom frame."""
-
-    phase: str
-    """'stand', 'walk', 'stop', 'fallen' or 'stand_up'."""
-    support: tuple[int, ...]
-    """Sides of the feet that carry the robot: 0 left, 1 right; empty while it is down."""
-    feet: tuple[PlanarPose, PlanarPose]
-    """Present or last footholds, left and right."""
-    footsteps: Sequence[Footstep]
-    """Planned landings, the next one first."""
-    odometry: Odometry
-    dcm_m: Point
-    dcm_reference_m: Point
-    zmp_m: Point
-    """Commanded zero-moment point."""
-    zmp_reference_m: Point

@@ -13,7 +13,7 @@ from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.odometry import Odometry as WalkOdometry
 from humanoid_control.walking.planar import LEFT, outwards, SIDES
 from humanoid_control.walking.support_polygon import FootShape
-from humanoid_control.walking.walker import WalkStatus
+from humanoid_control.walking.walk import WalkStatus
 from humanoid_description.rotations import about_z, from_quaternion, quaternion_of
 from nav_msgs.msg import Odometry
 import numpy as np
