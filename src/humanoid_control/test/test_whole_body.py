@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from humanoid_control.dynamics import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.leg_geometry import LegGeometry
-from humanoid_control.dynamics.leg_ik import leg_posture
+from humanoid_control.dynamics.leg_ik import leg_posture, LegGeometry
 from humanoid_control.walking.footing import Foothold, Footing
 from humanoid_control.walking.odometry import BaseEstimate, BaseMotion
 from humanoid_control.walking.parameters import WalkParameters

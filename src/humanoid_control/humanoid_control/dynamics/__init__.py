@@ -4,8 +4,7 @@
 from humanoid_control.dynamics.body_model import BodyModel
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.leg_geometry import LegGeometry
-from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates, LegPosture
+from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates, LegGeometry, LegPosture
 from humanoid_control.dynamics.tree import DynamicsError, JointGroup
 
 __all__ = [

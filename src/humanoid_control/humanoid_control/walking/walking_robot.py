@@ -10,8 +10,7 @@ from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.dynamics.body_model import BodyModel
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.leg_geometry import LegGeometry
-from humanoid_control.dynamics.leg_ik import leg_posture
+from humanoid_control.dynamics.leg_ik import leg_posture, LegGeometry
 from humanoid_control.dynamics.tree import JointGroup
 from humanoid_control.walking.parameters import WalkingError, WalkParameters
 from humanoid_control.walking.planar import LEFT, NAMES, outwards, Point, RIGHT, SIDES

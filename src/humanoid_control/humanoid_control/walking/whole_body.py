@@ -9,8 +9,7 @@ import math
 
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.leg_geometry import LegGeometry
-from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates
+from humanoid_control.dynamics.leg_ik import leg_posture, leg_rates, LegGeometry
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.odometry import BaseEstimate, BaseMotion
 from humanoid_control.walking.parameters import WalkParameters
