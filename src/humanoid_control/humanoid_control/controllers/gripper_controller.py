@@ -9,7 +9,7 @@ import math
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers.commands import CommandError
-from humanoid_control.controllers.goal_controller import GoalController
+from humanoid_control.controllers.interface import GoalController
 from humanoid_control.limits import JointLimits
 
 TOLERANCE_M = 0.002
