@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.controllers.blending import Blend, BLEND_S
+from humanoid_control.controllers.manager import Blend, BLEND_S
 from humanoid_control.testing import targets
 import numpy as np
 import pytest

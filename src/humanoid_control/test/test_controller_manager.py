@@ -83,7 +83,7 @@ class Robot:
     def command(self, joint: str, position_rad: float) -> None:
         """Command a joint from outside."""
         command = NAMES.targets([joint], [position_rad])
-        self.manager.check(self.follower, command.indices)
+        self.manager.claims.check(self.follower, command.indices)
         self.follower.accept(command)
 
     def largest_step_rad(self) -> float:
@@ -110,7 +110,7 @@ def test_mode_moves_all_joints() -> None:
     robot = Robot()
     told = robot.run(100)
     assert told.positions_rad == pytest.approx([0.3 * np.sin(0.99)] * 3)
-    assert robot.manager.owner('left_elbow') == 'walking'
+    assert robot.manager.claims.owner('left_elbow') == 'walking'
 
 
 def test_claimed_joint_and_back() -> None:
@@ -121,12 +121,13 @@ def test_claimed_joint_and_back() -> None:
     for _ in range(80):
         robot.command('left_elbow', -0.5)
         robot.run(1)
-    assert robot.manager.owner('left_elbow') == 'joint_commands'
-    assert robot.manager.owner('right_elbow') == robot.manager.owner('left_knee') == 'walking'
+    assert robot.manager.claims.owner('left_elbow') == 'joint_commands'
+    assert robot.manager.claims.owner('right_elbow') == 'walking'
+    assert robot.manager.claims.owner('left_knee') == 'walking'
     assert robot.told[-1].positions_rad[0] == pytest.approx(-0.5)
     assert robot.told[-1].positions_rad[1] == pytest.approx(0.3 * np.sin(1.79))
     robot.run(120)
-    assert robot.manager.owner('left_elbow') == 'walking'
+    assert robot.manager.claims.owner('left_elbow') == 'walking'
     assert robot.told[-1].positions_rad[0] == pytest.approx(0.3 * np.sin(2.99))
     assert robot.largest_step_rad() < 0.05 and robot.largest_jolt_rad_s() < 0.7
     assert robot.walking.starts == 1, 'walking goes on'
@@ -166,16 +167,16 @@ def test_in_trouble_nothing_can_be_claimed() -> None:
     robot.run(1)
     robot.command('left_elbow', -0.5)
     robot.run(1)
-    assert robot.manager.owner('left_elbow') == 'joint_commands'
+    assert robot.manager.claims.owner('left_elbow') == 'joint_commands'
     robot.walking.trouble = 'the robot has fallen'
     robot.run(1)
-    assert robot.manager.owner('left_elbow') == 'walking'
+    assert robot.manager.claims.owner('left_elbow') == 'walking'
     with pytest.raises(CommandError, match='accepts no joint commands now: the robot has fallen.'):
         robot.command('left_elbow', -0.5)
     robot.walking.trouble = ''
     robot.command('left_elbow', -0.5)
     robot.run(1)
-    assert robot.manager.owner('left_elbow') == 'joint_commands'
+    assert robot.manager.claims.owner('left_elbow') == 'joint_commands'
 
 
 def _robot_that_supports() -> tuple[ControllerManager, Follower, Still]:
@@ -204,7 +205,7 @@ def test_a_mode_that_supports_bears_what_it_lends() -> None:
     manager, follower, _ = _robot_that_supports()
     follower.accept(NAMES.targets(['left_elbow'], [0.1], [], [4.0]))
     told = _settled(manager, 0.01)
-    assert manager.owner('left_elbow') == 'joint_commands'
+    assert manager.claims.owner('left_elbow') == 'joint_commands'
     assert told.efforts_nm == pytest.approx([5.0, 2.0, 3.0], abs=0.01)
 
 
@@ -245,7 +246,7 @@ def test_followed_joint_stays_where_it_was_left() -> None:
         robot.command('left_knee', 0.4)
         robot.run(1)
     assert robot.run(200).positions_rad == pytest.approx([0.0, 0.0, 0.4])
-    assert robot.manager.owner('left_knee') == 'follow'
+    assert robot.manager.claims.owner('left_knee') == 'follow'
 
 
 def test_hold_lends_nothing() -> None:
@@ -266,7 +267,7 @@ def test_a_switch_takes_what_can_no_longer_be_claimed() -> None:
     robot.run(10)
     robot.manager.switch('walking')
     robot.run(100)
-    assert robot.manager.owner('left_knee') == 'walking'
+    assert robot.manager.claims.owner('left_knee') == 'walking'
     assert robot.largest_step_rad() < 0.05
 
 

@@ -119,7 +119,7 @@ def test_a_goal_is_reached_and_stays() -> None:
     robot.run(3.0)
     assert robot.told_rad() == pytest.approx(0.6)
     assert robot.told_rad('left_elbow') == pytest.approx(-0.8)
-    assert robot.control.manager.claimed() == dict.fromkeys(ARM, NAME)
+    assert robot.control.manager.claims.claimed() == dict.fromkeys(ARM, NAME)
 
 
 def test_joints_in_another_order() -> None:
@@ -228,7 +228,7 @@ def test_cancelled() -> None:
     assert robot.told_rad() == pytest.approx(at_rad, abs=0.02)
     robot.run(1.0)
     assert robot.told_rad() == pytest.approx(at_rad, abs=0.02)
-    assert robot.control.manager.owner('left_shoulder') == NAME
+    assert robot.control.manager.claims.owner('left_shoulder') == NAME
 
 
 def test_stop() -> None:
@@ -245,7 +245,7 @@ def test_stop() -> None:
     robot.control.hold_still(False)
     robot.run(1.0)
     assert robot.told_rad() == pytest.approx(at_rad)
-    assert robot.control.manager.owner('left_shoulder') == NAME
+    assert robot.control.manager.claims.owner('left_shoulder') == NAME
 
 
 def test_mode_that_lends_nothing() -> None:
@@ -268,7 +268,7 @@ def test_reset() -> None:
     robot.control.reset()
     assert 'reset' in results[0].message
     robot.run(0.1)
-    assert robot.control.manager.claimed() == {}
+    assert robot.control.manager.claims.claimed() == {}
 
 
 def test_others_wait_for_the_controller() -> None:
@@ -386,7 +386,7 @@ def test_a_hundred_goals_at_random() -> None:
     ends = {results[0].code for results in sent}, {results[0].is_canceled for results in sent}
     assert ends == ({ErrorCode.SUCCESSFUL, ErrorCode.INVALID_GOAL}, {True, False})
     assert robot.fastest_rad_s() <= VELOCITY_RAD_S + 1e-9
-    owners = {joint: robot.control.manager.owner(joint) for joint in JOINTS}
+    owners = {joint: robot.control.manager.claims.owner(joint) for joint in JOINTS}
     assert owners == {
         'left_shoulder': NAME,
         'left_elbow': NAME,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Controller manager: assigns each joint to one controller, and blends targets on a change."""
+"""Controller manager: runs the controllers of a robot, and blends targets on a change."""
 
 from __future__ import annotations
 
@@ -8,27 +8,23 @@ from dataclasses import replace
 import math
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.backends import JointTargets, Observation
-from humanoid_control.controllers.blending import Blend
-from humanoid_control.controllers.commands import CommandError, Indices
+from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_control.controllers.claims import JointClaims, MODE, Owners
+from humanoid_control.controllers.commands import CommandError
 from humanoid_control.controllers.interface import ClaimingController, Mask
 from humanoid_control.controllers.modes import Mode
 from humanoid_control.limits import JointLimits
 import numpy as np
-from numpy.typing import NDArray
 
-Owners = NDArray[np.intp]
-_MODE = -1
-"""Owner of a joint that no claimant has claimed; claimants are numbered from 0."""
+BLEND_S = 0.5
 
 
 class ControllerManager:
     """
     Manager that runs the controllers of one robot and limits their targets.
 
-    A joint that the mode leaves to controllers goes to the first claimant that claims it; all
-    others go to the controller of the mode. Every change blends from the last targets of the
-    joint.
+    `JointClaims` assigns each joint to one of them. Every change blends from the last targets of
+    the joint.
 
     Parameters
     ----------
@@ -42,6 +38,11 @@ class ControllerManager:
         Range, velocity, effort and stiffness of the n joints.
     say
         Receives a message when a controller asks for targets that are not finite.
+
+    Attributes
+    ----------
+    claims
+        Which controller owns each joint.
 
     Raises
     ------
@@ -60,27 +61,22 @@ class ControllerManager:
     ) -> None:
         self.joints = tuple(joints)
         self._modes = {mode.name: mode for mode in modes}
-        self._claimants = tuple(claimants)
+        self.claims = JointClaims(joints, modes, claimants)
         self._limits = limits
         self._say = say
         self._blend = Blend(len(self.joints))
-        self._enter(modes[0])
+        self._next = modes[0]
         self.reset()
 
     @property
     def mode(self) -> str:
         """Return the name of the mode."""
-        return self._mode.name
+        return self.claims.mode.name
 
     @property
     def is_leaving(self) -> bool:
         """Whether a mode switch is pending until the current mode can be left."""
-        return self._next is not self._mode
-
-    @property
-    def trouble(self) -> str:
-        """Return why the mode keeps all joints at the moment; empty if there is none."""
-        return self._mode.needs_all_because()
+        return self._next is not self.claims.mode
 
     @property
     def modes(self) -> tuple[str, ...]:
@@ -122,118 +118,15 @@ class ControllerManager:
 
     def reset(self) -> None:
         """Reset all controllers; restart from the joint positions of the next observation."""
-        for claimant in self._claimants:
+        for claimant in self.claims.claimants:
             claimant.cancel()
         for mode in self._modes.values():
             mode.forget()
         self._last: JointTargets | None = None
         self._last_s = 0.0
-        self._owners: Owners = np.full(len(self.joints), _MODE)
+        self.claims.reset()
         self._active: dict[int, Mask] = {}
         self._entered = True
-
-    def owner(self, joint: str) -> str:
-        """
-        Look up the mode or controller that currently claims a joint.
-
-        Parameters
-        ----------
-        joint
-            The name of a joint of the robot.
-
-        Returns
-        -------
-        str
-            The name of the mode or of the claimant.
-
-        """
-        return self._name_of(self._owners[self.joints.index(joint)])
-
-    @property
-    def claimants(self) -> tuple[ClaimingController, ...]:
-        """Return the controllers that may claim joints, in the order of their priority."""
-        return self._claimants
-
-    def joints_of(self, name: str) -> tuple[str, ...]:
-        """
-        List the joints that a mode or a claimant currently claims.
-
-        Parameters
-        ----------
-        name
-            The name of the mode or of the claimant.
-
-        Returns
-        -------
-        tuple[str, ...]
-            Names of joints, in the order of the robot; none for a mode that is not active.
-
-        """
-        return tuple(joint for joint in self.joints if self.owner(joint) == name)
-
-    def is_claimable(self, indices: Indices) -> bool:
-        """
-        Check whether the mode currently leaves all the given joints to controllers.
-
-        Parameters
-        ----------
-        indices
-            Joint indices (m,).
-
-        """
-        return bool(self._claimable[indices].all()) and not self.trouble
-
-    def owns(self, claimant: ClaimingController, indices: Indices) -> bool:
-        """
-        Check whether a claimant currently claims all the given joints.
-
-        Parameters
-        ----------
-        claimant
-            One of `claimants`.
-        indices
-            Joint indices (m,).
-
-        """
-        return bool((self._owners[indices] == self._claimants.index(claimant)).all())
-
-    def claimed(self) -> dict[str, str]:
-        """Return the joints that claimants currently claim, with the names of the claimants."""
-        indices = np.flatnonzero(self._owners != _MODE)
-        return {self.joints[index]: self._name_of(self._owners[index]) for index in indices}
-
-    def check(self, claimant: ClaimingController, indices: Indices) -> None:
-        """
-        Check that a claimant may claim joints now.
-
-        Parameters
-        ----------
-        claimant
-            One of `claimants`.
-        indices
-            Indices (m,) of the joints that it is to move.
-
-        Raises
-        ------
-        CommandError
-            The mode keeps one of the joints, or all of them at the moment, or a claimant of higher
-            priority has claimed one.
-
-        """
-        for index in indices[~self._claimable[indices]]:
-            raise CommandError(self._kept(self.joints[index]))
-        if self.trouble:
-            raise CommandError(
-                f"The mode '{self.mode}' accepts no joint commands now: {self.trouble}."
-            )
-        rank = self._claimants.index(claimant)
-        owners = self._owners[indices]
-        for index in indices[(owners >= 0) & (owners < rank)]:
-            owner = self._claimants[self._owners[index]]
-            raise CommandError(
-                f"'{self.joints[index]}' is claimed by '{owner.name}'. Leave the joint out, or "
-                f'{owner.way_out}.'
-            )
 
     def update(self, observation: Observation) -> JointTargets:
         """
@@ -254,7 +147,7 @@ class ControllerManager:
 
         """
         now_s = observation.time_s
-        if self.is_leaving and self._mode.may_end():
+        if self.is_leaving and self.claims.mode.may_end():
             self._enter(self._next)
         last = self._last or _at_rest(observation)
         elapsed_s = now_s - self._last_s if self._last else 0.0
@@ -269,45 +162,28 @@ class ControllerManager:
         return self._last
 
     def _enter(self, mode: Mode) -> None:
-        """Enter a mode and cancel all claimants, which have to claim joints again."""
-        if mode.controller.joints != self.joints:
-            raise ValueError(
-                f"The controller of mode '{mode.name}' must claim all joints of the robot, in "
-                f'the order {self.joints}, but claims {mode.controller.joints}.'
-            )
-        self._mode, self._next, self._entered = mode, mode, True
-        self._claimable = np.isin(self.joints, mode.claimable)
-        for claimant in self._claimants:
-            claimant.cancel()
+        """Enter a mode; the claimants have to claim joints again."""
+        self.claims.enter(mode)
+        self._next, self._entered = mode, True
 
     def _change_owners(self, observation: Observation, held: JointTargets) -> Mask | None:
         """Start the controllers that are assigned joints; return those joints, None for none."""
-        owners = self._owners_at(observation.time_s)
+        owners = self.claims.owners_at(observation.time_s)
         news = self._news(owners)
         if not (self._entered or news.any()):
             return None
         self._start(owners, news, observation, held)
-        self._owners, self._entered = owners, False
-        self._active = {
-            rank: owners == rank for rank in range(len(self._claimants)) if (owners == rank).any()
-        }
+        self.claims.owners, self._entered = owners, False
+        ranks = range(len(self.claims.claimants))
+        self._active = {rank: owners == rank for rank in ranks if (owners == rank).any()}
         return news
-
-    def _owners_at(self, now_s: float) -> Owners:
-        """Compute the owner of each joint, (n,): the rank of a claimant, or _MODE."""
-        owners = np.full(len(self.joints), _MODE)
-        if self.trouble:
-            return owners
-        for rank in reversed(range(len(self._claimants))):
-            owners[self._claimants[rank].wanted(now_s) & self._claimable] = rank
-        return owners
 
     def _news(self, owners: Owners) -> Mask:
         """Compute the mask (n,) of joints whose controller changes or `waits`."""
         if self._entered:
-            return np.ones_like(self._claimable)
-        news: Mask = owners != self._owners
-        for rank, claimant in enumerate(self._claimants):
+            return np.ones(len(self.joints), dtype=np.bool_)
+        news: Mask = owners != self.claims.owners
+        for rank, claimant in enumerate(self.claims.claimants):
             if claimant.waits:
                 news |= owners == rank
         return news
@@ -316,24 +192,24 @@ class ControllerManager:
         self, owners: Owners, news: Mask, observation: Observation, held: JointTargets
     ) -> None:
         """Notify controllers of the joints that they were assigned."""
-        returned = news & (owners == _MODE)
+        returned = news & (owners == MODE)
         if self._entered:
-            self._mode.controller.start(observation, held)
+            self.claims.mode.controller.start(observation, held)
         elif returned.any():
-            self._mode.take_back(returned, held)
-        if self._mode.supports:
+            self.claims.mode.take_back(returned, held)
+        if self.claims.mode.supports:
             held = replace(held, efforts_nm=np.zeros(len(self.joints)))
-        for rank, claimant in enumerate(self._claimants):
+        for rank, claimant in enumerate(self.claims.claimants):
             if (news & (owners == rank)).any():
                 claimant.start(observation, held)
 
     def _wished(self, observation: Observation, held: JointTargets) -> JointTargets:
         """Merge the targets of the mode and the claimants; non-finite ones are replaced."""
-        own = wished = self._mode.controller.update(observation)
+        own = wished = self.claims.mode.controller.update(observation)
         for rank, joints in self._active.items():
-            wished = _merged(wished, self._claimants[rank].update(observation), joints)
-        if self._active and self._mode.supports:
-            claimed = self._owners != _MODE
+            wished = _merged(wished, self.claims.claimants[rank].update(observation), joints)
+        if self._active and self.claims.mode.supports:
+            claimed = self.claims.owners != MODE
             wished = replace(wished, efforts_nm=wished.efforts_nm + claimed * own.efforts_nm)
         return wished if _is_finite(wished) else self._repaired(wished, held)
 
@@ -341,25 +217,13 @@ class ControllerManager:
         """Hold the joints whose targets are not finite, and report the controller at fault."""
         sound = np.isfinite(wished.positions_rad + wished.velocities_rad_s + wished.efforts_nm)
         index = int(np.argmin(sound))
+        joint = self.joints[index]
         self._say(
-            f"'{self._name_of(self._owners[index])}' commands '{self.joints[index]}' "
+            f"'{self.claims.owner(joint)}' commands '{joint}' "
             'to a target that is not finite: the joint is held.'
         )
         rest = JointTargets(held.positions_rad, *np.zeros((2, len(self.joints))))
         return _merged(rest, wished, sound)
-
-    def _name_of(self, rank: int) -> str:
-        return self.mode if rank == _MODE else self._claimants[rank].name
-
-    def _kept(self, joint: str) -> str:
-        """Build the message about a joint that the mode keeps for itself."""
-        ways = [mode.name for mode in self._modes.values() if joint in mode.claimable]
-        leaves = 'only other joints' if self._mode.claimable else 'no joints'
-        out = f"Leave it out, or set the mode to '{ways[0]}'." if ways else 'Leave it out.'
-        return (
-            f"'{joint}' is claimed by the mode '{self.mode}', which leaves {leaves} to "
-            f'controllers. {out}'
-        )
 
 
 def _at_rest(observation: Observation) -> JointTargets:
@@ -386,3 +250,85 @@ def _is_finite(targets: JointTargets) -> bool:
     """Check whether all targets are finite; a sum is the cheapest test."""
     total = targets.positions_rad.sum() + targets.velocities_rad_s.sum()
     return math.isfinite(total + targets.efforts_nm.sum())
+
+
+class Blend:
+    """
+    Offset that blends the targets of joints from those of their old controller to the new ones.
+
+    It starts at the difference in position and velocity and decays to zero along the minimum-jerk
+    polynomial (Flash and Hogan, 1985).
+
+    Parameters
+    ----------
+    joints
+        Number of joints of the robot, n.
+    duration_s
+        Time from a change of controller until the offset is zero.
+
+    """
+
+    def __init__(self, joints: int, duration_s: float = BLEND_S) -> None:
+        self._duration_s = duration_s
+        self._since_s = np.full(joints, -np.inf)
+        self._until_s = -np.inf
+        self._offset_rad, self._speed_rad_s, self._effort_nm = np.zeros((3, joints))
+
+    def begin(self, joints: Mask, now_s: float, last: JointTargets, new: JointTargets) -> None:
+        """
+        Start blending joints from their old targets to those of their new controller.
+
+        Parameters
+        ----------
+        joints
+            Mask (n,) of the joints whose controller changes.
+        now_s
+            The robot's time.
+        last, new
+            Targets of all n joints at this moment: those of the old and those of the new
+            controllers.
+
+        """
+        self._since_s[joints] = now_s
+        self._until_s = now_s + self._duration_s
+        self._offset_rad[joints] = (last.positions_rad - new.positions_rad)[joints]
+        self._speed_rad_s[joints] = (last.velocities_rad_s - new.velocities_rad_s)[joints]
+        self._effort_nm[joints] = (last.efforts_nm - new.efforts_nm)[joints]
+
+    def blended(self, now_s: float, new: JointTargets) -> JointTargets:
+        """
+        Add the remaining offset to the current targets.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+        new
+            Targets of all n joints from their current controllers.
+
+        Returns
+        -------
+        JointTargets
+            Blended targets of all n joints; `new` itself when no blend is under way.
+
+        """
+        if now_s >= self._until_s:
+            return new
+        passed = np.minimum((now_s - self._since_s) / self._duration_s, 1.0)
+        offset_rad, speed_rad_s, share = self._left(passed)
+        return JointTargets(
+            new.positions_rad + offset_rad,
+            new.velocities_rad_s + speed_rad_s,
+            new.efforts_nm + share * self._effort_nm,
+        )
+
+    def _left(self, passed: Array) -> tuple[Array, Array, Array]:
+        """Compute the offset, its derivative and its weight at a fraction of the blend time."""
+        left = 1.0 - passed
+        share = left**3 * (1.0 + 3.0 * passed + 6.0 * passed**2)
+        share_rate = -30.0 * (passed * left) ** 2 / self._duration_s
+        slope = passed * left**3 * (1.0 + 3.0 * passed)
+        slope_rate = left**2 * (1.0 + 2.0 * passed - 15.0 * passed**2)
+        offset_rad = share * self._offset_rad + slope * self._duration_s * self._speed_rad_s
+        speed_rad_s = share_rate * self._offset_rad + slope_rate * self._speed_rad_s
+        return offset_rad, speed_rad_s, share

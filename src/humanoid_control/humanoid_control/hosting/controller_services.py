@@ -223,22 +223,22 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
         move joints as commanded on a topic.
 
     """
-    manager = control.manager
+    manager, claims = control.manager, control.manager.claims
     claimable = any(
-        manager.is_claimable(controller.indices) for controller in control.controllers.values()
+        claims.is_claimable(controller.indices) for controller in control.controllers.values()
     )
     limbs = [
         ControllerInfo(
             name,
             controller.kind,
-            controller.is_active and manager.is_claimable(controller.indices),
-            manager.joints_of(name),
+            controller.is_active and claims.is_claimable(controller.indices),
+            claims.joints_of(name),
             controller.own,
         )
         for name, controller in control.controllers.items()
     ]
     modes = [
-        ControllerInfo(name, kind, name == manager.mode, manager.joints_of(name), manager.joints)
+        ControllerInfo(name, kind, name == manager.mode, claims.joints_of(name), manager.joints)
         for name, kind in manager.mode_types.items()
     ]
     others = [
@@ -246,10 +246,10 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
             claimant.name,
             f'humanoid_control/{type(claimant).__name__}',
             control.must_hold if claimant is control.still else claimable,
-            manager.joints_of(claimant.name),
+            claims.joints_of(claimant.name),
             (),
         )
-        for claimant in manager.claimants
+        for claimant in claims.claimants
         if not isinstance(claimant, GoalController)
     ]
     return limbs + modes + others
@@ -314,8 +314,8 @@ def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> s
     controller = control.controllers.get(name)
     if controller is None:
         return _not_switched(control, name)
-    if active and not control.manager.is_claimable(controller.indices):
-        reason = control.manager.trouble
+    if active and not control.manager.claims.is_claimable(controller.indices):
+        reason = control.manager.claims.trouble
         keeps = (
             f'accepts no commands now: {reason}'
             if reason

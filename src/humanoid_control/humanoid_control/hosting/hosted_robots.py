@@ -152,10 +152,10 @@ class HostedRobots:
         return RobotHealth(
             mode=manager.mode,
             walk=robot.walker.phase or '',
-            trouble=manager.trouble,
+            trouble=manager.claims.trouble,
             is_blocked=robot.walker.is_blocked,
             holds_because=self._inputs[name].stop.guard.reason,
-            claimed=manager.claimed(),
+            claimed=manager.claims.claimed(),
         )
 
 

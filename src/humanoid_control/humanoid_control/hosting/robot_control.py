@@ -137,7 +137,7 @@ class RobotControl:
         """
         command = self._names.targets(names, positions_rad, velocities_rad_s, efforts_nm)
         if not self.must_hold:
-            self.manager.check(self._follower, command.indices)
+            self.manager.claims.check(self._follower, command.indices)
             self._follower.accept(command)
 
     def run(self, names: Sequence[str], points: Sequence[TrajectoryPoint]) -> None:
@@ -162,7 +162,7 @@ class RobotControl:
         """
         trajectory = checked_trajectory(self._names, self._limits, names, points)
         if not self.must_hold:
-            self.manager.check(self._runner, trajectory.indices)
+            self.manager.claims.check(self._runner, trajectory.indices)
             self._runner.accept(trajectory)
 
     def checked_goal(self, controller: str, request: TrajectoryRequest) -> TrajectoryGoal:
@@ -231,7 +231,7 @@ class RobotControl:
             )
         if self.must_hold:
             raise CommandError(HELD)
-        self.manager.check(controller, controller.indices)
+        self.manager.claims.check(controller, controller.indices)
 
     def walk(self, velocity: VelocityCommand) -> None:
         """
@@ -333,12 +333,12 @@ class RobotControl:
 
     def _end_lost_goals(self) -> None:
         """End the goals of controllers whose joints others have taken."""
-        trouble = self.manager.trouble
+        claims, trouble = self.manager.claims, self.manager.claims.trouble
         for controller in self.controllers.values():
             if trouble:
                 controller.release(f'{trouble[:1].upper()}{trouble[1:]}.')
-            elif controller.has_goal and not self.manager.owns(controller, controller.indices):
-                owners = {self.manager.owner(joint) for joint in controller.own}
+            elif controller.has_goal and not claims.owns(controller, controller.indices):
+                owners = {claims.owner(joint) for joint in controller.own}
                 others = ', '.join(f"'{name}'" for name in sorted(owners - {controller.name}))
                 controller.abort(f'Its joints were claimed by {others}.')
 
