@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from humanoid_control.dynamics import BodyModel
-from humanoid_control.dynamics.body_matrices import axial, BodyMatrices, ForwardKinematics
+from humanoid_control.dynamics.body_matrices import axial, BodyMatrices
+from humanoid_control.dynamics.tree import ForwardKinematics
 from humanoid_description.kinematics import poses
 from humanoid_description.robot import Robot
 from humanoid_description.rotations import from_rpy

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Poses, twists, accelerations and inertias of the bodies of a robot, as homogeneous matrices.
+Poses, twists, accelerations and inertias of bodies and their links, as homogeneous matrices.
 
 All are matrices (4, 4) in the axes of the world, about the origin of the root, so that no
 recursion is needed (Legnani, Casolo, Righettini and Zappa, A Homogeneous Matrix Approach to 3D
@@ -20,7 +20,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from humanoid_control.dynamics.tree import Tree
+from humanoid_common.naming import did_you_mean
+from humanoid_control.dynamics.tree import DynamicsError, ForwardKinematics, Mount, Tree
 from humanoid_description.rotations import skew
 import numpy as np
 from numpy.typing import NDArray
@@ -185,83 +186,146 @@ def axial(moments: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class ForwardKinematics:
+class LinkMotions:
     """
-    Forward kinematics by pointer jumping: one round for each binary digit of the tree's depth.
+    Poses, velocities and bias accelerations of the links of a robot.
 
-    Each round doubles the number of joints that a pose spans: it is multiplied by the pose of the
-    body at which it ended (Hillis and Steele, Data Parallel Algorithms, CACM 1986).
+    Points and vectors are in the axes of the world; points are relative to the origin of the root.
+    Methods that take the name of a link raise `DynamicsError` if the model does not have it.
     """
 
-    turned: Array
-    """(n, 3, 16) poses in the parents, flat: the coefficients of 1, sin q and cos q"""
-    jumps: tuple[NDArray[np.intp], ...]
-    """(n + 1,) per round: index of the ancestor; n + 1, a fixed identity, where there is none"""
-    at_rest: Array
-    """(n + 2, 4, 4) identities: of the root, the other bodies, and the fixed one"""
+    tree: Tree
+    matrices: BodyMatrices
 
-    @classmethod
-    def of(cls, tree: Tree) -> ForwardKinematics:
+    @property
+    def base_rotation(self) -> Array:
+        """Return the rotation matrix (3, 3) of the root in the world."""
+        return self.matrices.rotation
+
+    @property
+    def base_angular_velocity_rad_s(self) -> Array:
+        """Return the angular velocity (3,) of the root, in the axes of the world."""
+        return self.matrices.angular_velocity_rad_s
+
+    @property
+    def velocities_rad_s(self) -> Array:
+        """Return the joint velocities (n,)."""
+        return self.matrices.velocities_rad_s
+
+    def pose(self, link: str) -> Array:
         """
-        Precompute the tables of a kinematic tree.
+        Compute the pose of a link.
 
         Parameters
         ----------
-        tree
-            Its n joints and n + 1 bodies.
-
-        """
-        at_rest = np.tile(np.eye(4), (len(tree.parents) + 1, 1, 1))
-        return cls(_turned(tree.placements), _jumps(tree.parents), at_rest)
-
-    def poses(self, rotation: Array, positions_rad: Array) -> Array:
-        """
-        Compute the poses of all bodies.
-
-        Parameters
-        ----------
-        rotation
-            Rotation (3, 3) of the root in the world.
-        positions_rad
-            Joint positions (n,).
+        link
+            Its name.
 
         Returns
         -------
         Array
-            Homogeneous transforms (n + 1, 4, 4) from the bodies to the axes of the world, with the
-            origin of the root at zero.
+            Homogeneous transform (4, 4) from the link to the axes of the world, with the origin of
+            the root at zero.
 
         """
-        n = len(self.turned)
-        factors = np.ones((n, 1, 3))
-        np.sin(positions_rad, out=factors[:, 0, 1])
-        np.cos(positions_rad, out=factors[:, 0, 2])
-        whole = self.at_rest.copy()
-        poses: Array = whole[:-1]
-        poses[0, :3, :3] = rotation
-        np.matmul(factors, self.turned, out=poses[1:].reshape(n, 1, 16))
-        for jump in self.jumps:
-            poses[:] = whole.take(jump, axis=0) @ poses
-        return poses
+        mount = self._mount(link)
+        pose: Array = self.matrices.poses[mount.body] @ mount.pose
+        return pose
 
+    def position_m(self, link: str) -> Array:
+        """
+        Compute the position (3,) of the origin of a link.
 
-def _turned(placements: Array) -> Array:
-    """Compute the poses of frames that rotate about z, as coefficients of 1, sin and cos."""
-    x, y = placements[:, :, 0], placements[:, :, 1]
-    turned = np.zeros((len(placements), 3, 4, 4))
-    turned[:, 0, :, 2:] = placements[:, :, 2:]
-    turned[:, 1, :, 0], turned[:, 1, :, 1] = y, -x
-    turned[:, 2, :, 0], turned[:, 2, :, 1] = x, y
-    return turned.reshape(-1, 3, 16)
+        Parameters
+        ----------
+        link
+            Its name.
 
+        """
+        mount = self._mount(link)
+        position: Array = (self.matrices.poses[mount.body] @ mount.pose[:, 3])[:3]
+        return position
 
-def _jumps(parents: NDArray[np.intp]) -> tuple[NDArray[np.intp], ...]:
-    """Compute, for each round, the ancestor at which the pose of each body ends."""
-    nowhere = len(parents)
-    above = np.append(parents, nowhere)
-    above[0] = nowhere
-    rounds = []
-    while np.any(above != nowhere):
-        rounds.append(above[:-1])
-        above = above[above]
-    return tuple(rounds)
+    def rotation(self, link: str) -> Array:
+        """
+        Compute the rotation matrix (3, 3) of a link in the world.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        """
+        mount = self._mount(link)
+        rotation: Array = self.matrices.poses[mount.body, :3, :3] @ mount.pose[:3, :3]
+        return rotation
+
+    def velocity_m_s(self, link: str, point_m: Array | None = None) -> Array:
+        """
+        Compute the velocity (3,) of a point of a link.
+
+        Parameters
+        ----------
+        link
+            Its name.
+        point_m
+            The point (3,), in the axes of the world from the origin of the root; without one, the
+            origin of the link.
+
+        """
+        mount = self._mount(link)
+        velocity: Array = self.matrices.twists[mount.body, :3] @ self._point(mount, point_m)
+        return velocity
+
+    def angular_velocity_rad_s(self, link: str) -> Array:
+        """
+        Compute the angular velocity (3,) of a link, in the axes of the world.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        """
+        twist = self.matrices.twists[self._mount(link).body]
+        return np.array([twist[2, 1], twist[0, 2], twist[1, 0]])
+
+    def drift(self, link: str) -> Array:
+        """
+        Compute the acceleration bias of a link, the product of Jacobian derivative and velocities.
+
+        It is the acceleration of the link at zero acceleration of the root and the joints.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        Returns
+        -------
+        Array
+            Acceleration (6,): linear in m/s2 of its origin, then angular in rad/s2.
+
+        """
+        mount = self._mount(link)
+        acceleration = self.matrices.accelerations[mount.body]
+        linear: Array = acceleration[:3] @ self._point(mount, None)
+        linear[2] -= self.matrices.gravity_m_s2
+        return np.concatenate([linear, 0.5 * axial(acceleration)])
+
+    def _mount(self, link: str) -> Mount:
+        """Look up the mount of a link."""
+        mount = self.tree.mounts.get(link)
+        if mount is None:
+            hint = did_you_mean(link, self.tree.mounts)
+            raise DynamicsError(f"The model has no link '{link}'. {hint}".rstrip())
+        return mount
+
+    def _point(self, mount: Mount, point_m: Array | None) -> Array:
+        """Return a point, or the origin of a link, in homogeneous coordinates (4,)."""
+        if point_m is None:
+            origin: Array = self.matrices.poses[mount.body] @ mount.pose[:, 3]
+            return origin
+        point = np.ones(4)
+        point[:3] = point_m
+        return point

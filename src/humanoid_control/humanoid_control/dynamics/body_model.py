@@ -9,9 +9,15 @@ from functools import cached_property
 import math
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.dynamics.body_matrices import BodyMatrices, ForwardKinematics
+from humanoid_control.dynamics.body_matrices import BodyMatrices
 from humanoid_control.dynamics.body_state import BodyState
-from humanoid_control.dynamics.tree import DynamicsError, JointGroup, Mount, Tree
+from humanoid_control.dynamics.tree import (
+    DynamicsError,
+    ForwardKinematics,
+    JointGroup,
+    Mount,
+    Tree,
+)
 from humanoid_description.robot import Robot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray

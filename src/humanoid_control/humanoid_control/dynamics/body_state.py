@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Kinematics and dynamics of a robot in a posture and motion."""
+"""Dynamics of a robot in a posture and motion: centre of mass, Jacobians, forces, inertia."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
 
-from humanoid_common.naming import did_you_mean
-from humanoid_control.dynamics.body_matrices import axial, BodyMatrices
-from humanoid_control.dynamics.tree import DynamicsError, JointGroup, Mount, Tree
+from humanoid_control.dynamics.body_matrices import axial, LinkMotions
+from humanoid_control.dynamics.tree import JointGroup
 from humanoid_description.rotations import skew
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class BodyState:
+class BodyState(LinkMotions):
     """
     State of a robot with n joints; the origin of its root is at zero and at rest.
 
@@ -27,103 +26,8 @@ class BodyState:
     `DynamicsError` if the model does not have it.
     """
 
-    tree: Tree
-    matrices: BodyMatrices
     armature_kgm2: Array
     """(n,)"""
-
-    @property
-    def base_rotation(self) -> Array:
-        """Return the rotation matrix (3, 3) of the root in the world."""
-        return self.matrices.rotation
-
-    @property
-    def base_angular_velocity_rad_s(self) -> Array:
-        """Return the angular velocity (3,) of the root, in the axes of the world."""
-        return self.matrices.angular_velocity_rad_s
-
-    @property
-    def velocities_rad_s(self) -> Array:
-        """Return the joint velocities (n,)."""
-        return self.matrices.velocities_rad_s
-
-    def pose(self, link: str) -> Array:
-        """
-        Compute the pose of a link.
-
-        Parameters
-        ----------
-        link
-            Its name.
-
-        Returns
-        -------
-        Array
-            Homogeneous transform (4, 4) from the link to the axes of the world, with the origin of
-            the root at zero.
-
-        """
-        mount = self._mount(link)
-        pose: Array = self.matrices.poses[mount.body] @ mount.pose
-        return pose
-
-    def position_m(self, link: str) -> Array:
-        """
-        Compute the position (3,) of the origin of a link.
-
-        Parameters
-        ----------
-        link
-            Its name.
-
-        """
-        mount = self._mount(link)
-        position: Array = (self.matrices.poses[mount.body] @ mount.pose[:, 3])[:3]
-        return position
-
-    def rotation(self, link: str) -> Array:
-        """
-        Compute the rotation matrix (3, 3) of a link in the world.
-
-        Parameters
-        ----------
-        link
-            Its name.
-
-        """
-        mount = self._mount(link)
-        rotation: Array = self.matrices.poses[mount.body, :3, :3] @ mount.pose[:3, :3]
-        return rotation
-
-    def velocity_m_s(self, link: str, point_m: Array | None = None) -> Array:
-        """
-        Compute the velocity (3,) of a point of a link.
-
-        Parameters
-        ----------
-        link
-            Its name.
-        point_m
-            The point (3,), in the axes of the world from the origin of the root; without one, the
-            origin of the link.
-
-        """
-        mount = self._mount(link)
-        velocity: Array = self.matrices.twists[mount.body, :3] @ self._point(mount, point_m)
-        return velocity
-
-    def angular_velocity_rad_s(self, link: str) -> Array:
-        """
-        Compute the angular velocity (3,) of a link, in the axes of the world.
-
-        Parameters
-        ----------
-        link
-            Its name.
-
-        """
-        twist = self.matrices.twists[self._mount(link).body]
-        return np.array([twist[2, 1], twist[0, 2], twist[1, 0]])
 
     @cached_property
     def com_m(self) -> Array:
@@ -196,29 +100,6 @@ class BodyState:
         drift: Array = self.matrices.forces[0, :3, 3] / self.tree.mass_kg
         drift[2] -= self.matrices.gravity_m_s2
         return _kept(drift)
-
-    def drift(self, link: str) -> Array:
-        """
-        Compute the acceleration bias of a link, the product of Jacobian derivative and velocities.
-
-        It is the acceleration of the link at zero acceleration of the root and the joints.
-
-        Parameters
-        ----------
-        link
-            Its name.
-
-        Returns
-        -------
-        Array
-            Acceleration (6,): linear in m/s2 of its origin, then angular in rad/s2.
-
-        """
-        mount = self._mount(link)
-        acceleration = self.matrices.accelerations[mount.body]
-        linear: Array = acceleration[:3] @ self._point(mount, None)
-        linear[2] -= self.matrices.gravity_m_s2
-        return np.concatenate([linear, 0.5 * axial(acceleration)])
 
     def jacobian(self, link: str, point_m: Array | None = None) -> Array:
         """
@@ -355,23 +236,6 @@ class BodyState:
         k = len(group.indices)
         below = screws.reshape(k, 16) @ momenta.reshape(k, 16).T
         return group.symmetric(below) + group.armature_kgm2
-
-    def _mount(self, link: str) -> Mount:
-        """Look up the mount of a link."""
-        mount = self.tree.mounts.get(link)
-        if mount is None:
-            hint = did_you_mean(link, self.tree.mounts)
-            raise DynamicsError(f"The model has no link '{link}'. {hint}".rstrip())
-        return mount
-
-    def _point(self, mount: Mount, point_m: Array | None) -> Array:
-        """Return a point, or the origin of a link, in homogeneous coordinates (4,)."""
-        if point_m is None:
-            origin: Array = self.matrices.poses[mount.body] @ mount.pose[:, 3]
-            return origin
-        point = np.ones(4)
-        point[:3] = point_m
-        return point
 
 
 def _wrench(forces: Array) -> Array:
