@@ -125,8 +125,8 @@ def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
 def _check(text: str, source: str, folder: Path) -> int:
     """Check a URDF, print the report, and return the exit status."""
     from humanoid_description.checks import check_robot
+    from humanoid_description.checks.outcome import report
     from humanoid_description.loading import load_robot
-    from humanoid_description.report import report
 
     outcomes = check_robot(load_robot(text, source, folder))
     shown = _show(report(source, outcomes))

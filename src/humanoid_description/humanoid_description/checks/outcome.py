@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks and their outcomes."""
+"""Checks, their outcomes, and the report of these."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from humanoid_description.robot import Robot
+
+HEAD = ('check', 'found', 'result')
 
 
 def count(number: int, noun: str) -> str:
@@ -69,3 +72,47 @@ class Check:
 
         """
         return Outcome(self.title, skipped=why)
+
+
+def report(source: str, outcomes: Sequence[Outcome]) -> str:
+    """
+    Format the outcomes of checks: a table, the defects as messages, and the verdict.
+
+    Parameters
+    ----------
+    source
+        The name of the checked model, for the verdict.
+    outcomes
+        The outcomes of the checks, in the order of the table.
+
+    """
+    return '\n'.join([*_table(outcomes), '', *_sentences(source, outcomes)])
+
+
+def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Yield the lines of the table."""
+    rows = list(_rows(outcomes))
+    widths = [max(map(len, column)) for column in zip(HEAD, *rows)]
+    for row in (HEAD, tuple('-' * width for width in widths), *rows):
+        yield '  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
+
+
+def _rows(outcomes: Sequence[Outcome]) -> Iterator[tuple[str, str, str]]:
+    """Yield the cells of one row per check, but one row for checks skipped for the same reason."""
+    for obstacle, group in groupby(outcomes, key=lambda outcome: outcome.skipped):
+        checks = list(group)
+        if obstacle and len(checks) > 1:
+            yield f'{len(checks)} more', '', checks[0].result
+        else:
+            yield from ((check.title, check.found, check.result) for check in checks)
+
+
+def _sentences(source: str, outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Yield the defects, and the verdict."""
+    defects = [defect for outcome in outcomes for defect in outcome.defects]
+    skipped = sum(bool(outcome.skipped) for outcome in outcomes)
+    passed = sum(not outcome.defects for outcome in outcomes) - skipped
+    yield from (f'- {defect.strip()}' for defect in defects)
+    counts = f'{count(passed, "check")} passed' + (f', {skipped} skipped' if skipped else '')
+    verdict = f'has {count(len(defects), "defect")}' if defects else 'is sound'
+    yield f'{source} {verdict}: {counts}.'
