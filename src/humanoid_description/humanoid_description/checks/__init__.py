@@ -5,11 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from humanoid_description.checks.bodies import BODIES
 from humanoid_description.checks.build import NAME
 from humanoid_description.checks.humanoid import NAMES, SHAPE
 from humanoid_description.checks.joints import JOINTS
-from humanoid_description.checks.meshes import MESHES
+from humanoid_description.checks.links import BODIES, MESHES
 from humanoid_description.checks.outcome import Check, Outcome
 from humanoid_description.checks.structure import STRUCTURE
 from humanoid_description.robot import Robot
