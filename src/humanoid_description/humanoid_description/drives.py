@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from humanoid_description.files import load_config
+from humanoid_description.expansion import load_config
 from humanoid_description.scaling import load_scaling, Scaling
 
 SIDES = ('left', 'right')

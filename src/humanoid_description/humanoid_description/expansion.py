@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Expand the xacro files of the humanoid, or others, to a URDF."""
+"""The installed files of the humanoid: its tables, and its URDF, which xacro expands."""
 
 from __future__ import annotations
 
@@ -7,9 +7,32 @@ from collections.abc import Mapping
 from pathlib import Path
 import subprocess
 import sys
+from typing import Any
 
 from humanoid_description.errors import DescriptionError
-from humanoid_description.files import share
+
+
+def share() -> Path:
+    """Return the share directory of this package, with the model and its configuration."""
+    from ament_index_python.packages import get_package_share_directory
+
+    return Path(get_package_share_directory('humanoid_description'))
+
+
+def load_config(name: str) -> dict[str, Any]:
+    """
+    Load a YAML file of this package's installed folder config.
+
+    Parameters
+    ----------
+    name
+        The name of the file with its ending, such as `joints.yaml`.
+
+    """
+    import yaml
+
+    loaded: dict[str, Any] = yaml.safe_load((share() / 'config' / name).read_text())
+    return loaded
 
 
 def humanoid_urdf(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from humanoid_description.errors import DescriptionError
-from humanoid_description.files import load_config
+from humanoid_description.expansion import load_config
 
 
 @dataclass(frozen=True)
