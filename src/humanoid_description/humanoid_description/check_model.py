@@ -110,8 +110,8 @@ def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
 
 def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
     """Return the URDF of the humanoid with the given options, and its name for the report."""
+    from humanoid_description.drives import load_scaling
     from humanoid_description.expansion import humanoid_urdf
-    from humanoid_description.scaling import load_scaling
 
     scale = 1.0 if arguments.scale is None else arguments.scale
     load_scaling().check(scale)

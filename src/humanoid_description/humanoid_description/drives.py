@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The drives (actuators) of the humanoid's joints, from config/joints.yaml.
+The drives (actuators) of the humanoid's joints, and how they and the robot grow with its size.
 
-The URDF is generated from the same file, so both agree. The drives also have the servo gains, for
-which a URDF has no element.
+They are read from config/joints.yaml and config/scaling.yaml. The URDF is generated from the same
+files, so both agree. The drives also have the servo gains, for which a URDF has no element.
 """
 
 from __future__ import annotations
@@ -13,12 +13,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from humanoid_description.errors import DescriptionError
 from humanoid_description.expansion import load_config
-from humanoid_description.scaling import load_scaling, Scaling
 
 SIDES = ('left', 'right')
-
-
 REVOLUTE, PRISMATIC = 'revolute', 'prismatic'
 
 
@@ -152,3 +150,61 @@ def _drive(
         armature=servo['armature'] * grown('armature'),
         kind=kind,
     )
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """The range of the scale, and the exponent of the scale by which each quantity grows."""
+
+    smallest: float
+    largest: float
+    exponents: Mapping[str, Any]
+    """By quantity; those of joints by type of joint and quantity."""
+
+    def joint_factor(self, kind: str, quantity: str, scale: float) -> float:
+        """
+        Compute the factor of a joint quantity in a robot of another size.
+
+        Parameters
+        ----------
+        kind
+            The type of the joint: `revolute` or `prismatic`.
+        quantity
+            Such as `effort`, `velocity` or `kp`: the names are those in scaling.yaml.
+        scale
+            The size of the robot relative to the model at 1.0.
+
+        Raises
+        ------
+        DescriptionError
+            The scale is out of range.
+
+        """
+        self.check(scale)
+        return float(scale ** self.exponents[kind][quantity])
+
+    def check(self, scale: float) -> None:
+        """
+        Reject a scale that is out of range.
+
+        Parameters
+        ----------
+        scale
+            The size of the robot relative to the model at 1.0.
+
+        Raises
+        ------
+        DescriptionError
+            The scale is less than the smallest or more than the largest.
+
+        """
+        if not self.smallest <= scale <= self.largest:
+            raise DescriptionError(
+                f'The scale {scale:g} is out of range. '
+                f'Give one from {self.smallest} to {self.largest}.'
+            )
+
+
+def load_scaling() -> Scaling:
+    """Load the installed scaling rules."""
+    return Scaling(**load_config('scaling.yaml'))

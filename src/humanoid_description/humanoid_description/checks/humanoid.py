@@ -16,11 +16,10 @@ from humanoid_description.checks.build import (
 )
 from humanoid_description.checks.mirror import look_at_mirror
 from humanoid_description.checks.outcome import Check
-from humanoid_description.drives import load_drives
+from humanoid_description.drives import load_drives, load_scaling
 from humanoid_description.geometry import centre_of_mass, margin_inside
 from humanoid_description.kinematics import chain, pose_along, poses
 from humanoid_description.robot import Array, Joint, Robot
-from humanoid_description.scaling import load_scaling
 import numpy as np
 
 # Relative, for height and mass: the model is exact, but a file may be rounded to few digits.
