@@ -7,8 +7,8 @@ import math
 from pathlib import Path
 
 from humanoid_simulation.backend import MujocoBackend
-from humanoid_simulation.collisions import COLLISION_GROUP
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model.robot_spec import COLLISION_GROUP
 from humanoid_simulation.scene import load_scene, Scene, Thing
 from humanoid_simulation.scene.occupancy import (
     FREE,

@@ -13,9 +13,9 @@ from humanoid_simulation.backend.layout import Layout, layout_of
 from humanoid_simulation.backend.noise import channels_of, NoiseSource
 from humanoid_simulation.backend.servos import check_targets, Servos
 from humanoid_simulation.backend.settings import BackendSettings
-from humanoid_simulation.collisions import COLLISION_GROUP
 from humanoid_simulation.keyframes import Keyframe
 from humanoid_simulation.model.description import Placement, RobotDescription
+from humanoid_simulation.model.robot_spec import COLLISION_GROUP
 from humanoid_simulation.quaternions import inverse, product, rotated
 import mujoco
 import numpy as np

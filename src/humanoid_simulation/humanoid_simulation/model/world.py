@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from humanoid_description.rotations import quaternion_from_rpy
-from humanoid_simulation.collisions import COLLISION_GROUP, MOST_ROBOTS, WORLD
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.model.description import (
     ALONE,
@@ -17,7 +16,7 @@ from humanoid_simulation.model.description import (
     Placement,
     RobotDescription,
 )
-from humanoid_simulation.model.robot_spec import robot_spec
+from humanoid_simulation.model.robot_spec import COLLISION_GROUP, MOST_ROBOTS, robot_spec, WORLD
 from humanoid_simulation.scene.appearance import add_lighting, EDGE_PX, picture_of
 from humanoid_simulation.scene.meshes import triangles_of
 from humanoid_simulation.scene.parts import Finish, MESH, Part, Vector
