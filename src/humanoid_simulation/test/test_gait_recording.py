@@ -10,14 +10,13 @@ from pathlib import Path
 from humanoid_control.walking import VelocityCommand
 from humanoid_description.loading import load_robot
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.examples.gait_plots import draw_gait
 from humanoid_simulation.examples.gait_recording import (
     GaitPlan,
     GaitRecording,
     record_walk,
     zero_moment_point,
 )
-from humanoid_simulation.examples.record_gait import main, write_table
+from humanoid_simulation.examples.record_gait import draw_gait, main, write_table
 from humanoid_simulation.model import RobotDescription
 import numpy as np
 import pytest
