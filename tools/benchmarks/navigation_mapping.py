@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from arguments import in_range
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_navigation.testing import NavigatingRobot
-from humanoid_simulation.testing.simulated_robot import RobotClient
+from humanoid_simulation.testing.simulators import RobotClient
 from navigation_trials import Belief, REACHED_M, report, robot_at_home
 import numpy as np
 import numpy.typing as npt

@@ -31,7 +31,7 @@ from humanoid_perception.places import load_places, places_path, Surface
 from humanoid_simulation.scene import load_scene, Scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap
 from humanoid_simulation.testing.entities import EntityClient
-from humanoid_simulation.testing.simulated_robot import FellError, RobotClient
+from humanoid_simulation.testing.simulators import FellError, RobotClient
 import numpy as np
 from rclpy.action import ActionClient
 from std_srvs.srv import Trigger

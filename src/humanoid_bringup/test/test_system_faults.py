@@ -13,7 +13,7 @@ from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.processes import is_alive, RunningProgram
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_common.testing.waiting import wait_until
-from humanoid_simulation.testing.simulated_robot import RobotClient
+from humanoid_simulation.testing.simulators import RobotClient
 import pytest
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'

@@ -17,7 +17,7 @@ from humanoid_interfaces.action import ScanRoom
 from humanoid_interfaces.msg import RememberedObject
 from humanoid_interfaces.srv import FindObjects
 from humanoid_simulation.scene import load_scene
-from humanoid_simulation.testing.simulated_robot import RobotClient
+from humanoid_simulation.testing.simulators import RobotClient
 import pytest
 from rclpy.action import ActionClient
 from simulation_interfaces.srv import GetEntityState, SetEntityState

@@ -13,7 +13,7 @@ from humanoid_common.qos import COMMAND, SENSOR, STATE
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_interfaces.msg import Contacts
 from humanoid_navigation.arrival import Arrival, initial_pose, is_zero, stamped
-from humanoid_simulation.testing.simulated_robot import RobotClient
+from humanoid_simulation.testing.simulators import RobotClient
 from nav2_msgs.action import NavigateToPose
 import numpy as np
 import numpy.typing as npt

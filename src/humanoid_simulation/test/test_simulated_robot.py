@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from humanoid_common.testing.ros import ros_sandbox
 from humanoid_simulation.testing.fake_simulator import FakeSimulator, START
-from humanoid_simulation.testing.simulated_robot import FellError, RobotClient
+from humanoid_simulation.testing.simulators import FellError, RobotClient
 import pytest
 
 

@@ -13,8 +13,7 @@ from control_msgs.msg import JointTolerance
 from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_control.trajectory_testing import trajectory_goal
-from humanoid_simulation.testing.simulated_robot import RobotClient
-from humanoid_simulation.testing.simulators import simulation
+from humanoid_simulation.testing.simulators import RobotClient, simulation
 import numpy as np
 import pytest
 from sensor_msgs.msg import JointState

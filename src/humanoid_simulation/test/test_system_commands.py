@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 
-from humanoid_simulation.testing.simulated_robot import FellError, RobotClient
-from humanoid_simulation.testing.simulators import simulated_robot
+from humanoid_simulation.testing.simulators import FellError, RobotClient, simulated_robot
 import pytest
 from std_msgs.msg import Bool
 

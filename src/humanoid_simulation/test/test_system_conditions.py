@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.walking import PlanarPose
-from humanoid_simulation.testing.simulated_robot import RobotClient
-from humanoid_simulation.testing.simulators import simulated_robot, simulation
+from humanoid_simulation.testing.simulators import RobotClient, simulated_robot, simulation
 import pytest
 
 pytestmark = pytest.mark.timeout(600)

@@ -9,8 +9,7 @@ import math
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_description.rotations import wrap_angle
 from humanoid_simulation.examples.push_series import DIRECTIONS
-from humanoid_simulation.testing.simulated_robot import RobotClient
-from humanoid_simulation.testing.simulators import simulated_robot
+from humanoid_simulation.testing.simulators import RobotClient, simulated_robot
 import pytest
 
 pytestmark = pytest.mark.timeout(600)
