@@ -10,11 +10,10 @@ from humanoid_control.controllers import TrajectoryPoint, TrajectoryRequest
 from humanoid_control.walking import VelocityCommand
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
-from humanoid_simulation.disturbances import DropOuts
 from humanoid_simulation.model import Physics
 from humanoid_simulation.scene import Scene
 from humanoid_simulation.scene.scene import Floor
-from humanoid_simulation.testing.lockstep_robot import LockstepRobot
+from humanoid_simulation.testing.lockstep_robot import DropOuts, LockstepRobot
 import numpy as np
 
 MASS_LINK = 'torso'

@@ -6,5 +6,4 @@ Simulation of the humanoid in MuJoCo.
 - `humanoid_simulation.scene`: floor, objects and all else in a world besides robots
 - `humanoid_simulation.backend`: the simulation as a backend of the controllers
 - `humanoid_simulation.pacing`: the real-time factor of the simulation
-- `humanoid_simulation.disturbances`: missed ticks of a controller
 """

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.disturbances import DropOuts
+from humanoid_simulation.testing.lockstep_robot import DropOuts
 import numpy as np
 import pytest
 

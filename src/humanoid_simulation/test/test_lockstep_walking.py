@@ -6,10 +6,9 @@ from __future__ import annotations
 from humanoid_control.walking import PlanarPose
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
-from humanoid_simulation.disturbances import DropOuts
 from humanoid_simulation.examples.square_walk import Corner, SquareDrive, SquarePlan
 from humanoid_simulation.scene import Scene, Thing
-from humanoid_simulation.testing.lockstep_robot import LockstepRobot
+from humanoid_simulation.testing.lockstep_robot import DropOuts, LockstepRobot
 import numpy as np
 import pytest
 

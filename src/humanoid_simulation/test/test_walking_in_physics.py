@@ -12,8 +12,8 @@ from humanoid_control.walking import PlanarPose, VelocityCommand, Walker, WalkPa
 from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import BackendSettings, MujocoBackend
 from humanoid_simulation.backend.noise import REALISTIC
-from humanoid_simulation.disturbances import DropOuts
 from humanoid_simulation.model import humanoid
+from humanoid_simulation.testing.lockstep_robot import DropOuts
 import numpy as np
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that walks in a world of its own, in lockstep and without ROS: deterministic."""
+"""A robot that walks in a world of its own, in lockstep and without ROS, and may miss ticks."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBack
 from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
 from humanoid_simulation.model import humanoid
 from humanoid_simulation.scene import Scene
+import numpy as np
 
 PUSH_S = 0.1
 """Duration of a push."""
@@ -238,3 +239,33 @@ def walk(robot: LockstepRobot, route: Sequence[tuple[float, float]]) -> None:
             assert robot.wait(0.1), f'it fell at {robot.pose} on its way to {goal_m}'
             assert not robot.walking.walker.is_blocked, f'something is in its way at {robot.pose}'
         assert distance_m(robot.pose, goal_m) < NEAR_M, f'it is at {robot.pose}, not {goal_m}'
+
+
+class DropOuts:
+    """
+    Random drop-outs of control: ticks that are missed because the computer is overloaded.
+
+    Parameters
+    ----------
+    random
+        Source of random numbers.
+    chance
+        Probability that a drop-out starts at a tick, unless one is in progress.
+    longest_ticks
+        Maximum length of a drop-out; lengths from 1 tick are uniformly distributed.
+
+    """
+
+    def __init__(self, random: np.random.Generator, chance: float, longest_ticks: int) -> None:
+        self._random = random
+        self._chance = chance
+        self._longest_ticks = longest_ticks
+        self._left = 0
+
+    def misses(self) -> bool:
+        """Decide whether the controller misses this tick; call once per tick."""
+        if self._left == 0 and self._random.random() < self._chance:
+            self._left = int(self._random.integers(1, self._longest_ticks + 1))
+        missed = self._left > 0
+        self._left -= missed
+        return missed
