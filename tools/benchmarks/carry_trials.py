@@ -23,7 +23,7 @@ from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.action import Pick, ScanRoom
 from humanoid_navigation.testing import NavigatingRobot
-from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.clients import EntityClient
 from navigation_trials import robot_at_home
 
 BOTTLE = 'green_bottle'

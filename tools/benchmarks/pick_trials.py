@@ -30,7 +30,7 @@ from humanoid_interfaces.action import Drop, Pick, ScanRoom
 from humanoid_perception.places import load_places, places_path, Surface
 from humanoid_simulation.scene import load_scene, Scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap
-from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.clients import EntityClient
 from humanoid_simulation.testing.simulators import FellError, RobotClient
 import numpy as np
 from rclpy.action import ActionClient

@@ -15,7 +15,7 @@ from humanoid_common.testing.ros import RosSandbox
 from humanoid_common.testing.waiting import WaitedInVainError
 from humanoid_interfaces.srv import MakePlan
 from humanoid_perception.places import load_places, places_path
-from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.clients import EntityClient
 from humanoid_simulation.testing.simulators import RobotClient
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import Bool, String

@@ -17,7 +17,7 @@ from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_manipulation.manipulator import Manipulator
-from humanoid_simulation.testing.entities import EntityClient
+from humanoid_simulation.testing.clients import EntityClient
 from humanoid_simulation.testing.simulators import RobotClient, simulation
 from sensor_msgs.msg import JointState
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose

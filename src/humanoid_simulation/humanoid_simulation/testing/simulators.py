@@ -15,7 +15,7 @@ from humanoid_control.walking.planar import PlanarPose
 from humanoid_simulation.examples.conversions import push_request, refusal, state_request
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.push_series import Push
-from humanoid_simulation.testing.robot_topics import RobotTopics
+from humanoid_simulation.testing.clients import RobotTopics
 from rclpy.client import Client
 from rclpy.node import Node
 from simulation_interfaces.msg import EntityState
