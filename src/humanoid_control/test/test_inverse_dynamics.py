@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from humanoid_control.dynamics import BodyState
 from humanoid_control.walking.footing import Footing, GroundReaction, Loads, loads_for
 from humanoid_control.walking.inverse_dynamics import ground_efforts, hip_efforts
+from humanoid_control.walking.odometry import base_on
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
 from humanoid_control.walking.planar import SIDES, Turning
-from humanoid_control.walking.state_estimator import base_on
 from humanoid_control.walking.support_polygon import FootShape, SupportPolygon
 from humanoid_control.walking.terrain import footing_below
 from humanoid_control.walking.walking_robot import Attitude, HomePosture, RobotState, WalkingRobot
@@ -104,7 +104,8 @@ def test_base_is_above_feet_that_stand(
     body = stance.robot.body
     moving = np.linspace(-0.2, 0.2, len(stance.home.positions_rad))
     state = body.state(from_rpy(*rpy), rates, stance.home.positions_rad, moving)
-    base = base_on(stance.footing, shares, stance.robot, state)
+    soles = [leg.sole for leg in stance.robot.legs]
+    base = base_on(stance.footing, shares, soles, state)
     place, speed = np.zeros(3), np.zeros(3)
     for share, leg, side in zip(shares, stance.robot.legs, SIDES):
         point = stance.footing.pose(side).position_m

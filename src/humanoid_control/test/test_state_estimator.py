@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_control.walking.state_estimator import carrying
+from humanoid_control.walking.odometry import carrying
 import pytest
 
 

@@ -1,19 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Motion of the base: its estimate, its odometry, and the covariance of that."""
+"""Leg odometry: motion of the base over feet that stand still, and the covariance of its pose."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.backends import ImuNoise
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.pendulum import Motion
-from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.planar import limited, PlanarPose, Point, SIDES
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+_SURE_LOAD = 0.2
+"""A foot that carries this fraction of the weight certainly stands on the ground."""
+_LEAST_TRUST = 0.02
+"""Below this total the robot is airborne or falling: the commanded shares are used instead."""
 # Errors of the legs, besides those of the IMU, as measured in simulation by the benchmark
 # odometry_errors.py.
 _SLIP_M2_M = 2e-5
@@ -82,6 +88,67 @@ class BaseEstimate:
         position = self.position_m + state.com_m
         velocity = self.velocity_m_s + state.com_velocity_m_s
         return Motion(complex(position[0], position[1]), complex(velocity[0], velocity[1]))
+
+
+def carrying(shares: tuple[float, float], loads: tuple[float, float]) -> tuple[float, float]:
+    """
+    Compute how much each foot contributes to leg odometry, from the load that it carries.
+
+    A foot that should carry weight but does not may be off its foothold: below a fifth of the
+    weight of the robot its contribution fades out.
+
+    Parameters
+    ----------
+    shares
+        Commanded load distribution, left and right; the sum is 1.
+    loads
+        Measured normal forces on the soles, as fractions of the weight of the robot.
+
+    Returns
+    -------
+    tuple of float
+        Weights of the left and the right foot, which sum to 1; `shares` if neither carries load.
+
+    """
+    left, right = (
+        share * limited(load / _SURE_LOAD, 0.0, 1.0) for share, load in zip(shares, loads)
+    )
+    total = left + right
+    return (left / total, right / total) if total > _LEAST_TRUST else shares
+
+
+def base_on(
+    footing: Footing, shares: tuple[float, float], soles: Sequence[str], state: BodyState
+) -> BaseEstimate:
+    """
+    Estimate the position and velocity of the base by leg odometry.
+
+    The feet that carry weight are assumed to stand still on their footholds.
+
+    Parameters
+    ----------
+    footing
+        Footholds of both feet, in the odom frame.
+    shares
+        Weights of the left and the right foot, which sum to 1; see `carrying`.
+    soles
+        Links of the left and the right sole.
+    state
+        Measured state of the robot, whose points are relative to the origin of base_link.
+
+    Returns
+    -------
+    BaseEstimate
+        Position and velocity of the origin of base_link in the odom frame.
+
+    """
+    position, velocity = np.zeros(3), np.zeros(3)
+    for side in SIDES:
+        if shares[side] > 0.0:
+            sole = soles[side]
+            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
+            velocity -= shares[side] * state.velocity_m_s(sole)
+    return BaseEstimate(position, velocity)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""State estimation: posture and attitude from joints and IMU, the base from leg odometry."""
+"""State estimation: posture, attitude and forces on the feet, from joints, IMU and soles."""
 
 from __future__ import annotations
 
@@ -9,21 +9,15 @@ import math
 from humanoid_control.backends import Observation
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.tree import DynamicsError
-from humanoid_control.walking.footing import Footing
-from humanoid_control.walking.odometry import BaseEstimate
 from humanoid_control.walking.parameters import WalkingError
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
-from humanoid_control.walking.planar import limited, Point, SIDES
+from humanoid_control.walking.planar import Point
 from humanoid_control.walking.walking_robot import Attitude, RobotState, WalkingRobot
 from humanoid_description.rotations import about_z, from_quaternion, to_rpy, yaw_of
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_SURE_LOAD = 0.2
-"""A foot that carries this fraction of the weight certainly stands on the ground."""
-_LEAST_TRUST = 0.02
-"""Below this total the robot is airborne or falling: the commanded shares are used instead."""
 
 
 class StateEstimator:
@@ -175,62 +169,3 @@ class HeadingFrame:
         """
         rates: Array = self._base_in_imu.T @ angular_velocity_rad_s
         return rates
-
-
-def carrying(shares: tuple[float, float], loads: tuple[float, float]) -> tuple[float, float]:
-    """
-    Compute how much each foot contributes to leg odometry, from the load that it carries.
-
-    A foot that should carry weight but does not may be off its foothold: below a fifth of the
-    weight of the robot its contribution fades out.
-
-    Parameters
-    ----------
-    shares
-        Commanded load distribution, left and right; the sum is 1.
-    loads
-        Measured normal forces on the soles, as fractions of the weight of the robot.
-
-    Returns
-    -------
-    tuple of float
-        Weights of the left and the right foot, which sum to 1; `shares` if neither carries load.
-
-    """
-    left, right = (
-        share * limited(load / _SURE_LOAD, 0.0, 1.0) for share, load in zip(shares, loads)
-    )
-    total = left + right
-    return (left / total, right / total) if total > _LEAST_TRUST else shares
-
-
-def base_on(
-    footing: Footing, shares: tuple[float, float], robot: WalkingRobot, state: BodyState
-) -> BaseEstimate:
-    """
-    Estimate the position and velocity of the base by leg odometry.
-
-    The feet that carry weight are assumed to stand still on their footholds.
-
-    Parameters
-    ----------
-    footing
-        Footholds of both feet, in the odom frame.
-    shares
-        Weights of the left and the right foot, which sum to 1; see `carrying`.
-    robot, state
-        The robot and its measured state, whose points are relative to the origin of base_link.
-
-    Returns
-    -------
-    BaseEstimate
-        Position and velocity of the origin of base_link in the odom frame.
-
-    """
-    position, velocity = np.zeros(3), np.zeros(3)
-    for side in SIDES:
-        if shares[side] > 0.0:
-            sole = robot.legs[side].sole
-            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
-            velocity -= shares[side] * state.velocity_m_s(sole)
-    return BaseEstimate(position, velocity)

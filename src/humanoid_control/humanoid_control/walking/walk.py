@@ -20,7 +20,13 @@ from humanoid_control.walking.gait import Gait, STAND
 from humanoid_control.walking.gait_context import GaitContext, GaitInput, GaitOutput
 from humanoid_control.walking.inverse_dynamics import InverseDynamics, PlannedAcceleration, within
 from humanoid_control.walking.obstacle_guard import NOTHING, Touch
-from humanoid_control.walking.odometry import BaseEstimate, BaseMotion, Odometry
+from humanoid_control.walking.odometry import (
+    base_on,
+    BaseEstimate,
+    BaseMotion,
+    carrying,
+    Odometry,
+)
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import (
     ComObserver,
@@ -30,7 +36,6 @@ from humanoid_control.walking.pendulum import (
     Pendulum,
 )
 from humanoid_control.walking.planar import PlanarPose, Point, SIDES
-from humanoid_control.walking.state_estimator import base_on, carrying
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.terrain import (
     FootholdAdaptation,
@@ -91,6 +96,7 @@ class Walk:
         start_m: Point,
     ) -> None:
         self._robot = robot
+        self._soles = tuple(leg.sole for leg in robot.legs)
         self._parameters = parameters
         self._pendulum = Pendulum(home.com_height_m)
         self._footing = footing_below(start_m, robot, shape, parameters, sensed)
@@ -119,7 +125,7 @@ class Walk:
         self._error_m = 0j
         self._last_s = sensed.time_s
         self.sensed = sensed
-        self.base = base_on(self._footing, self._shares, robot, sensed.state)
+        self.base = base_on(self._footing, self._shares, self._soles, sensed.state)
         self.com = self.base.com_motion(sensed.state)
         self.output: GaitOutput | None = None
 
@@ -225,7 +231,7 @@ class Walk:
         """Estimate the base, the centre of mass and the external force."""
         state = self.sensed.state
         shares = carrying(self._shares, self.sensed.loads)
-        self.base = base_on(self._footing, shares, self._robot, state)
+        self.base = base_on(self._footing, shares, self._soles, state)
         measured = self.base.com_motion(state)
         self.com = self._observer.update(measured, self._zmp_m, passed_s)
         swing = self.output.swing if self.output else None
