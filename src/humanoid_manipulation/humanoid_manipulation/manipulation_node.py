@@ -53,7 +53,7 @@ class ManipulationNode(Node):
 
     Attributes
     ----------
-    parameters
+    parameters : NodeParameters
         The parameters of the node.
     arms, feet, hands
         The interfaces to the controllers of the arms, to walking, and to the grippers.

@@ -15,6 +15,8 @@ __all__ = ['SharedClock']
 class _SharedSource(TimeSource):
     """Time source whose clocks change while another thread sets them: in a new set each time."""
 
+    _associated_clocks: set[ROSClock]
+
     def attach_clock(self, clock: ROSClock) -> None:
         """
         Set a clock from now on.
