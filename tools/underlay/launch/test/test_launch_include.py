@@ -219,7 +219,7 @@ def test_source_of_another_format(run: Run, write: Write) -> None:
     """Python reads no XML; the error says what does."""
     path = write('child.launch.xml', '<launch/>\n')
     text = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path))).text
-    assert 'XMLLaunchDescriptionSource, or AnyLaunchDescriptionSource, reads it' in text
+    assert 'XMLLaunchDescriptionSource, or with AnyLaunchDescriptionSource.' in text
     assert f"It comes from '{path}', line 1\n  included from '{__file__}', line" in text
 
 

@@ -87,7 +87,7 @@ def test_sequence(output: IoHandler, talker: Any) -> None:
     with assertSequentialStdout(output, talker) as checker:
         checker.assertInStdout('one')
         checker.assertInStdout(re.compile('gr..n'))
-        with pytest.raises(AssertionError, match=r"'two' .* behind \['one', 'gr..n'\]"):
+        with pytest.raises(AssertionError, match=r"'two' .* after \['one', 'gr..n'\]"):
             checker.assertInStdout('two')
 
 

@@ -90,8 +90,8 @@ def test_link_without_transform(stage: Stage) -> None:
     assert stage.node_at(BASE).visible
     assert not stage.node_at(UPPER).visible
     said = sentence(display, 'Link upper')
-    assert said.startswith('No transform from [upper] to [base]: no joint state for ')
-    assert "'shoulder'" in said
+    assert said.startswith('No transform from [upper] to [base]: robot_state_publisher has ')
+    assert "received no joint state for 'shoulder'" in said
     assert sentence(display, 'Link hand') == ''
 
 
