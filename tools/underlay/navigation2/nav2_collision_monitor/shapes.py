@@ -132,7 +132,7 @@ def parse_points(text: str) -> FloatArray:
             f'are not a list of pairs such as "[[0.3, 0.2], ...]": {error}'
         ) from error
     if not isinstance(values, list) or not all(_is_pair(each) for each in values):
-        raise ValueError(f'must be a list of pairs such as "[[0.3, 0.2], ...]", but are "{text}"')
+        raise ValueError(f'must be a list of pairs such as "[[0.3, 0.2], ...]", but are: {text}')
     return checked_corners(np.asarray(values, dtype=np.float64).reshape(-1, 2))
 
 
@@ -157,7 +157,7 @@ def checked_corners(corners: FloatArray) -> FloatArray:
 
     """
     if len(corners) < 3:
-        raise ValueError(f'must be at least 3, but are {len(corners)}')
+        raise ValueError(f'must be at least three; there are {len(corners)}')
     if not np.all(np.isfinite(corners)):
         raise ValueError('must be finite numbers')
     return corners

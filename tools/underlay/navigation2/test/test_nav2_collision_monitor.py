@@ -76,7 +76,7 @@ class TestShapes:
     )  # fmt: skip
     def test_malformed_points(self, text):
         """Texts that are no polygon are refused."""
-        with pytest.raises(ValueError, match=r'^(are|have)'):
+        with pytest.raises(ValueError, match=r'^(are|have|must be) '):
             parse_points(text)
 
 
