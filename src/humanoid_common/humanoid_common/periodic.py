@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Periodic timer by the clock of its node, which makes up for late calls."""
+"""The time of a node in s, and a periodic timer by its clock, which makes up for late calls."""
 
 from __future__ import annotations
 
@@ -10,6 +10,24 @@ from rclpy.node import Node
 
 LONGEST_DELAY_S = 1.0
 _NANOSECONDS = 1_000_000_000
+
+
+def clock_s(node: Node) -> float:
+    """
+    Read the clock of a node, which is that of the simulation with `use_sim_time`.
+
+    Parameters
+    ----------
+    node
+        The node.
+
+    Returns
+    -------
+    float
+        The time in s.
+
+    """
+    return float(node.get_clock().now().nanoseconds) * 1e-9
 
 
 class Ticks:

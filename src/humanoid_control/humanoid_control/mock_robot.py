@@ -11,6 +11,7 @@ from typing import Any
 
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.periodic import clock_s
 from humanoid_common.running import run_node
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.control_loop import ControlLoop
@@ -90,17 +91,13 @@ class MockRobot(Node):
             1.0 / parameters.control_rate_hz,
             model.mass_kg,
             next(iter(controls.values())).home_rad,
-            self._now_s(),
+            clock_s(self),
         )
-
-    def _now_s(self) -> float:
-        """Return the time of the node's clock."""
-        return float(self.get_clock().now().nanoseconds * 1e-9)
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:
         """Publish what is due after a tick, stamped by the node's clock."""
         robot_s = next(iter(observations.values())).time_s
-        stamp_s = self._stamps.stamp_s(robot_s, self._now_s())
+        stamp_s = self._stamps.stamp_s(robot_s, clock_s(self))
         if stamp_s is not None:
             self._robots.tell(
                 {

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.joint_mover import JointMover, trajectory_point
+from humanoid_common.periodic import clock_s
 from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_description.drives import SIDES
@@ -223,10 +224,10 @@ class Arms:
                 _OFF_RAD,
                 _LATE_GOAL_S,
             )
-        end_s = self._now_s() + motion.duration_s + _LATE_S
+        end_s = clock_s(self._node) + motion.duration_s + _LATE_S
         try:
             while not all(mover.has_arrived() for mover in movers):
-                if self._now_s() > end_s:
+                if clock_s(self._node) > end_s:
                     raise GoalAborted(_CODE, f'The {side} arm did not reach its target.')
                 await goal.tick()
                 tell()
@@ -234,9 +235,6 @@ class Arms:
             for mover in movers:
                 mover.stop()
             raise
-
-    def _now_s(self) -> float:
-        return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def _missing(self) -> str:
         """Return a message about what is still missing; empty if the arms are ready."""

@@ -8,6 +8,7 @@ import math
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose, Twist
 from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
+from humanoid_common.periodic import clock_s
 from humanoid_common.qos import COMMAND
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_description.robot import Array
@@ -142,7 +143,7 @@ class Feet:
         shift = await self._transforms.known(goal, 'odom', frame)
         place = shift[:3, :3] @ np.array([at[0], at[1], 0.0]) + shift[:3, 3]
         yaw_rad = at[2] + yaw_of(shift[:3, :3])
-        until_s = self._now_s() + _STUCK_S
+        until_s = clock_s(self._node) + _STUCK_S
         least = math.inf
         try:
             calm = 0
@@ -150,12 +151,12 @@ class Feet:
                 error = self._error(place, yaw_rad)
                 away = math.hypot(error[0], error[1]) + _LEVER_M * abs(error[2])
                 if away < least - _PROGRESS_M:
-                    least, until_s = away, self._now_s() + _STUCK_S
+                    least, until_s = away, clock_s(self._node) + _STUCK_S
                 is_near = math.hypot(error[0], error[1]) < _NEAR_M and abs(error[2]) < _NEAR_RAD
                 calm = calm + 1 if is_near else 0
                 command = Twist()
                 if not is_near:
-                    if self._now_s() > until_s:
+                    if clock_s(self._node) > until_s:
                         raise GoalAborted(_CODE, _STUCK % (100.0 * away))
                     speeds = [
                         max(-most, min(most, _GAIN_1_S * each))
@@ -190,10 +191,10 @@ class Feet:
         message.position.z = bend.height_m
         message.orientation.w = math.cos(bend.pitch_rad / 2.0)
         message.orientation.y = math.sin(bend.pitch_rad / 2.0)
-        until_s = self._now_s() + _BEND_S
+        until_s = clock_s(self._node) + _BEND_S
         calm = 0
         while calm < _SETTLE_S * 20.0:
-            if self._now_s() > until_s:
+            if clock_s(self._node) > until_s:
                 raise GoalAborted(_CODE, 'I could not bend that far.')
             self._poses.publish(message)
             pitch_rad = -math.asin(
@@ -205,9 +206,6 @@ class Feet:
     def straighten(self) -> None:
         """Command the upright body pose, without waiting."""
         self._poses.publish(Pose())
-
-    def _now_s(self) -> float:
-        return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def _error(self, place: Array, yaw_rad: float) -> tuple[float, float, float]:
         """Compute the remaining error: forward, to the left, and in heading."""

@@ -10,6 +10,7 @@ from typing import Any
 from control_msgs.action import PointHead
 from humanoid_common.inhibition import Inhibition
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.periodic import clock_s
 from humanoid_common.qos import LATCHED
 from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
@@ -58,10 +59,6 @@ class Gaze(Node):
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
 
-    def _now_s(self) -> float:
-        """Return the current time of the node in s."""
-        return float(self.get_clock().now().nanoseconds) * 1e-9
-
     async def _look_at(self, goal: RunningGoal) -> None:
         with self._head.listening():
             try:
@@ -82,9 +79,9 @@ class Gaze(Node):
         point = np.append(_vector(request.target.point), 1.0)
         at_least_s = request.min_duration.sec + request.min_duration.nanosec * 1e-9
         fastest = min(request.max_velocity or told.max_velocity, told.max_velocity)
-        begin_s, sent, end_s, ticks = self._now_s(), None, math.inf, 0
+        begin_s, sent, end_s, ticks = clock_s(self), None, math.inf, 0
         while True:
-            now_s = self._now_s()
+            now_s = clock_s(self)
             begin_s = min(begin_s, now_s)  # the simulation may have been reset
             target = (head.pose(head.chain.base_frame, source) @ point)[:3]
             angles = head.angles_rad()

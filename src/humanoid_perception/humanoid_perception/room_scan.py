@@ -10,6 +10,7 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Twist
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.periodic import clock_s
 from humanoid_common.qos import COMMAND, SENSOR, STATE
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_description.rotations import yaw_of
@@ -87,7 +88,7 @@ class RoomScan:
             The client has canceled the goal.
 
         """
-        begin_s = self._now_s()
+        begin_s = clock_s(self._node)
         allowed = goal.request.time_allowance
         allowed_s = allowed.sec + allowed.nanosec * 1e-9
         self._end_s = begin_s + allowed_s if allowed_s > 0.0 else math.inf
@@ -101,9 +102,6 @@ class RoomScan:
             self._node.destroy_subscription(detections)
             self._head.stop()
             goal.result.seen = await self._ids_since(begin_s)
-
-    def _now_s(self) -> float:
-        return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def _take(self, data: bytes) -> None:
         """Record the stamp of an image that the detector has processed."""
@@ -161,9 +159,9 @@ class RoomScan:
         head = self._head
         duration_s = head.duration_s(angles_rad, self._parameters.current.max_velocity)
         head.send(angles_rad, duration_s)
-        late_s = self._now_s() + duration_s + _LATE_S
+        late_s = clock_s(self._node) + duration_s + _LATE_S
         while not head.has_arrived():
-            if self._now_s() > late_s:
+            if clock_s(self._node) > late_s:
                 raise GoalAborted('HEAD_FAILED', 'The head did not reach its target.')
             await self._tick(goal)
 
@@ -172,23 +170,23 @@ class RoomScan:
         self._check_time()
 
     def _check_time(self) -> None:
-        if self._now_s() > self._end_s:
+        if clock_s(self._node) > self._end_s:
             raise GoalAborted('TIMEOUT', 'The scan took longer than its time allowance.')
 
     async def _sleep(self, goal: RunningGoal, duration_s: float) -> None:
-        end_s = self._now_s() + duration_s
-        while self._now_s() < end_s <= self._now_s() + duration_s + 1.0:
+        end_s = clock_s(self._node) + duration_s
+        while clock_s(self._node) < end_s <= clock_s(self._node) + duration_s + 1.0:
             await self._tick(goal)
 
     async def _look(self, goal: RunningGoal, coverage: Coverage, field: FieldOfView) -> None:
         """Hold still until enough images were processed; update and publish the coverage."""
         told = self._parameters.current
         await self._sleep(goal, _SETTLED_S)
-        since_s = self._now_s()
+        since_s = clock_s(self._node)
         self._looks_s.clear()
         is_blind = self._node.count_publishers('detections_3d') == 0
         until_s = since_s + (_BLIND_S if is_blind else _LOOK_S)
-        while since_s <= self._now_s() < until_s:
+        while since_s <= clock_s(self._node) < until_s:
             if sum(each >= since_s for each in self._looks_s) >= told.looks_per_view:
                 break
             await self._tick(goal)
@@ -219,7 +217,7 @@ class RoomScan:
         """Turn the body by cmd_vel until the odometry reports the requested turn."""
         told = self._parameters.current
         before = self._heading()
-        turned, best, best_s = 0.0, 0.0, self._now_s()
+        turned, best, best_s = 0.0, 0.0, clock_s(self._node)
         try:
             while turned < turn_rad - _THERE_RAD:
                 rate = min(told.turn_rate_rad_s, max(turn_rad - turned, _SLOWEST_RAD_S))
@@ -227,7 +225,7 @@ class RoomScan:
                 velocity.angular.z = rate
                 self._velocities.publish(velocity)
                 await self._tick(goal)
-                now, now_s = self._heading(), self._now_s()
+                now, now_s = self._heading(), clock_s(self._node)
                 turned += math.remainder(now - before, math.tau)
                 before = now
                 if turned > best + 0.05 or now_s < best_s:

@@ -9,6 +9,7 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 from humanoid_common.client_goals import cancel_goal, ResultRequest
+from humanoid_common.periodic import clock_s
 from humanoid_common.qos import EVENT
 from llm_planner.skills import SkillError, SkillRun
 from rclpy.action import ActionClient
@@ -51,7 +52,7 @@ class RobotInterface:
 
     def now_s(self) -> float:
         """Return the time of the node in s."""
-        return float(self._node.get_clock().now().nanoseconds) * 1e-9
+        return clock_s(self._node)
 
     def say(self, text: str) -> None:
         """
