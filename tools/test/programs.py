@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 import os
 from pathlib import Path
 import signal
@@ -63,7 +64,13 @@ class Program:
         return members(self._mark)
 
     def clean_up(self) -> None:
-        """Kill whatever is left."""
+        """Interrupt the program, and kill whatever is left.
+
+        What is killed may hold a lock in the memory that it shares with the nodes of a test.
+        """
+        self.process.send_signal(signal.SIGINT)
+        with suppress(subprocess.TimeoutExpired):
+            self.process.wait(5.0)
         for pid in self.members():
             os.kill(pid, signal.SIGKILL)
         self.process.wait()

@@ -16,6 +16,9 @@ from typing import IO
 
 from humanoid_common.testing.waiting import wait_until
 
+_GRACE_S = 10.0
+"""Time that a program is given to end after SIGINT."""
+
 
 class Capture:
     """
@@ -208,8 +211,17 @@ class RunningProgram:
         return self.wait_for_exit(timeout_s)
 
     def close(self) -> None:
-        """Kill the process group, and all descendants of the program outside of it."""
+        """
+        End the program, and kill its process group and all its descendants outside of it.
+
+        It is killed only if it does not heed SIGINT: a killed node may hold a lock in the shared
+        memory through which DDS writes to the nodes of the test, whose process then dies as well.
+        """
         started = [] if self.has_ended else _descendants(self._process.pid)
+        if not self.has_ended:
+            self.send(signal.SIGINT)
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(_GRACE_S)
         with suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
@@ -242,7 +254,7 @@ def running_program(
     Yields
     ------
     RunningProgram
-        The program; it is killed after the block, with all processes that it started.
+        The program; it is ended after the block, with all processes that it started.
 
     """
     program = RunningProgram(command, environment)
