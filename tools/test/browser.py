@@ -8,7 +8,7 @@ known about it is known here only.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 import os
@@ -20,12 +20,18 @@ from urllib.parse import urlsplit
 from programs import wait_until
 import pytest
 
-__all__ = ['Browser', 'Tab', 'browser_started']
+__all__ = ['Browser', 'Tab', 'browser_started', 'chromium', 'new_page']
 
 CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
-ARGUMENTS = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox')
+ARGUMENTS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox']
 SIZE = {'width': 900, 'height': 620}
+# Drawing without a graphics card takes all processors: pages draw some ten pictures a second.
+SELDOM = """
+    const draw = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (step) => window.setTimeout(() => draw(step), 80);
+    window.cancelAnimationFrame = window.clearTimeout.bind(window);
+"""
 PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
 
@@ -151,7 +157,7 @@ class Browser:
 
     def open(self, url: str, size: dict[str, int] = SIZE) -> Tab:
         """Open a page of viser."""
-        return Tab(self._browser.new_page(viewport=size, reduced_motion='reduce'), url)
+        return Tab(new_page(self._browser, size), url)
 
     def pid(self) -> int:
         """Return the id of the process that all others of the browser belong to."""
@@ -160,13 +166,27 @@ class Browser:
 
 
 @contextmanager
-def browser_started(arguments: Sequence[str] = ARGUMENTS) -> Iterator[Browser]:
+def browser_started() -> Iterator[Browser]:
     """Start a browser; where there is none, the test is left out."""
+    with chromium() as browser:
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        yield Browser(browser)
+
+
+@contextmanager
+def chromium() -> Iterator[Any]:
+    """Start a browser of playwright; where there is none, the test is left out."""
     api = pytest.importorskip('playwright.sync_api')
     if not os.path.exists(CHROMIUM):
         pytest.skip(f'needs a browser: there is no {CHROMIUM}')
-    PICTURES.mkdir(parents=True, exist_ok=True)
     with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(arguments))
-        yield Browser(browser)
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield browser
         browser.close()
+
+
+def new_page(browser: Any, size: dict[str, int]) -> Any:
+    """Open a page of playwright, of a size in pixels, that leaves the processors to others."""
+    page = browser.new_page(viewport=size, reduced_motion='reduce')
+    page.add_init_script(SELDOM)
+    return page

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-import os
 from pathlib import Path
 import sys
 from typing import Any
@@ -12,22 +11,18 @@ from typing import Any
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
+sys.path.append(str(Path(__file__).parents[3] / 'test'))
 
-CHROMIUM = '/usr/bin/chromium'
-WEBGL = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader')
+from browser import chromium, new_page  # noqa: E402
+
 OWN = ('http://127.0.0.1:', 'ws://127.0.0.1:', 'blob:', 'data:', 'about:')
 
 
 @pytest.fixture(scope='module')
 def browser() -> Iterator[Any]:
     """Start a browser, if there is one."""
-    if not os.path.exists(CHROMIUM):
-        pytest.skip(f'needs a browser: there is no {CHROMIUM}')
-    api = pytest.importorskip('playwright.sync_api')
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=WEBGL)
+    with chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture
@@ -41,7 +36,7 @@ def open_tab(browser: Any) -> Iterator[Callable[[int, int], Any]]:
             failures.append(url)
 
     def open_one(width: int, height: int) -> Any:
-        tab = browser.new_page(viewport={'width': width, 'height': height})
+        tab = new_page(browser, {'width': width, 'height': height})
         tabs.append(tab)
         tab.on('pageerror', lambda error: failures.append(str(error)))
         tab.on('request', lambda request: note(request.url))

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-import os
 from typing import Any
 
+from browser import chromium, new_page
 import pytest
 from rviz_fakes import navigation_world, NavigationWorld
 
-CHROMIUM = '/usr/bin/chromium'
-WEBGL = ('--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader')
 FROM_ABOVE = """
 Panels:
   - Class: nav2_rviz_plugins/Navigation 2
@@ -34,13 +32,8 @@ Visualization Manager:
 @pytest.fixture(scope='module')
 def browser() -> Iterator[Any]:
     """Start a browser, if there is one."""
-    if not os.path.exists(CHROMIUM):
-        pytest.skip(f'needs a browser: there is no {CHROMIUM}')
-    api = pytest.importorskip('playwright.sync_api')
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=WEBGL)
+    with chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture
@@ -54,7 +47,7 @@ def world() -> Iterator[NavigationWorld]:
 @pytest.fixture
 def tab(world: NavigationWorld, browser: Any) -> Iterator[Any]:
     """Open the page, in which no script may fail."""
-    tab = browser.new_page(viewport={'width': 900, 'height': 600})
+    tab = new_page(browser, {'width': 900, 'height': 600})
     failures: list[str] = []
     tab.on('pageerror', lambda error: failures.append(str(error)))
     tab.goto(f'http://127.0.0.1:{world.page.port}/?fixedDpr=0.5', wait_until='commit')
