@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every test of the workspace.
 
-First those of src/ with `colcon test`, some packages at a time; then those of tools/ in several
-processes; then what builds src/.
+Those of tools/ in several processes, and beside them those of src/ with `colcon test`, as many
+packages at a time as there is room for; then what builds src/.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
 than three of that kind are a failure. Everything together is given 70 minutes.
@@ -26,11 +26,10 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT_S = 70 * 60.0
 MOST_UNSTEADY = 3
-AT_ONCE = min(os.cpu_count() or 1, 10)
-"""Packages whose tests run at the same time.
+CORES = min(os.cpu_count() or 1, 16)
+"""Processors that tests may keep busy: each process of tests reserves some of the DDS domains.
 
-With three on two cores simulators take the processor from each other, and all together takes
-longer; each package reserves some of the 100 DDS domains.
+With more than there are, simulators take them from each other and fall behind real time.
 """
 LONGEST = (
     'humanoid_simulation',
@@ -62,10 +61,12 @@ class Suite:
     """Runs only what failed, or everything where that is not known."""
     reports: Callable[[], Sequence[Path]]
     """Returns the JUnit files that are there after the command, whether it wrote them or not."""
+    cores: float = 1.0
+    """Processors that it keeps busy, on average."""
 
 
 def run(rounds: Sequence[Sequence[Suite]], limit_s: float = LIMIT_S) -> int:
-    """Run the tests, `AT_ONCE` of a round at the same time; return the exit status."""
+    """Run the tests, those of a round beside each other; return the exit status."""
     end_s = time.monotonic() + limit_s
     suites = [suite for each in rounds for suite in each]
     for path in (path for suite in suites for path in suite.reports()):
@@ -121,9 +122,10 @@ def _read(report: Path) -> Iterator[tuple[str, str]]:
 
 
 def _run(suites: Sequence[Suite], end_s: float) -> list[dict[str, str]]:
-    """Run commands, `AT_ONCE` at the same time, each to its end; return what failed, and why.
+    """Run commands, each to its end, in their order; return what failed, and why.
 
-    The output of one that is alone is seen while it runs, that of several when each has ended.
+    One begins when there are enough of the `CORES` for it. The output of one that is alone is seen
+    while it runs, that of several when each has ended.
     """
     waiting = list(enumerate(suites))[::-1]
     running: dict[int, tuple[subprocess.Popen[bytes], IO[bytes] | None]] = {}
@@ -131,7 +133,7 @@ def _run(suites: Sequence[Suite], end_s: float) -> list[dict[str, str]]:
     with ExitStack() as stack:
         try:
             while waiting or running:
-                while waiting and len(running) < AT_ONCE:
+                while waiting and _has_room([suites[index] for index in running], waiting[-1][1]):
                     index, suite = waiting.pop()
                     print(f'== {suite.name}', flush=True)
                     output = stack.enter_context(TemporaryFile()) if len(suites) > 1 else None
@@ -152,6 +154,11 @@ def _run(suites: Sequence[Suite], end_s: float) -> list[dict[str, str]]:
                 _show(suites[index], output)
             raise
     return failed
+
+
+def _has_room(running: Sequence[Suite], suite: Suite) -> bool:
+    """Return whether there are processors for one more."""
+    return not running or sum(each.cores for each in [*running, suite]) <= CORES
 
 
 def _wait_for_one(
@@ -241,11 +248,9 @@ def _package(name: str) -> Suite:
 
 def tools() -> Suite:
     """Return the tests of tools/ that do not care what runs beside them."""
-    # Tests wait much, so that three fill two cores. With more, robots fall behind real time, and
-    # tests run out of it; each reserves some of the DDS domains.
-    workers = min((os.cpu_count() or 1) * 3 // 2, 16)
-    shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
-    return _pytest('tools/', ['tools', '-m', 'not alone'], shared)
+    shared = ['-n', str(CORES), '--dist', 'loadfile', '--no-loadscope-reorder']
+    suite = _pytest('tools/', ['tools', '-m', 'not alone'], shared)
+    return replace(suite, cores=CORES / 2)  # its tests wait half of their time
 
 
 def alone() -> Suite:
@@ -272,4 +277,4 @@ if __name__ == '__main__':
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.default_int_handler)
     os.chdir(ROOT)
-    sys.exit(run([packages(), [tools()], [alone()]]))
+    sys.exit(run([[tools(), *packages()], [alone()]]))

@@ -150,17 +150,20 @@ def test_processes_that_die_are_replaced(suite: Suite, tmp_path: Path) -> None:
 
 def test_some_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Commands of a round begin in their order, when there is room; the next round waits."""
-    monkeypatch.setattr(run_all, 'AT_ONCE', 2)
+    monkeypatch.setattr(run_all, 'CORES', 2)
     written = tmp_path / 'written'
 
-    def suite(name: str, s: float) -> Suite:
+    def suite(name: str, s: float, cores: float = 1.0) -> Suite:
         command = f'echo +{name} >> {written}; sleep {s}; echo -{name} >> {written}'
-        return Suite(name, ['sh', '-c', command], ['false'], list)
+        return Suite(name, ['sh', '-c', command], ['false'], list, cores)
 
-    assert run([[suite('a', 3.0), suite('b', 0.5), suite('c', 0.5)], [suite('d', 0.0)]]) == 0
+    large = [suite('d', 0.0, 1.5), suite('e', 0.5, 0.5), suite('f', 0.0, 4.0)]
+    assert run([[suite('a', 3.0), suite('b', 0.5), suite('c', 0.5)], large]) == 0
     begun_or_ended = written.read_text().split()
     assert set(begun_or_ended[:2]) == {'+a', '+b'}
-    assert begun_or_ended[2:] == ['-b', '+c', '-c', '-a', '+d', '-d']
+    assert begun_or_ended[2:6] == ['-b', '+c', '-c', '-a']
+    assert set(begun_or_ended[6:8]) <= {'+d', '-d', '+e'}
+    assert begun_or_ended[9:] == ['-e', '+f', '-f']
 
 
 @pytest.mark.parametrize('command', ['false', 'true'])
