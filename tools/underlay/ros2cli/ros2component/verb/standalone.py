@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import add_strategy_arguments, node_name
-from ros2component.arguments import add_load_arguments
 from ros2component.verb import VerbExtension
+from ros2component.verb.load import add_load_arguments
 
 if TYPE_CHECKING:
     import subprocess
