@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ros2bag.api.info import human_size
+from ros2bag.verb.info import human_size
 
 __all__ = [
     'assign',
