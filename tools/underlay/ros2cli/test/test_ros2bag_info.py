@@ -8,7 +8,7 @@ from subprocess import CompletedProcess
 
 from bag_samples import write_bag
 import pytest
-from ros2bag.api.topic_filter import TopicFilter
+from ros2bag.api.common_arguments import TopicFilter
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.verb.info import human_size
 

@@ -9,9 +9,9 @@ from types import SimpleNamespace
 from typing import Any
 
 from ros2bag.api import recorder as module
+from ros2bag.api.common_arguments import TopicFilter
 from ros2bag.api.control import PauseSwitch
 from ros2bag.api.recorder import Recorder
-from ros2bag.api.topic_filter import TopicFilter
 
 SECOND_NS = 1_000_000_000
 

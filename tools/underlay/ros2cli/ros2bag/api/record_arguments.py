@@ -6,8 +6,13 @@ from __future__ import annotations
 import argparse
 from datetime import datetime
 
-from ros2bag.api.argument_types import count, not_negative, Refused
-from ros2bag.api.topic_filter import regular_expression, TopicFilter
+from ros2bag.api.common_arguments import (
+    count,
+    not_negative,
+    Refused,
+    regular_expression,
+    TopicFilter,
+)
 from ros2cli.arguments import positive_number
 from ros2cli.names import absolute
 

@@ -8,9 +8,9 @@ import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2bag.api.common_arguments import TopicFilter
 from ros2bag.api.control import PauseSwitch
 from ros2bag.api.qos_profiles import offered_by
-from ros2bag.api.topic_filter import TopicFilter
 from ros2bag.storage.bag_writer import BagWriter
 from ros2bag.storage.latched import RecordedMessage
 from ros2bag.storage.metadata import Topic

@@ -10,11 +10,11 @@ from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
 from rclpy.logging import LoggingSeverity
+from ros2bag.api.common_arguments import TopicFilter
 from ros2bag.api.control import Keyboard, offer_pause_services, PauseSwitch, SPACE, StopSignals
 from ros2bag.api.qos_profiles import read_overrides
 from ros2bag.api.record_arguments import compression_of, filter_of, output_folder
 from ros2bag.api.recorder import Recorder
-from ros2bag.api.topic_filter import TopicFilter
 from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition, definition_of
 from ros2cli.node.direct import DirectNode
