@@ -12,7 +12,7 @@ import sys
 import time
 
 import pytest
-from ros2cli.completion.answering import find_completer, OF_ARGUMENT, OF_COMMAND
+from ros2cli.completion.answering import find_completer, Finder, OF_ARGUMENT, OF_COMMAND
 
 LONG_S = 20.0
 # Whatever the machine has to do besides: people get no words after a few seconds.
@@ -185,8 +185,6 @@ def test_variable_in_path(complete: Complete, prefix: Path) -> None:
 
 def test_zsh_quotes_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """For zsh only what separates a word from its description is escaped."""
-    from ros2cli.completion.finder import Finder
-
     monkeypatch.setenv('_ARGCOMPLETE_SHELL', 'zsh')
     assert Finder().quote_completions(["world:=it's here"], '"', None) == ["world\\:=it's here"]
 

@@ -2,10 +2,11 @@
 """
 Answer completion requests from the shell.
 
-argcomplete parses the request and quotes the answer. The parser is the lazy one of the command
-line, so that only the verb that is being completed is imported. The completers of a verb follow
-from the names of its arguments (`dest`), so that verbs need no completion code. An argument that
-is not in the table can have a `completer` attribute, as in argcomplete.
+argcomplete parses the request and quotes the answer, except where a shell differs from what it
+expects. The parser is the lazy one of the command line, so that only the verb that is being
+completed is imported. The completers of a verb follow from the names of its arguments (`dest`), so
+that verbs need no completion code. An argument that is not in the table can have a `completer`
+attribute, as in argcomplete.
 """
 
 from __future__ import annotations
@@ -16,7 +17,11 @@ from contextlib import suppress
 import faulthandler
 from importlib import import_module
 import os
+import re
 from typing import Any
+
+from argcomplete import CompletionFinder
+from argcomplete.lexers import split_line
 
 DEADLINE_S = 4.0
 ANSWER_DESCRIPTOR = 8
@@ -91,9 +96,6 @@ def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) ->
 
     """
     _end_before_it_annoys()
-    from argcomplete.lexers import split_line
-    from ros2cli.completion.finder import Finder
-
     line = os.environ['COMP_LINE']
     *_, words, _ = split_line(line, int(os.environ.get('COMP_POINT', len(line))))
     Finder()(
@@ -163,3 +165,55 @@ def transitions(prefix: str, args: argparse.Namespace) -> tuple[str, ...]:
 
     """
     return TRANSITIONS
+
+
+class Finder(CompletionFinder):
+    """Completion finder that quotes the words as the shell expects."""
+
+    def quote_completions(
+        self, completions: list[str], cword_prequote: str, last_wordbreak_pos: int | None
+    ) -> list[str]:
+        """
+        Quote words for bash; zsh does its own quoting in the style of the line.
+
+        Parameters
+        ----------
+        completions
+            The words that complete the line.
+        cword_prequote
+            The opening quote of the word on the line, or ''.
+        last_wordbreak_pos
+            Where the shell breaks the word, as argcomplete passes it.
+
+        Returns
+        -------
+        list of str
+            The words as the shell is to receive them.
+
+        """
+        is_message = not cword_prequote and all(word.startswith('{') for word in completions)
+        if is_message:
+            completions = [_between_quotes(word) for word in completions]
+        if os.environ.get('_ARGCOMPLETE_SHELL') == 'zsh':
+            return [self._for_zsh(word) for word in completions]
+        if is_message:
+            return completions
+        found = super().quote_completions(completions, cword_prequote, last_wordbreak_pos)
+        return [_with_variable(word) for word in found]
+
+    def _for_zsh(self, word: str) -> str:
+        """Escape colons in a word, because zsh puts one before the description."""
+        escaped = word.replace('\\', '\\\\').replace(':', '\\:')
+        self._display_completions[escaped] = self._display_completions.get(word, '')
+        return escaped
+
+
+def _between_quotes(word: str) -> str:
+    """Quote a whole message as a word that is easy to edit."""
+    escaped = re.sub(r'([\\"$`])', r'\\\1', word)
+    return f'"{escaped}"'
+
+
+def _with_variable(word: str) -> str:
+    """Unescape the leading `$` of a word such as `$HOME/bags`, so that the shell expands it."""
+    return word[1:] if word.startswith('\\$') else word
