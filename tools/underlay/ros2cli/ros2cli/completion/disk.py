@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Complete packages with their executables and launch files, and the arguments of these.
+Complete what is on the disk: paths, packages, executables, launch files and their arguments.
 
 What only launch files need is imported for them.
 """
@@ -8,16 +8,115 @@ What only launch files need is imported for them.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 import os
 from typing import Any
 
 from ament_index_python.packages import get_packages_with_prefixes, PackageNotFoundError
-from ros2cli.completion.files import as_path, files, files_of_kind
 
 FILE_SUFFIXES = ('.launch', '.py', '.xml', '.yaml', '.yml')
 TRUTHS = ('true', 'false')
+Choice = Callable[[str], bool]
+
+
+def files(prefix: str, args: argparse.Namespace | None = None) -> list[str]:
+    """
+    List the files and folders that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word to complete.
+    args : argparse.Namespace | None
+        The parsed arguments (unused).
+
+    """
+    return _paths(prefix, bool)
+
+
+def folders(prefix: str, args: argparse.Namespace) -> list[str]:
+    """
+    List the folders that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word to complete.
+    args : argparse.Namespace
+        The parsed arguments (unused).
+
+    """
+    return _paths(prefix, lambda name: False)
+
+
+def bags(prefix: str, args: argparse.Namespace) -> list[str]:
+    """
+    List the folders and bag files that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word to complete.
+    args : argparse.Namespace
+        The parsed arguments (unused).
+
+    """
+    return files_of_kind(prefix, ('.mcap', '.db3'))
+
+
+def files_of_kind(prefix: str, suffixes: tuple[str, ...]) -> list[str]:
+    """
+    List the files with certain suffixes, and all folders, that complete a path.
+
+    Parameters
+    ----------
+    prefix
+        The word to complete.
+    suffixes
+        The file name suffixes, each with its dot.
+
+    Returns
+    -------
+    list of str
+        Paths that start with the word; folders have a trailing slash.
+
+    """
+    return _paths(prefix, lambda name: name.endswith(suffixes))
+
+
+def as_path(word: str) -> str:
+    """
+    Expand `~` and variables in a word as the shell will.
+
+    Parameters
+    ----------
+    word
+        A word of the command line.
+
+    """
+    return os.path.expanduser(os.path.expandvars(word))
+
+
+def _paths(prefix: str, is_wanted: Choice) -> list[str]:
+    """Return the completions of a path; keep its leading part as typed."""
+    head, slash, tail = prefix.rpartition(os.sep)
+    found = sorted(_names(as_path(head + slash) or os.curdir, tail, is_wanted))
+    return [f'{head}{slash}{name}' for name in found]
+
+
+def _names(folder: str, beginning: str, is_wanted: Choice) -> Iterator[str]:
+    """Yield the entries of a folder; dotfiles only if the word starts with a dot."""
+    try:
+        entries = list(os.scandir(folder))
+    except OSError:
+        return
+    for entry in entries:
+        if entry.name.startswith(beginning or '.') == bool(beginning):
+            if entry.is_dir():
+                yield f'{entry.name}{os.sep}'
+            elif is_wanted(entry.name):
+                yield entry.name
 
 
 def packages(prefix: str, args: argparse.Namespace) -> list[str]:
