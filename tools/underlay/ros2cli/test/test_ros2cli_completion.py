@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from collections.abc import Callable
 from importlib import import_module
 import os
@@ -12,6 +13,7 @@ import sys
 import time
 
 import pytest
+from ros2cli.completion import graph
 from ros2cli.completion.answering import find_completer, Finder, OF_ARGUMENT, OF_COMMAND
 
 LONG_S = 20.0
@@ -191,17 +193,12 @@ def test_zsh_quotes_itself(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_nodes_by_what_they_offer(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where only nodes with a life cycle, or containers, make sense no others are offered."""
-    from argparse import Namespace
-
-    from ros2cli.completion import graph
-    from ros2cli.completion.graph import Names
-
     services = {
         '/box/_container/load_node': ['composition_interfaces/srv/LoadNode'],
         '/lamp/get_state': ['lifecycle_msgs/srv/GetState'],
         '/arm/get_state': ['demo_msgs/srv/Pose'],
     }
-    found = Names({}, services, ['/arm', '/box', '/lamp'])
+    found = graph.Names({}, services, ['/arm', '/box', '/lamp'])
     monkeypatch.setattr(graph, 'graph_names', lambda: found)
     assert graph.lifecycle_nodes('', Namespace()) == ['/lamp']
     assert graph.containers('', Namespace()) == ['/box']
@@ -222,27 +219,23 @@ def test_names_of_the_graph(complete: Complete) -> None:
 
 def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is remembered is forgotten with time, and when processes come or go."""
-    from ros2cli.completion import parameters
-
     neighbours = 1
     monkeypatch.setenv('ROS_HOME', str(tmp_path))
-    monkeypatch.setattr(parameters, 'participant_ports', lambda domain: neighbours)
-    assert parameters.recall('/a/b') is None
-    parameters.remember('/a/b', ['rate_hz'])
-    assert parameters.recall('/a/b') == ['rate_hz']
-    assert parameters.recall('/a_b') is None
+    monkeypatch.setattr(graph, 'participant_ports', lambda domain: neighbours)
+    assert graph.recall('/a/b') is None
+    graph.remember('/a/b', ['rate_hz'])
+    assert graph.recall('/a/b') == ['rate_hz']
+    assert graph.recall('/a_b') is None
     neighbours = 2
-    assert parameters.recall('/a/b') is None
+    assert graph.recall('/a/b') is None
     neighbours = 1
-    monkeypatch.setattr(parameters, 'REMEMBERED_S', -1.0)
-    assert parameters.recall('/a/b') is None
+    monkeypatch.setattr(graph, 'REMEMBERED_S', -1.0)
+    assert graph.recall('/a/b') is None
 
 
 def test_home_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where nothing can be written nothing is remembered, and that is all."""
-    from ros2cli.completion import parameters
-
     (tmp_path / 'file').touch()
     monkeypatch.setenv('ROS_HOME', str(tmp_path / 'file'))
-    parameters.remember('graph', [])
-    assert parameters.recall('graph') is None
+    graph.remember('graph', [])
+    assert graph.recall('graph') is None
