@@ -11,9 +11,8 @@ from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph import census as module
 from ros2cli.graph.census import AGAIN_S, Census, find_holders, Holder, SILENCE_S
-from ros2cli.graph.interfaces import read_interfaces
 from ros2cli.graph.link import Link, MAX_WAITING
-from ros2cli.graph.reach import LOCALHOST, Reach, SUBNET
+from ros2cli.graph.reach import LOCALHOST, Reach, read_interfaces, SUBNET
 from ros2cli.graph.watch import GraphWatch
 from ros2cli.rtps.identifiers import unicast_ports
 from ros2cli.rtps.parameters import THIS_HOST

@@ -14,7 +14,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from ros2cli.graph.interfaces import Interface
+from ros2cli.graph.reach import Interface
 from ros2doctor.api.extension import Finding, Severity
 from ros2doctor.check.clock import clock_findings
 from ros2doctor.check.diagnostics import diagnostics_findings
@@ -304,7 +304,7 @@ def test_interfaces(network: Network) -> None:
     assert sentences(network_findings(replace(network, interfaces=(CABLE,)))) == [
         'ERROR: the loopback interface is down'
     ]
-    nameless = replace(network, interfaces=(replace(LOOPBACK, address=''), CABLE))
+    nameless = replace(network, interfaces=(LOOPBACK._replace(address=''), CABLE))
     assert sentences(network_findings(nameless)) == [
         'ERROR: the loopback interface has no address'
     ]

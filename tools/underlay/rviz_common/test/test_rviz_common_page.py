@@ -13,7 +13,7 @@ import threading
 from typing import Any
 
 import pytest
-from ros2cli.graph.interfaces import Interface
+from ros2cli.graph.reach import Interface
 from rviz_common.page import address, NO_TOKEN, Page, PageSettings, PortError, Route
 import viser
 from viser._messages import SetOrientationMessage

@@ -11,8 +11,7 @@ import socket
 import time
 
 from ros2cli.graph.census import Census
-from ros2cli.graph.interfaces import read_interfaces
-from ros2cli.graph.reach import OFF, Reach
+from ros2cli.graph.reach import OFF, Reach, read_interfaces
 from ros2cli.rtps.identifiers import MULTICAST_ADDRESS, multicast_port, unicast_ports
 from ros2cli.rtps.observer import Observer
 from ros2cli.rtps.parameters import Address, THIS_HOST

@@ -8,7 +8,7 @@ import errno
 import os
 import socket
 
-from ros2cli.graph.interfaces import Interface
+from ros2cli.graph.reach import Interface
 from ros2doctor.api.extension import Finding, Severity
 
 DDS_GROUP = '239.255.0.1'

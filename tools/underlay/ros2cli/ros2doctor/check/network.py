@@ -8,8 +8,15 @@ from dataclasses import dataclass
 import os
 from pathlib import Path
 
-from ros2cli.graph.interfaces import Interface, read_interfaces
-from ros2cli.graph.reach import LOCALHOST, MAX_DOMAIN_ID, OFF, SUBNET, SYSTEM_DEFAULT
+from ros2cli.graph.reach import (
+    Interface,
+    LOCALHOST,
+    MAX_DOMAIN_ID,
+    OFF,
+    read_interfaces,
+    SUBNET,
+    SYSTEM_DEFAULT,
+)
 from ros2cli.rtps.identifiers import multicast_port, PORT_BASE, PORTS_PER_DOMAIN
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 from ros2doctor.check.multicast import (

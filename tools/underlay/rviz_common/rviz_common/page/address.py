@@ -9,7 +9,7 @@ import ipaddress
 import os
 import socket
 
-from ros2cli.graph.interfaces import read_interfaces
+from ros2cli.graph.reach import read_interfaces
 
 __all__ = ['NO_TOKEN', 'PARAMETERS', 'PageSettings', 'PortError', 'listen', 'reachable']
 
