@@ -17,9 +17,9 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from ros2cli.graph.census import participant_ports, ports_in_table
 from ros2cli.graph.graph import Graph
-from ros2cli.graph.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
 from ros2cli.graph.reach import read_reach
 from ros2cli.graph.watch import GraphWatch, INCOMPLETE
+from ros2cli.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
 
 DISCOVERY_S = 20.0
 CHILD = """

@@ -15,7 +15,7 @@ from rclpy.qos import (
 )
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
-from ros2cli.graph.names import ros_type
+from ros2cli.names import ros_type
 from ros2cli.rtps import entities as dds
 
 UNKNOWN_NODE = dds.NodeEntities(

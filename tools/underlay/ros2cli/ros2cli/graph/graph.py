@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import Any
 
-from ros2cli.graph.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
+from ros2cli.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
 from ros2cli.rtps.entities import Endpoint, NodeEntities
 from ros2cli.rtps.identifiers import PREFIX_BYTES
 
