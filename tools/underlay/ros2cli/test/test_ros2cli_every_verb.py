@@ -14,8 +14,7 @@ import sys
 import time
 
 import pytest
-from ros2cli.cli import COMMANDS, create_parser, main
-from ros2cli.exit_status import BROKEN_PIPE_STATUS
+from ros2cli.cli import BROKEN_PIPE_STATUS, COMMANDS, create_parser, main
 
 SCRIPT = Path(__file__).parents[1] / 'scripts' / 'ros2'
 HELP_WIDTH = 80

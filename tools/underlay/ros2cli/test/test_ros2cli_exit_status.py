@@ -6,7 +6,7 @@ import signal
 import sys
 
 import pytest
-from ros2cli.exit_status import run_to_status
+from ros2cli.cli import run_to_status
 from ros2cli.node.direct import interrupts_deferred
 
 
