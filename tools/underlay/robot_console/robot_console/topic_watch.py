@@ -9,8 +9,7 @@ import time
 from typing import Any, TYPE_CHECKING
 
 from ros2cli.messages.lookup import get_message, UnknownType
-from ros2cli.messages.plain import element_type, Shortening
-from ros2cli.messages.text import to_yaml
+from ros2cli.messages.text import element_type, Shortening, to_yaml
 from ros2topic.api.qos import matching_qos
 from ros2topic.verb.bw import human_bytes
 

@@ -7,13 +7,14 @@ from typing import Any
 from geometry_msgs.msg import PoseWithCovariance
 import pytest
 from ros2cli.messages.lookup import get_message, UnknownType
-from ros2cli.messages.plain import Shortening, to_plain
 from ros2cli.messages.text import (
     dump,
     NeedsPyYaml,
     plain_to_yaml,
+    Shortening,
     to_block_yaml,
     to_csv,
+    to_plain,
     to_yaml,
 )
 from sensor_msgs.msg import Image, JointState

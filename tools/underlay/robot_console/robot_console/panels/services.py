@@ -12,8 +12,7 @@ from robot_console.namespaces import NAMESPACE
 from robot_console.service_calls import ServiceCalls
 from ros2cli.messages.lookup import get_passed_type
 from ros2cli.messages.outgoing import OutgoingMessage
-from ros2cli.messages.plain import IDL_NAMES, Shortening
-from ros2cli.messages.text import to_yaml
+from ros2cli.messages.text import IDL_NAMES, Shortening, to_yaml
 from rviz_common.properties import Number
 
 __all__ = ['Services', 'fields_text', 'filled', 'response_text', 'service_class', 'template']

@@ -8,7 +8,7 @@ import re
 from typing import Any
 
 from ros2cli.messages.lookup import field_hint, get_message, UnknownType
-from ros2cli.messages.plain import element_type
+from ros2cli.messages.text import element_type
 from ros2cli.messages.values import parse_values
 
 FIELD_ERROR = 'Failed to populate field: {}'

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Serialization of messages to YAML and comma-separated values.
+Messages as plain Python values, and these as YAML or comma-separated values.
 
 What streams of messages consist of, that is, mappings, lists, numbers and single-line strings, is
-written as block YAML here: as PyYAML does it, but several times as fast. All else is left to it.
+written as block YAML here: as PyYAML does it, but several times as fast. All else is left to
+PyYAML, which is imported only then.
 """
 
 from __future__ import annotations
@@ -12,14 +13,96 @@ from collections.abc import Iterator
 from functools import lru_cache
 from math import isfinite
 import re
-from typing import Any
-
-from ros2cli.messages.plain import Shortening, to_plain
-import yaml
+from typing import Any, NamedTuple
 
 PLAIN_TEXT = re.compile(r'[a-zA-Z_/][a-zA-Z0-9_/]{5,}')
-Dumper: Any = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
 UNLIMITED_WIDTH = 2**31 - 1
+IDL_NAMES = {'double': 'float64', 'float': 'float32', 'boolean': 'bool', 'octet': 'byte'}
+
+
+class Shortening(NamedTuple):
+    """Maximum length of strings and arrays, and whether they are shown at all."""
+
+    length: int | None = None
+    hide_arrays: bool = False
+    hide_strings: bool = False
+
+
+def to_plain(value: Any, shortening: Shortening = Shortening(), field_type: str = '') -> Any:
+    """
+    Convert a message, or the value of a field, to plain Python values.
+
+    Parameters
+    ----------
+    value
+        The message or value.
+    shortening
+        Maximum lengths of strings and arrays.
+    field_type
+        The type of the field, as rosidl names it, such as `sequence<double>`.
+
+    Returns
+    -------
+    Any
+        Mappings in the order of the fields, lists, numbers and strings.
+
+    """
+    if hasattr(value, 'get_fields_and_field_types'):
+        return {
+            name: to_plain(getattr(value, name), shortening, field_type)
+            for name, field_type in value.get_fields_and_field_types().items()
+        }
+    if isinstance(value, dict):
+        return {name: to_plain(value[name], shortening) for name in sorted(value)}
+    if isinstance(value, (str, bytes)):
+        return _plain_text(value, shortening)
+    if hasattr(value, '__len__'):
+        return _array(value, shortening, field_type)
+    return value
+
+
+def _plain_text(value: str | bytes, shortening: Shortening) -> str:
+    text = value if isinstance(value, str) else value.decode('latin-1')
+    if shortening.hide_strings:
+        return f'<string length: <{len(text)}>>'
+    if shortening.length is not None and len(text) > shortening.length:
+        return f'{text[: shortening.length]}...'
+    return text
+
+
+def _array(value: Any, shortening: Shortening, field_type: str) -> Any:
+    if shortening.hide_arrays:
+        return _array_summary(len(value), field_type)
+    cut = shortening.length is not None and len(value) > shortening.length
+    head = value[: shortening.length] if cut else value
+    items = head.tolist() if hasattr(head, 'tolist') else head
+    inner = element_type(field_type)
+    plain = [to_plain(item, shortening, inner) for item in items]
+    return [*plain, '...'] if cut else plain
+
+
+def _array_summary(length: int, field_type: str) -> str:
+    element = element_type(field_type)
+    element = IDL_NAMES.get(element, element)
+    if field_type.startswith('sequence'):
+        return f'<sequence type: {element}, length: {length}>'
+    return f'<array type: {element}[{length}]>'
+
+
+def element_type(field_type: str) -> str:
+    """
+    Return the type of the elements of an array or sequence, such as `double`.
+
+    Parameters
+    ----------
+    field_type
+        The type of the field, such as `sequence<double>`, `sequence<double, 3>` or `double[3]`.
+
+    """
+    if field_type.startswith('sequence<'):
+        inner = field_type.removeprefix('sequence<').removesuffix('>')
+        return inner.rpartition(', ')[0] if inner.rpartition(', ')[2].isdigit() else inner
+    return field_type.partition('[')[0]
 
 
 def to_yaml(value: Any, shortening: Shortening = Shortening(), *, flow_style: bool = False) -> str:
@@ -198,9 +281,11 @@ def dump(plain: Any, *, flow_style: bool) -> str:
         Whether to write it on one line, with braces and brackets.
 
     """
+    import yaml
+
     text: str = yaml.dump(
         plain,
-        Dumper=Dumper,
+        Dumper=getattr(yaml, 'CSafeDumper', yaml.SafeDumper),
         allow_unicode=True,
         sort_keys=False,
         width=UNLIMITED_WIDTH,

@@ -9,7 +9,7 @@ from typing import Any
 
 from ros2cli.arguments import add_strategy_arguments
 from ros2cli.messages.lookup import get_passed_type
-from ros2cli.messages.plain import to_plain
+from ros2cli.messages.text import plain_to_csv, plain_to_yaml, to_plain
 from ros2cli.names import absolute
 from ros2cli.waiting import Patience
 from ros2service.api import get_service_types, unknown_service_text
@@ -116,7 +116,6 @@ def _event_formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
         Accepts the event message and its message info; returns the text, YAML or CSV.
 
     """
-    from ros2cli.messages.text import plain_to_csv, plain_to_yaml
     from ros2topic.api.echo import chosen_shortening, SEPARATOR
     from service_msgs.msg import ServiceEventInfo
 

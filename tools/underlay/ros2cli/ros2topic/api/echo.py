@@ -11,8 +11,7 @@ from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from ros2cli.messages.lookup import field_hint
-from ros2cli.messages.plain import Shortening
-from ros2cli.messages.text import to_csv, to_yaml
+from ros2cli.messages.text import Shortening, to_csv, to_yaml
 from ros2cli.waiting import Patience
 from ros2topic.api import closest_topic
 from ros2topic.api.qos import choose_qos, Incompatibility
