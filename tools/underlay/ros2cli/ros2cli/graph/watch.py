@@ -13,7 +13,7 @@ from ros2cli.graph import DEFAULT_SPIN_TIME_S
 from ros2cli.graph.graph import Graph
 from ros2cli.graph.link import Link
 from ros2cli.graph.reach import read_reach
-from ros2cli.rtps.greeting import LEASE_S
+from ros2cli.rtps.observer import LEASE_S
 from ros2cli.waiting import Patience
 
 T = TypeVar('T')
