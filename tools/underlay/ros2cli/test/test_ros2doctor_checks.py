@@ -28,7 +28,7 @@ from ros2doctor.check.network import Network, network_findings, who_reaches
 from ros2doctor.check.nodes import name_findings, namespace_findings, NeighboursCheck
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, Script, script_findings
-from ros2doctor.check.shared_memory import CLEAN_UP, read_shared_memory, SharedMemory
+from ros2doctor.check.transports import CLEAN_UP, read_shared_memory, SharedMemory
 from ros2doctor.check.wheels import install_command, wheel_findings, Wheels
 from ros2doctor.check.workspace import PackageState, Workspace, workspace_findings
 import yaml

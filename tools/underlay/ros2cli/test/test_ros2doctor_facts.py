@@ -13,9 +13,9 @@ from ros2doctor.check.environment import environment_findings, read_environment
 from ros2doctor.check.graph import why_rclpy_does_not_start
 from ros2doctor.check.graphics import read_graphics
 from ros2doctor.check.libraries import library_findings, read_libraries
-from ros2doctor.check.multicast import multicast_error
 from ros2doctor.check.network import read_network
 from ros2doctor.check.scripts import read_script
+from ros2doctor.check.transports import multicast_error
 from ros2doctor.check.wheels import (
     environment_prefix,
     install_command,

@@ -19,13 +19,15 @@ from ros2cli.graph.reach import (
 )
 from ros2cli.rtps.identifiers import multicast_port, PORT_BASE, PORTS_PER_DOMAIN
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
-from ros2doctor.check.multicast import (
+from ros2doctor.check.transports import (
     has_multicast_route,
     multicast_error,
     multicast_findings,
     multicast_state,
+    read_shared_memory,
+    shared_memory_findings,
+    SharedMemory,
 )
-from ros2doctor.check.shared_memory import read_shared_memory, shared_memory_findings, SharedMemory
 
 PORT_RANGE = Path('/proc/sys/net/ipv4/ip_local_port_range')
 USUAL_PORT_RANGE = (32768, 60999)
