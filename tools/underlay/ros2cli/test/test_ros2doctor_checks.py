@@ -17,7 +17,6 @@ import pytest
 from ros2cli.graph.reach import Interface
 from ros2doctor.api.extension import Finding, Severity
 from ros2doctor.check.clock import clock_findings
-from ros2doctor.check.diagnostics import diagnostics_findings
 from ros2doctor.check.environment import Environment, environment_findings
 from ros2doctor.check.frames import frame_findings
 from ros2doctor.check.graph import client_library_findings, Endpoint, Graph
@@ -25,7 +24,12 @@ from ros2doctor.check.graphics import Graphics, graphics_findings
 from ros2doctor.check.libraries import Libraries, library_findings, LibraryFolder
 from ros2doctor.check.listening import DiagnosticsListener, Transform
 from ros2doctor.check.network import Network, network_findings, who_reaches
-from ros2doctor.check.nodes import name_findings, namespace_findings, NeighboursCheck
+from ros2doctor.check.nodes import (
+    diagnostics_findings,
+    name_findings,
+    namespace_findings,
+    NeighboursCheck,
+)
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, Script, script_findings
 from ros2doctor.check.transports import CLEAN_UP, read_shared_memory, SharedMemory

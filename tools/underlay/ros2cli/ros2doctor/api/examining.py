@@ -28,7 +28,7 @@ CHECKS = {
     'neighbours': Entry('ros2doctor.check.nodes:NeighboursCheck', ''),
     'clock': Entry('ros2doctor.check.clock:ClockCheck', ''),
     'frames': Entry('ros2doctor.check.frames:FramesCheck', ''),
-    'diagnostics': Entry('ros2doctor.check.diagnostics:DiagnosticsCheck', ''),
+    'diagnostics': Entry('ros2doctor.check.nodes:DiagnosticsCheck', ''),
 }
 REPORTS = {
     'platform': Entry('ros2doctor.check.environment:PlatformReport', ''),
