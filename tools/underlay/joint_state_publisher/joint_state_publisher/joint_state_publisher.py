@@ -1,28 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that publishes the joint states of a robot, and its subscriptions to source topics."""
+"""The node that publishes the joint states of a robot: parameters, sources and publisher."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from joint_state_publisher.merged_joints import MergedJoints, States
-from joint_state_publisher.parameters import CHANGEABLE, declare_settings, Extra
-from joint_state_publisher.settings import Settings, settings_of
-from rcl_interfaces.msg import SetParametersResult
+from joint_state_publisher.settings import DESCRIPTIONS, MAPS, Settings, settings_of
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from robot_state_publisher.node_arguments import parameters_from_file
+from robot_state_publisher.node_arguments import parameters_from_file, unknown_parameters
 from robot_state_publisher.state_watch import StateWatch
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from urdf import parse_urdf, RobotModel
 
-__all__ = ['JointStatePublisher']
+__all__ = ['Extra', 'JointStatePublisher']
 
+CHANGEABLE = ('robot_description', 'delta')
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE_S = 2.0
 REPEAT_S = 10.0
@@ -30,6 +30,14 @@ REPEAT_S = 10.0
 # Best effort is compatible with reliable and best-effort publishers.
 ANY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 Take = Callable[[str, JointState], None]
+
+
+@dataclass(frozen=True)
+class Extra:
+    """An additional, read-only parameter of a derived node."""
+
+    default: Any
+    description: str
 
 
 class JointStatePublisher(Node):
@@ -53,7 +61,7 @@ class JointStatePublisher(Node):
 
     def __init__(self, file: str | None = None) -> None:
         super().__init__('joint_state_publisher', parameter_overrides=parameters_from_file(file))
-        self._settings = declare_settings(self, self.EXTRAS)
+        self._settings = _declare_settings(self, self.EXTRAS)
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None
         self._publisher = self.create_publisher(JointState, 'joint_states', QoSProfile(depth=10))
@@ -243,3 +251,50 @@ def _resolved(node: Node, name: str) -> str:
         raise ValueError(
             f"The parameter 'source_list' names '{name}', which is not a valid topic: {reason}."
         ) from error
+
+
+def _declare_settings(node: Node, extras: Mapping[str, Extra]) -> Settings:
+    """
+    Declare the parameters of the node, including those given for individual joints.
+
+    rclpy has no public API for parameter overrides; parameters that it declares automatically have
+    no description, and it does not accept an empty list.
+
+    Parameters
+    ----------
+    node
+        The node; it logs a warning for each unknown parameter.
+    extras
+        Additional parameters of a derived node, by name.
+
+    Returns
+    -------
+    Settings
+        The initial values, without those of `extras`.
+
+    Raises
+    ------
+    ValueError
+        A value is invalid.
+
+    """
+    descriptions = {
+        **DESCRIPTIONS,
+        **{name: extra.description for name, extra in extras.items()},
+    }
+    given = {name: each.value for name, each in getattr(node, '_parameter_overrides', {}).items()}
+    for sentence in unknown_parameters(given, descriptions, MAPS):
+        node.get_logger().warning(sentence)
+    settings = settings_of(given)
+    defaults = {**vars(settings), **{name: extra.default for name, extra in extras.items()}}
+    of_joints = [name for name in given if name.startswith(MAPS)]
+    for name in (*descriptions, *of_joints):
+        default = defaults.get(name, given.get(name))
+        descriptor = ParameterDescriptor(
+            description=descriptions.get(name, ''),
+            read_only=name not in CHANGEABLE,
+            dynamic_typing=True,
+        )
+        value = list(default) if isinstance(default, tuple) else default
+        node.declare_parameter(name, value, descriptor)
+    return settings

@@ -8,9 +8,8 @@ import os
 from pathlib import Path
 from typing import Any
 
-from joint_state_publisher.joint_state_publisher import JointStatePublisher
+from joint_state_publisher.joint_state_publisher import Extra, JointStatePublisher
 from joint_state_publisher.merged_joints import MergedJoints
-from joint_state_publisher.parameters import Extra
 from joint_state_publisher.settings import checked
 from joint_state_publisher_gui.board import Board
 from joint_state_publisher_gui.joint_page import JointPage
