@@ -112,7 +112,7 @@ def _load(path: str, name: str) -> ModuleType:
 
 
 def _show_arguments(runs: list[TestRun]) -> int:
-    from ros2launch.api.showing import argument_lines, HEADER
+    from ros2launch.api.running import argument_lines, HEADER
 
     description = runs[0].get_launch_description()
     print('\n'.join([HEADER, *argument_lines(description.get_launch_arguments())]))

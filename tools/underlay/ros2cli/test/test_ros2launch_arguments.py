@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from ros2launch.api.arguments import misspelt_argument_text, parse_launch_arguments
-from ros2launch.api.showing import argument_lines
+from ros2launch.api.running import argument_lines
 
 
 def test_arguments_are_split_at_the_first_separator() -> None:

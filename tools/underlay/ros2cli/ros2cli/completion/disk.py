@@ -274,7 +274,7 @@ def _names_in(folder: str) -> list[str]:
 def _declared(package_or_path: str, file_name: str | None) -> list[Any]:
     """Load a launch file and return its declared arguments; cached for repeated calls."""
     from ros2launch.api.arguments import find_target
-    from ros2launch.api.showing import load_launch_file
+    from ros2launch.api.running import load_launch_file
 
     path, _ = find_target(package_or_path, file_name, [])
     found: list[Any] = load_launch_file(path).get_launch_arguments()

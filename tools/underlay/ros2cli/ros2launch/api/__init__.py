@@ -13,8 +13,11 @@ if TYPE_CHECKING:
         MultipleLaunchFilesError,
         parse_launch_arguments,
     )
-    from ros2launch.api.running import launch_a_launch_file
-    from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
+    from ros2launch.api.running import (
+        launch_a_launch_file,
+        print_a_launch_file,
+        print_arguments_of_launch_file,
+    )
 
 __all__ = [
     'MultipleLaunchFilesError',
@@ -33,7 +36,7 @@ __getattr__, __dir__ = lazy_exports(
         'get_share_file_path_from_package': 'arguments',
         'launch_a_launch_file': 'running',
         'parse_launch_arguments': 'arguments',
-        'print_a_launch_file': 'showing',
-        'print_arguments_of_launch_file': 'showing',
+        'print_a_launch_file': 'running',
+        'print_arguments_of_launch_file': 'running',
     },
 )

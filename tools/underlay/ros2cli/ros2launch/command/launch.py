@@ -95,7 +95,7 @@ def _common(args: argparse.Namespace) -> dict[str, bool]:
 
 
 def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
-    from ros2launch.api.showing import rehearse_launch_file
+    from ros2launch.api.running import rehearse_launch_file
 
     return rehearse_launch_file(
         launch_file_path=path,
@@ -109,7 +109,7 @@ def _show(path: str, args: argparse.Namespace) -> int | str | None:
     from launch import InvalidLaunchFileError
     from launch.failures import place_of
     from launch.logging import launch_config
-    from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
+    from ros2launch.api.running import print_a_launch_file, print_arguments_of_launch_file
 
     launch_config.log_dir  # noqa: B018  # a run of its own, even if nothing is logged
     show = print_a_launch_file if args.print else print_arguments_of_launch_file
