@@ -6,12 +6,13 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ros2param.api import set_parameter, unknown_parameter_hint
-from ros2param.api.remote import (
+from ros2param.api import (
     add_node_name_argument,
     add_param_arguments,
     add_parameter_name_argument,
     remote_node,
+    set_parameter,
+    unknown_parameter_hint,
 )
 from ros2param.verb import VerbExtension
 

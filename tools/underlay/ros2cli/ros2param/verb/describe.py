@@ -8,8 +8,14 @@ from collections.abc import Iterator
 import sys
 
 from rcl_interfaces.msg import ParameterDescriptor
-from ros2param.api import describe_parameters, list_parameters, unknown_parameter_text
-from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
+from ros2param.api import (
+    add_node_name_argument,
+    add_param_arguments,
+    describe_parameters,
+    list_parameters,
+    remote_node,
+    unknown_parameter_text,
+)
 from ros2param.verb import VerbExtension
 
 

@@ -5,8 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from ros2param.api import get_parameters, list_parameters
-from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
+from ros2param.api import (
+    add_node_name_argument,
+    add_param_arguments,
+    get_parameters,
+    list_parameters,
+    remote_node,
+)
 from ros2param.verb import VerbExtension
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from ros2param.api import get_parameters, unknown_parameter_hint
-from ros2param.api.remote import (
+from ros2param.api import (
     add_node_name_argument,
     add_param_arguments,
     add_parameter_name_argument,
+    get_parameters,
     remote_node,
+    unknown_parameter_hint,
 )
 from ros2param.verb import VerbExtension
 

@@ -9,8 +9,15 @@ import sys
 from typing import Any
 
 from ros2node.api import nodes_with_service
-from ros2param.api import describe_parameters, list_parameters, LIST_SERVICE, LIST_TYPE
-from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
+from ros2param.api import (
+    add_node_name_argument,
+    add_param_arguments,
+    describe_parameters,
+    list_parameters,
+    LIST_SERVICE,
+    LIST_TYPE,
+    remote_node,
+)
 from ros2param.verb import VerbExtension
 
 ANSWER_TIMEOUT_S = 5.0

@@ -7,8 +7,13 @@ import argparse
 import sys
 from typing import Any
 
-from ros2param.api import refusal_hint, set_parameter
-from ros2param.api.remote import add_node_name_argument, add_param_arguments, remote_node
+from ros2param.api import (
+    add_node_name_argument,
+    add_param_arguments,
+    refusal_hint,
+    remote_node,
+    set_parameter,
+)
 from ros2param.verb import VerbExtension
 
 
