@@ -260,7 +260,7 @@ def test_network_without_fault(network: Network) -> None:
             "ERROR: ROS_DOMAIN_ID is 'x', which is not a whole number from 0 t",
         ),
         ({'ROS_DOMAIN_ID': '233'}, "ERROR: ROS_DOMAIN_ID is '233'"),
-        ({'ROS_DOMAIN_ID': '102'}, 'WARNING: the ports of domain 102 begin at 32900, among those'),
+        ({'ROS_DOMAIN_ID': '102'}, 'WARNING: the ports of domain 102 start at 32900, among the'),
         ({'FASTRTPS_DEFAULT_PROFILES_FILE': '/x'}, 'WARNING: FASTRTPS_DEFAULT_PROFILES_FILE name'),
     ],
 )
@@ -429,7 +429,8 @@ def test_pairs_name_both_nodes() -> None:
         return 'unreliable' if (offered, requested) == ('best effort', 'reliable') else ''
 
     assert sentences(pair_findings(endpoints, why_not)) == [
-        "ERROR: on '/image', what '/camera' offers is not what '/viewer' asks for (unreliable)",
+        "ERROR: on '/image', the QoS that '/camera' offers does not satisfy '/viewer' "
+        '(unreliable)',
         "ERROR: on '/image', '/camera' publishes String, but '/other' subscribes to Int32",
     ]
 
@@ -447,7 +448,8 @@ def test_a_node_that_subscribes_twice() -> None:
         return 'nothing kept' if (offered, requested) == ('volatile', 'transient local') else ''
 
     assert sentences(pair_findings(endpoints, why_not)) == [
-        "ERROR: on '/image', what '/stopper' offers is not what '/late' asks for (nothing kept)"
+        "ERROR: on '/image', the QoS that '/stopper' offers does not satisfy '/late' "
+        '(nothing kept)'
     ]
 
 
@@ -461,11 +463,11 @@ def test_what_nodes_complain_of() -> None:
 
     say(1, 'slow')
     assert sentences(diagnostics_findings(listener.complaints)) == [
-        "WARNING: 'simulator: loop' says: slow"
+        "WARNING: 'simulator: loop' reports: slow"
     ]
     say(2, 'broken')
     assert sentences(diagnostics_findings(listener.complaints)) == [
-        "ERROR: 'simulator: loop' says: broken"
+        "ERROR: 'simulator: loop' reports: broken"
     ]
     say(0, 'runs')
     assert sentences(diagnostics_findings(listener.complaints)) == []
@@ -521,7 +523,7 @@ def test_namespaces_without_effect(
     'edges, expected',
     [
         (['odom base', 'base head'], []),
-        (['odom base', 'map odom', 'x y'], ["WARNING: on '/tf' there are 2 trees of frames"]),
+        (['odom base', 'map odom', 'x y'], ["WARNING: on '/tf' there are 2 frame trees"]),
         (['a c', 'b c', 'b a'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a c', 'b c'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a b', 'b a'], ["ERROR: on '/tf', the frames form a loop: a, b"]),

@@ -225,10 +225,10 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
     """A real graph is examined: quality of service, names and frames; the report lists it."""
     end = time.monotonic() + PATIENCE_S
     expected = (
-        "ERROR (qos): on '/image', what '/camera' offers is not what '/viewer' asks for",
+        "ERROR (qos): on '/image', the QoS that '/camera' offers does not satisfy '/viewer'",
         "WARNING (nodes): 2 nodes have the name '/viewer'",
         'ERROR (clock): use_sim_time is true, but there is no publisher on /clock: /walker\n',
-        "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots map, base_link",
+        "WARNING (frames): on '/tf' there are 2 frame trees, with the roots map, base_link",
     )
     result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
     while not all(text in result.stdout for text in expected) and time.monotonic() < end:

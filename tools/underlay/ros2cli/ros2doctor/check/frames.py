@@ -120,7 +120,7 @@ def _two_parents(topic: str, parents: Parents) -> Iterator[Finding]:
 def _two_roots(topic: str, found: list[str], mend: str) -> Finding:
     return Finding(
         Severity.WARNING,
-        f"on '{topic}' there are {len(found)} trees of frames, with the roots {', '.join(found)}",
+        f"on '{topic}' there are {len(found)} frame trees, with the roots {', '.join(found)}",
         'there is no transform between frames of different trees',
         mend,
     )

@@ -230,9 +230,9 @@ def _domain(facts: Network) -> Iterator[Finding]:
         safe = (first - PORT_BASE) // PORTS_PER_DOMAIN - 1
         yield Finding(
             Severity.WARNING,
-            f'the ports of domain {text} begin at {port}, among those that the kernel gives to '
-            f'any program ({first} to {last})',
-            'now and then a node cannot start, or is not found, because its port is taken',
+            f'the ports of domain {text} start at {port}, among the ephemeral ports that the '
+            f'kernel gives to any program ({first} to {last})',
+            'occasionally a node cannot start, or is not found, because its port is taken',
             f'export ROS_DOMAIN_ID={min(int(text) % 100, safe)}',
         )
 

@@ -106,7 +106,7 @@ def _namespace_without_effect(topic: str, name: str, namespaces: list[str]) -> F
         Severity.WARNING,
         f"the namespaces {several} have no effect on '{topic}' of '{name}'",
         f"a name that begins with '/' is absolute: all {len(namespaces)} nodes publish on one "
-        'topic, and each listener hears all of them',
+        'topic, and each subscription receives all of it',
         f"write '{topic.lstrip('/')}' in the node, which becomes "
         f"'/{namespaces[0]}{topic}'; without touching the node, remap it: "
         f'--ros-args -r {topic}:={topic.lstrip("/")}',
@@ -140,7 +140,7 @@ class NeighboursCheck(GraphCheck):
                 Severity.WARNING,
                 f'nodes of other machines are in domain {DEFAULT_DOMAIN}, which is the default '
                 f'for everyone who has not chosen one: {listing(list(graph.elsewhere))}',
-                'your commands may move the robot of a neighbour, and theirs may move yours',
+                "your commands may move someone else's robot, and theirs may move yours",
                 'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, or agree on a domain: '
                 'export ROS_DOMAIN_ID=42',
             )
@@ -189,7 +189,7 @@ def diagnostics_findings(complaints: Iterable[Complaint]) -> Iterator[Finding]:
     for each in complaints:
         yield Finding(
             Severity.WARNING if each.level == WARN else Severity.ERROR,
-            f"'{each.name}' says: {each.message}",
+            f"'{each.name}' reports: {each.message}",
             'this part of the robot may not behave as expected',
             'watch it with: ros2 topic echo /diagnostics',
         )

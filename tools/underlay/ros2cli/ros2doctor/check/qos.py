@@ -156,10 +156,10 @@ def _other_type(publisher: Endpoint, subscription: Endpoint) -> Finding:
 def _other_qos(publisher: Endpoint, subscription: Endpoint, reason: str) -> Finding:
     return Finding(
         Severity.ERROR,
-        f"on '{publisher.topic}', what '{publisher.node}' offers is not what "
-        f"'{subscription.node}' asks for ({reason})",
+        f"on '{publisher.topic}', the QoS that '{publisher.node}' offers does not satisfy "
+        f"'{subscription.node}' ({reason})",
         f"'{subscription.node}' receives nothing from '{publisher.node}', without any error",
-        "give both the same QoS profile: the subscription may ask for less ('best effort', "
+        "give both the same QoS profile: the subscription may request less ('best effort', "
         "'volatile'), or the publisher offer more. To see both: "
         f'ros2 topic info --verbose {publisher.topic}',
     )
