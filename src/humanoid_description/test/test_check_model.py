@@ -483,7 +483,7 @@ def test_nothing_to_check(
         (
             '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m">'
             '<xacro:m/></xacro:macro><xacro:m/></robot>',
-            'macros or includes call themselves without end',
+            'infinite recursion of macros or includes',
         ),
     ],
 )
@@ -510,7 +510,7 @@ def test_file_that_includes_itself(tmp_path: Path, capsys: pytest.CaptureFixture
     two.write_text(text.format('filename="one.xacro"'))
     assert main([str(one)]) == 1
     error = capsys.readouterr().err
-    assert 'macros or includes call themselves without end' in error
+    assert 'infinite recursion of macros or includes' in error
     assert str(one) in error and str(two) in error
 
 

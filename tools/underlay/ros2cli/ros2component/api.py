@@ -196,7 +196,7 @@ def container_services() -> Any:
         from composition_interfaces import srv
     except ImportError as error:
         raise RuntimeError(
-            "The package 'composition_interfaces' cannot be imported, and without it no container "
-            f'can be asked: {error}. Is it built, and the environment sourced?'
+            "The package 'composition_interfaces' cannot be imported, so no container can be "
+            f'queried: {error}. Is it built, and the environment sourced?'
         ) from error
     return srv

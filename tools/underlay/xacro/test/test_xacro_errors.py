@@ -216,7 +216,7 @@ def test_include_of_itself(run: Run) -> None:
     status, out, err = run('<xacro:include filename="top.xacro"/>')
     assert (status, out) == (1, '')
     lines = err.splitlines()
-    assert lines[0].endswith(': error: macros or includes call themselves without end')
+    assert lines[0].endswith(': error: infinite recursion of macros or includes')
     assert lines[1:] == ['  included at top.xacro:4']
 
 

@@ -103,7 +103,7 @@ def _missing_argument(error: BaseException, trail: Trail) -> str:
 
 
 def _endless(error: BaseException, trail: Trail) -> str:
-    return 'macros or includes call themselves without end'
+    return 'infinite recursion of macros or includes'
 
 
 def _missing_key(error: BaseException, trail: Trail) -> str:

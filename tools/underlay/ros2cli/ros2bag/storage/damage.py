@@ -221,7 +221,7 @@ def damage_told(path: str) -> Iterator[None]:
         raise
     except FileNotFoundError as error:
         raise BagError(
-            f"the file '{path}' of the recording is missing. To go on without it: "
+            f"the file '{path}' of the recording is missing. To continue without it: "
             f'ros2 bag reindex {os.path.dirname(path)}'
         ) from error
     except OSError as error:

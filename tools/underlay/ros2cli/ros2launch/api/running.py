@@ -16,8 +16,8 @@ from ros2launch.api.arguments import parse_launch_arguments, UnknownArguments
 HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
 FOOTNOTE = '* argument(s) which are only used if specific conditions occur'
 DRY_RUN_HEADER = """\
-Nothing is started; this is what would be. To find out, the commands in
-Command substitutions were run and the functions in launch files were called.
+Dry run: nothing is started. To determine what would be, the commands in Command
+substitutions were run and the functions in launch files were called.
 """
 
 
