@@ -15,7 +15,7 @@ from ros2cli.entry import Entry
 
 
 class CommandOfNames(VerbCommand):
-    """A command about things with names, of which the hidden ones need an option."""
+    """A command about named entities, of which hidden ones are listed only with an option."""
 
     NOUN = ''
 

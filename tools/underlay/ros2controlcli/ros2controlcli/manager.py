@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the verbs share: ask a controller manager through its services, and print interfaces."""
+"""Shared by the verbs: call the services of a controller manager, and print interfaces."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ANSWER_TIMEOUT_S = 10.0
 
 def add_manager_arguments(parser: argparse.ArgumentParser) -> None:
     """
-    Add the options that all verbs of `ros2 control` have.
+    Add the options that all verbs of `ros2 control` share.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def ask(args: argparse.Namespace, name: str, kind: str, **request: Any) -> Any:
 
 
 def _find(node: Any, manager: str, name: str, kind: str, timeout_s: float) -> None:
-    """Wait for a service of a manager; say which managers there are if it does not come."""
+    """Wait for a service of a manager; after the timeout, raise an error that lists managers."""
 
     def is_known(graph: Any) -> bool:
         return kind in dict(graph.get_service_names_and_types()).get(f'{manager}/{name}', [])
@@ -92,7 +92,7 @@ def _find(node: Any, manager: str, name: str, kind: str, timeout_s: float) -> No
 
 def command_line(interface: Any) -> str:
     """
-    Format a command interface with whether it is available and claimed.
+    Format a command interface, and whether it is available and claimed.
 
     Parameters
     ----------
@@ -114,9 +114,9 @@ def print_lines(title: str, lines: Iterable[str], indent: str = '') -> None:
     title
         The first line.
     lines
-        What is below, one tab further to the right.
+        The lines below it, indented by one more tab.
     indent
-        What precedes each line.
+        The indentation of the title.
 
     """
     print(f'{indent}{title}')

@@ -65,7 +65,7 @@ def lazy_exports(
 
 def also_found_at(package: str, *modules: str) -> None:
     """
-    Let what a package holds be imported from modules of it as well, as from `os.path`.
+    Let the names of a package be imported from aliases of it as well, as from `os.path`.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Builds a package whose setup.py names files that do not exist yet, and says which.
+Let a package be built whose setup.py lists data files that do not exist yet.
 
-A beginner writes the `data_files` of a package before its launch files. setuptools would stop
-there with a traceback; it calls this function, an extension of its own kind, for each package.
+Beginners often write the `data_files` of a package before its launch files, at which setuptools
+would stop with a traceback. `leave_out` is an extension that setuptools calls for each package.
 """
 
 from __future__ import annotations
@@ -68,4 +68,4 @@ def split(data_files: Iterable[Any]) -> tuple[list[Any], list[str]]:
     return kept, missing
 
 
-leave_out.order = 100  # type: ignore[attr-defined]  # after what setuptools itself settles
+leave_out.order = 100  # type: ignore[attr-defined]  # after the options of setuptools itself

@@ -33,7 +33,7 @@ def find_workspace(start: Path) -> Path | None:
     Parameters
     ----------
     start
-        Where the search begins, which goes on in the folders above.
+        The first folder to search; its parents follow.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def source_packages(workspace: Path) -> dict[str, SourcePackage]:
     Returns
     -------
     dict[str, SourcePackage]
-        The packages by name; the first one counts if there are several of a name.
+        The packages by name; of several with the same name, the first one.
 
     """
     found: dict[str, SourcePackage] = {}
@@ -103,7 +103,7 @@ class StaleFiles:
     """Compares installed files with their sources; a package is searched once."""
 
     def __init__(self) -> None:
-        """Begin without any package."""
+        """Start without cached packages."""
         self._folders: dict[tuple[Path, str], Path | None] = {}
 
     def newer_source(self, path: str) -> str:
@@ -142,7 +142,7 @@ def _workspace(prefix: Path, package: str) -> Path:
 
 
 def _find_source_folder(workspace: Path, package: str) -> Path | None:
-    """Return the folder of a package; the usual places are looked at first."""
+    """Return the folder of a package; the usual places are searched first."""
     if not (workspace / 'src').is_dir():
         return None
     for folder in (workspace / 'src' / package, *(workspace / 'src').glob(f'*/{package}')):
@@ -153,7 +153,7 @@ def _find_source_folder(workspace: Path, package: str) -> Path | None:
 
 
 def _is_copy(path: str, prefix: str) -> bool:
-    """Return whether a file really lies below a prefix, and is not a link to its source."""
+    """Whether an installed file is a copy below the prefix, not a link to its source."""
     return os.path.realpath(path).startswith(os.path.realpath(prefix) + os.sep)
 
 
@@ -200,7 +200,7 @@ def read_setup_script(path: Path) -> SetupScript | None:
     Returns
     -------
     SetupScript or None
-        None if the file cannot be read or is no valid Python.
+        None if the file cannot be read or is not valid Python.
 
     """
     try:
@@ -256,7 +256,7 @@ def _called_name(call: ast.Call) -> str:
 
 
 def _console_scripts(entry_points: ast.expr | None) -> dict[str, str] | None:
-    """Return the console scripts by name, or None if the script does not declare any list."""
+    """Return the console scripts by name; None if the script declares no such list."""
     if not isinstance(entry_points, ast.Dict):
         return None
     for key, value in zip(entry_points.keys, entry_points.values):
@@ -286,7 +286,7 @@ def _matches(path: str, pattern: str) -> bool:
 
 
 def _is_computed(data_files: ast.expr) -> bool:
-    """Tell if data_files uses anything but literals, `glob` and joined paths."""
+    """Whether data_files contains anything but literals, `glob` and joined paths."""
     calls = [node for node in ast.walk(data_files) if isinstance(node, ast.Call)]
     known = all(_called_name(call) in ('glob', 'join') for call in calls)
     return not known or not isinstance(data_files, (ast.List, ast.Tuple))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is said of names: suggestions for misspelt ones, and lists of those that there are."""
+"""Suggestions for misspelt names, and lists of known names for messages."""
 
 from __future__ import annotations
 

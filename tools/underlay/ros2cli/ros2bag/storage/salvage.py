@@ -119,7 +119,7 @@ class Salvage:
     def _contents(self, record: McapRecord, stream: BoundedFile) -> Iterator[Content]:
         """Yield the content of a record; after damage, continue at the next whole chunk."""
         if record.opcode == Opcode.DATA_END:
-            self._compare_sums(record.content)
+            self._verify_checksum(record.content)
         self._sum = zlib.crc32(RECORD_HEADER.pack(*record[:2]), self._sum)
         self._sum = zlib.crc32(record.content, self._sum)
         if record.opcode == Opcode.CHUNK:
@@ -128,7 +128,7 @@ class Salvage:
         value, used = record.parsed()
         if not record.is_plausible or used != record.length:
             start = stream.tell() - record.size
-            self.damaged_parts += self._go_on_behind(stream, start)
+            self.damaged_parts += self._seek_next_chunk(stream, start)
         elif isinstance(value, Content) and not (self._has_chunks and isinstance(value, Message)):
             yield value
 
@@ -144,20 +144,20 @@ class Salvage:
             self._has_chunks = True
             yield from _contents_of(data)
             if used != record.length:
-                self._go_on_behind(stream, start + RECORD_HEADER.size + used)
-        elif self._go_on_behind(stream, start) or record.is_whole:
+                self._seek_next_chunk(stream, start + RECORD_HEADER.size + used)
+        elif self._seek_next_chunk(stream, start) or record.is_whole:
             self.damaged_parts += 1
         elif used == len(record.content) and chunk and not chunk.compression:
             yield from _contents_of(chunk.data)
 
-    def _go_on_behind(self, stream: BoundedFile, position: int) -> bool:
+    def _seek_next_chunk(self, stream: BoundedFile, position: int) -> bool:
         """Seek to the next whole chunk, or to the end; return whether there is one."""
         self.is_sound = False
         following = next_chunk(stream, position)
         stream.seek(stream.size if following is None else following)
         return following is not None
 
-    def _compare_sums(self, content: bytes) -> None:
+    def _verify_checksum(self, content: bytes) -> None:
         """Verify the checksum of the data; zero means no checksum."""
         expected = CRC.unpack(content)[0] if len(content) == CRC.size else 0
         self.is_sound = self.is_sound and expected in (0, self._sum)

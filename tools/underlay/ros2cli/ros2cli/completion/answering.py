@@ -95,7 +95,7 @@ def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) ->
         Returns the root parser for the complete words after `ros2`.
 
     """
-    _end_before_it_annoys()
+    _set_deadline()
     line = os.environ['COMP_LINE']
     *_, words, _ = split_line(line, int(os.environ.get('COMP_POINT', len(line))))
     Finder()(
@@ -105,9 +105,9 @@ def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) ->
     )
 
 
-def _end_before_it_annoys() -> None:
+def _set_deadline() -> None:
     """
-    Set a hard deadline of some seconds for this process, even inside a library.
+    Set a hard deadline of a few seconds for this process, even inside a library.
 
     The shell waits until every process that holds the answer descriptor has exited, so processes
     started by a launch file must not inherit it.

@@ -24,7 +24,7 @@ class ListControllersVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
-        Add the options for what is listed of each controller, and for the controller manager.
+        Add the options for the details of each controller, and for the controller manager.
 
         Parameters
         ----------
@@ -43,7 +43,7 @@ class ListControllersVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """
-        Print each controller with its type and state, and below it what was asked for.
+        Print each controller with its type and state, and the requested details below it.
 
         Parameters
         ----------
@@ -65,7 +65,7 @@ class ListControllersVerb(VerbExtension):
 
 
 def _lines(controller: Any, part: str) -> list[str]:
-    """Return what there is of a part of a controller."""
+    """Return the interfaces of one kind, as the manager reports them for a controller."""
     if part != 'chained_interfaces':
         return list(getattr(controller, part))
     return [

@@ -17,7 +17,7 @@ class SwitchControllersVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
-        Add the options for which controllers are switched, and how.
+        Add the options that select the controllers, and how they are switched.
 
         Parameters
         ----------
