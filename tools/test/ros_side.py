@@ -55,10 +55,13 @@ class RosSide:
         """Return the value of a parameter of a node, as the node says."""
         client = self.node.create_client(GetParameters, f'{node}/get_parameters')
         assert client.wait_for_service(30.0)
-        answer = client.call_async(GetParameters.Request(names=[name]))
-        wait_until(answer.done, 30.0, f'the answer of {node}')
+        request = GetParameters.Request(names=[name])
+        # A server drops its response to a client that it has not discovered yet.
+        answers = (client.call(request, timeout_sec=5.0) for _ in range(6))
+        answer = next((each for each in answers if each is not None), None)
         self.node.destroy_client(client)
-        return answer.result().values[0]
+        assert answer is not None, f'waited 30 s in vain for the answer of {node}'
+        return answer.values[0]
 
     def nodes(self) -> set[str]:
         """Return the names of all nodes."""

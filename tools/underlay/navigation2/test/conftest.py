@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 import gc
+import math
 import os
 import time
 from typing import Any
@@ -16,6 +17,8 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from tf2_ros.executing import make_executor
+
+_REPEAT_S = 2.0
 
 
 class Ros:
@@ -54,16 +57,40 @@ class Ros:
             self.executor.spin_once(timeout_sec=0.02)
         return found
 
-    def call(self, kind: Any, name: str, request: Any = None, timeout_s: float = 20.0) -> Any:
-        """Call a service; return the response."""
+    def call(
+        self,
+        kind: Any,
+        name: str,
+        request: Any = None,
+        timeout_s: float = 20.0,
+        repeat_s: float = math.inf,
+    ) -> Any:
+        """Call a service, again after each `repeat_s` without a response; return the response."""
         node = next((each for each in self.nodes if each.get_name() == 'tester'), None)
         node = node or self.node()
         client = node.create_client(kind, name)
         self.wait_until(client.service_is_ready, timeout_s, f"the service '{name}'")
-        future = client.call_async(kind.Request() if request is None else request)
-        self.wait_until(future.done, timeout_s, f"an answer of '{name}'")
+        request = kind.Request() if request is None else request
+        futures = [client.call_async(request)]
+        start_s = time.monotonic()
+
+        def response() -> Any:
+            if time.monotonic() - start_s > len(futures) * repeat_s:
+                futures.append(client.call_async(request))
+            return next((each for each in futures if each.done()), None)
+
+        found = self.wait_until(response, timeout_s, f"an answer of '{name}'")
         node.destroy_client(client)
-        return future.result()
+        return found.result()
+
+    def ask(self, kind: Any, name: str, request: Any = None) -> Any:
+        """
+        Call an idempotent service of another process; return the response.
+
+        A server drops its response to a client that it has not discovered yet, so that the
+        request is repeated.
+        """
+        return self.call(kind, name, request, repeat_s=_REPEAT_S)
 
     def spin(self, duration_s: float) -> None:
         """Run the nodes for a while, to see that something does not happen."""

@@ -39,7 +39,7 @@ def test_launch_file_activates_the_node(ros, domain, file):
     try:
         ros.wait_until(
             lambda: (
-                ros.call(GetState, '/robot1/slam_toolbox/get_state').current_state.id
+                ros.ask(GetState, '/robot1/slam_toolbox/get_state').current_state.id
                 == State.PRIMARY_STATE_ACTIVE
             ),
             30.0,
@@ -50,7 +50,7 @@ def test_launch_file_activates_the_node(ros, domain, file):
         )
         assert '/map' not in dict(ros.nodes[0].get_topic_names_and_types())
         request = GetParameters.Request(names=['minimum_travel_distance'])
-        found = ros.call(GetParameters, '/robot1/slam_toolbox/get_parameters', request)
+        found = ros.ask(GetParameters, '/robot1/slam_toolbox/get_parameters', request)
         assert found.values[0].double_value == 0.3
     finally:
         program.send_signal(signal.SIGINT)
