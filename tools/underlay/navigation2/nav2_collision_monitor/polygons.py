@@ -14,13 +14,14 @@ from nav2_collision_monitor.parameters import (
 )
 from nav2_collision_monitor.shapes import (
     checked_corners,
+    choose,
     Circle,
     FloatArray,
     parse_points,
     Polygon,
     Shape,
+    VelocityPolygon,
 )
-from nav2_collision_monitor.velocity_polygons import choose, VelocityPolygon
 from nav2_util import ConfigurationError, LifecycleNode, Pose2D, TransformError
 from nav2_util.twist import Velocity
 import numpy as np

@@ -32,7 +32,7 @@ from nav2_collision_monitor.observations import (
     points_of_range,
     points_of_scan,
 )
-from nav2_collision_monitor.velocity_polygons import VelocityPolygon
+from nav2_collision_monitor.shapes import VelocityPolygon
 from nav2_msgs.msg import CollisionDetectorState, CollisionMonitorState
 from nav2_msgs.srv import Toggle
 from nav2_util.twist import Velocity
