@@ -10,8 +10,7 @@ from typing import Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
 from nav2_amcl.conversions import map_of, transform_message
-from nav2_loopback_sim.loopback_robot import LoopbackRobot
-from nav2_loopback_sim.simulated_laser import LaserShape, SimulatedLaser
+from nav2_loopback_sim.loopback_robot import LaserShape, LoopbackRobot, SimulatedLaser
 from nav2_util.geometry import make_quaternion, planar_pose, Pose2D, yaw_of
 from nav2_util.parameters import parameter, ParameterServer
 from nav2_util.timing import steady_clock

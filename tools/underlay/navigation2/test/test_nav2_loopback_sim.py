@@ -10,9 +10,8 @@ import time
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, TwistStamped
 from nav2_amcl.amcl_node import AmclNode
 from nav2_amcl.occupancy_map import OccupancyMap
-from nav2_loopback_sim.loopback_robot import LoopbackRobot
+from nav2_loopback_sim.loopback_robot import LaserShape, LoopbackRobot, SimulatedLaser
 from nav2_loopback_sim.loopback_simulator import _Rhythm, LoopbackSimulator
-from nav2_loopback_sim.simulated_laser import LaserShape, SimulatedLaser
 from nav2_util.geometry import make_pose, planar_pose, Pose2D
 from nav2_util.twist import Velocity
 from nav_msgs.msg import OccupancyGrid, Odometry
