@@ -134,7 +134,7 @@ def run_cli(domain, folder, *words):
         [
             sys.executable,
             '-c',
-            'from nav2_map_server.map_saver_cli import main; exit(main())',
+            'from nav2_map_server.map_saver import main; exit(main())',
             *words,
         ],
         env={
