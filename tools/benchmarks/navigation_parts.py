@@ -13,9 +13,8 @@ from typing import Any
 from ament_index_python import get_package_share_directory
 from builtin_interfaces.msg import Time
 from nav2_amcl.localizer import Localizer, LocalizerSettings
-from nav2_amcl.occupancy_map import OccupancyMap
+from nav2_amcl.occupancy_map import OccupancyMap, RayCaster
 from nav2_amcl.particle_filter import FilterOptions
-from nav2_amcl.ray_casting import RayCaster
 from nav2_amcl.scan_projection import Scan
 from nav2_controller.control import ControlState, Surroundings, Velocity
 from nav2_controller.plugins import CONTROLLERS, PluginContext

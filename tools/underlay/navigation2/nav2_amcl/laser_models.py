@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import math
 from typing import Protocol
 
-from nav2_amcl.occupancy_map import FloatArray, OccupancyMap
-from nav2_amcl.ray_casting import RayCaster
+from nav2_amcl.occupancy_map import FloatArray, OccupancyMap, RayCaster
 from nav2_amcl.scan_projection import Beams
 import numpy as np
 import numpy.typing as npt

@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from nav2_amcl.occupancy_map import FloatArray, OccupancyMap
-from nav2_amcl.ray_casting import RayCaster
+from nav2_amcl.occupancy_map import FloatArray, OccupancyMap, RayCaster
 from nav2_util.geometry import Pose2D
 from nav2_util.twist import Velocity
 import numpy as np

@@ -11,9 +11,8 @@ from nav2_amcl.laser_models import BeamSkipping, LASER_MODELS, LaserNoise, make_
 from nav2_amcl.localizer import Localizer, LocalizerSettings
 from nav2_amcl.missing import describe_missing, Inputs, Reminder
 from nav2_amcl.motion_models import MOTION_MODELS, MotionNoise
-from nav2_amcl.occupancy_map import FREE, OccupancyMap, OCCUPIED, UNKNOWN
+from nav2_amcl.occupancy_map import FREE, OccupancyMap, OCCUPIED, RayCaster, UNKNOWN
 from nav2_amcl.particle_filter import FilterOptions, ParticleFilter
-from nav2_amcl.ray_casting import RayCaster
 from nav2_amcl.resampling import draw_systematically, kld_size, needed_size
 from nav2_amcl.scan_projection import Beams, project_scan, Scan
 from nav2_util.geometry import angle_between, Pose2D

@@ -12,8 +12,7 @@ from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from nav2_amcl.amcl_node import AmclNode
 from nav2_amcl.conversions import cloud_bytes, covariance_of, map_of, transform_message
-from nav2_amcl.occupancy_map import OccupancyMap
-from nav2_amcl.ray_casting import RayCaster
+from nav2_amcl.occupancy_map import OccupancyMap, RayCaster
 from nav2_msgs.msg import ParticleCloud
 from nav2_msgs.srv import SetInitialPose
 from nav2_util.geometry import make_pose, planar_pose, Pose2D
