@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The particles of AMCL: possible poses of the robot and their weights."""
+"""The particles of AMCL, read from messages and shown: possible poses and their weights."""
 
 from __future__ import annotations
 
-from typing import Any
+import struct
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 from nav2_rviz_plugins.interfaces import interface, MISSING
-from nav2_rviz_plugins.particles import ParticleMessage, read_particles
 import numpy as np
 from numpy.typing import NDArray
 from rviz_common.canvas import Canvas
@@ -16,12 +17,75 @@ from rviz_common.topic_display import MessageDisplay
 from rviz_default_plugins.bodies import add_copies, add_lines, arrow
 from rviz_default_plugins.decoding.geometry import matrices_of, Points
 
-__all__ = ['ParticleCloud', 'lengths_of']
+__all__ = ['ParticleCloud', 'ParticleMessage', 'lengths_of', 'read_particles']
+
+HEADER = 4
+"""The size in bytes of the CDR encapsulation before the data, from which alignment counts."""
+ROW = 8
+"""Row layout: position, orientation x, y, z, w, and the weight."""
+
+Floats = NDArray[np.float64]
 
 FLAT, SOLID, AXES = 'Arrow (Flat)', 'Arrow (3D)', 'Axes'
 MOST = 20000
 HEAD = 0.2
 """The length of an arrow's head, as a fraction of the arrow's length."""
+
+
+class ParticleMessage(NamedTuple):
+    """
+    Particle cloud.
+
+    `poses` has a row for each: x, y, z in metres, and the quaternion x, y, z, w.
+    """
+
+    header: Any
+    poses: Floats
+    weights: Floats
+
+
+def read_particles(data: bytes) -> ParticleMessage:
+    """
+    Deserialize a `nav2_msgs/msg/ParticleCloud`.
+
+    rclpy would create four Python objects for each of thousands of particles; the serialized
+    message has them as rows of eight doubles, which numpy reads at once.
+
+    Parameters
+    ----------
+    data
+        The message in CDR, as from a raw subscription.
+
+    Returns
+    -------
+    ParticleMessage
+        The header (stamp and frame_id), poses (N, 7) and weights (N,).
+
+    Raises
+    ------
+    ValueError
+        The bytes are not such a message.
+
+    """
+    order = '<' if len(data) > 1 and data[1] & 1 else '>'
+    try:
+        sec, nanosec, length = struct.unpack_from(f'{order}iII', data, HEADER)
+        begin = HEADER + 12
+        frame_id = data[slice(begin, begin + length - 1)].decode()
+        at = _aligned(begin + length, 4)
+        (count,) = struct.unpack_from(f'{order}I', data, at)
+        at = _aligned(at + 4, 8) if count else at
+        rows = np.frombuffer(data, f'{order}f8', count * ROW, at).reshape(count, ROW)
+    except (struct.error, ValueError) as error:
+        raise ValueError(f'its {len(data)} bytes are not a ParticleCloud: {error}.') from error
+    stamp = SimpleNamespace(sec=sec, nanosec=nanosec)
+    header = SimpleNamespace(stamp=stamp, frame_id=frame_id)
+    return ParticleMessage(header, rows[:, :7].astype(float), rows[:, 7].astype(float))
+
+
+def _aligned(offset: int, size: int) -> int:
+    """Align an offset to a multiple of a size, counted after the encapsulation."""
+    return HEADER + -(-(offset - HEADER) // size) * size
 
 
 class ParticleCloud(MessageDisplay):

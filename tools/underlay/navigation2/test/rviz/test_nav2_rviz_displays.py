@@ -12,8 +12,7 @@ from geometry_msgs.msg import PoseStamped
 from nav2_msgs.msg import Particle
 from nav2_msgs.msg import ParticleCloud as CloudMessage
 from nav2_rviz_plugins import interfaces
-from nav2_rviz_plugins.particle_cloud import lengths_of, ParticleCloud
-from nav2_rviz_plugins.particles import read_particles
+from nav2_rviz_plugins.particle_cloud import lengths_of, ParticleCloud, read_particles
 from nav2_rviz_plugins.progress import outcome, Phase
 from nav2_rviz_plugins.waypoints import waypoint_markers
 import numpy as np
