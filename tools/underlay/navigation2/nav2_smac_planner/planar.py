@@ -11,7 +11,7 @@ from nav2_planner.global_planner import GlobalPlanner, poses_along
 from nav2_planner.grid_planner import GridPlanner
 from nav2_planner.path_shape import blend_headings
 from nav2_planner.route import SearchOptions, weight_table
-from nav2_smac_planner.smoothing import Smoothing, UnsmoothedPlan
+from nav2_smac_planner.smac_planner_2d import Smoothing, UnsmoothedPlan
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
 import numpy as np
