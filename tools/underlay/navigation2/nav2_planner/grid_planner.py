@@ -13,9 +13,9 @@ from nav2_costmap_2d.costs import (
     NO_INFORMATION,
 )
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_planner.any_angle import line_costs, pull_taut
 from nav2_planner.grid_graph import Cell, FloatGrid
 from nav2_planner.grid_search import GridSearch, SearchGrid
+from nav2_planner.path_shape import line_costs, pull_taut
 from nav2_planner.route import PlanningError, Route, SearchOptions
 from nav2_util.geometry import Pose2D
 import numpy as np

@@ -8,7 +8,6 @@ import time
 
 import cv2
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_planner.any_angle import line_costs, pull_taut
 from nav2_planner.corridor import block_graph, corridor
 from nav2_planner.global_planner import finish
 from nav2_planner.grid_graph import cost_to_go, CostToGo, way_cost
@@ -17,6 +16,8 @@ from nav2_planner.grid_search import GridSearch
 from nav2_planner.path_shape import (
     blend_headings,
     headings,
+    line_costs,
+    pull_taut,
     resample,
     round_corners,
     smoothed,
