@@ -16,9 +16,12 @@ from nav2_controller.control import (
 )
 from nav2_controller.plugins import PluginContext
 from nav2_controller.tracking import transform_poses
-from nav2_regulated_pure_pursuit_controller.carrot import cusp_distance, lookahead_point
 from nav2_regulated_pure_pursuit_controller.parameters import RppParameters, UNSUPPORTED
-from nav2_regulated_pure_pursuit_controller.regulation import regulated_speed
+from nav2_regulated_pure_pursuit_controller.pursuit import (
+    cusp_distance,
+    lookahead_point,
+    regulated_speed,
+)
 from nav2_util.errors import ConfigurationError
 from nav2_util.geometry import angle_between, Pose2D
 import numpy as np
