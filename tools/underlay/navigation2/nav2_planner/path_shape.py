@@ -21,16 +21,14 @@ __all__ = [
     'smoothed',
 ]
 
-Points = npt.NDArray[np.float64]
+FloatArray = npt.NDArray[np.float64]
 
 _SPANS = (1, 2, 3, 5, 8, 13, 21, 34)
 _PER_VERTEX = 1e-3
 _TIE = 1e-6
 
-FloatArray = npt.NDArray[np.float64]
 
-
-def line_costs(weights: FloatGrid, starts: Points, ends: Points) -> npt.NDArray[np.float64]:
+def line_costs(weights: FloatGrid, starts: FloatArray, ends: FloatArray) -> FloatArray:
     """
     Compute the costs of straight lines; infinite where one touches a cell of infinite weight.
 
@@ -87,7 +85,7 @@ def line_costs(weights: FloatGrid, starts: Points, ends: Points) -> npt.NDArray[
     return costs
 
 
-def pull_taut(weights: FloatGrid, way: npt.NDArray[np.int32]) -> Points:
+def pull_taut(weights: FloatGrid, way: npt.NDArray[np.int32]) -> FloatArray:
     """
     Replace stretches of a path by straight lines where that costs no more.
 
@@ -113,8 +111,8 @@ def pull_taut(weights: FloatGrid, way: npt.NDArray[np.int32]) -> Points:
 
 
 def _choose(
-    weights: FloatGrid, points: Points, kept: npt.NDArray[np.intp], spans: tuple[int, ...]
-) -> Points:
+    weights: FloatGrid, points: FloatArray, kept: npt.NDArray[np.intp], spans: tuple[int, ...]
+) -> FloatArray:
     """Choose the cheapest chain of lines between candidate points, in order."""
     steps = line_costs(weights, points[:-1], points[1:])
     so_far = np.concatenate([[0.0], np.cumsum(steps)])[kept]
