@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from nav2_behavior_tree.odometry import OdometrySmoother
-from nav2_behavior_tree.ros_interface import RosInterface
+from nav2_behavior_tree.ros_interface import OdometrySmoother, RosInterface
 from nav2_behavior_tree.status import StatusChange
 from nav2_bt_navigator.tree_files import TreeFiles
 from nav2_msgs.msg import BehaviorTreeLog, BehaviorTreeStatusChange

@@ -15,8 +15,7 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped
 from nav2_behavior_tree import BehaviorTree
-from nav2_behavior_tree.odometry import OdometrySmoother
-from nav2_behavior_tree.ros_interface import RosInterface
+from nav2_behavior_tree.ros_interface import OdometrySmoother, RosInterface
 from nav2_bt_navigator import BtNavigator, TREE_FOLDER
 from nav2_msgs.action import NavigateThroughPoses, NavigateToPose
 from nav2_msgs.msg import BehaviorTreeLog

@@ -10,8 +10,7 @@ from typing import Any
 
 from geometry_msgs.msg import PoseStamped
 from nav2_behavior_tree import action_node, BehaviorTree, NodeStatus
-from nav2_behavior_tree.odometry import OdometrySmoother
-from nav2_behavior_tree.ros_interface import LATCHED, RosInterface
+from nav2_behavior_tree.ros_interface import LATCHED, OdometrySmoother, RosInterface
 from nav2_msgs.srv import GetCost
 from nav2_util import LifecycleNode, Pose2D
 from nav2_util.geometry import make_path
