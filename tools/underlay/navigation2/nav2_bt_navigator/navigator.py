@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import PoseStamped
+from nav2_behavior_tree.geometry import PathProgress, time_left_s
 from nav2_behavior_tree.status import NodeStatus, TreeError
 from nav2_behavior_tree.tree import BehaviorTree
 from nav2_bt_navigator.navigation_node import NavigationNode
-from nav2_bt_navigator.progress import PathProgress, time_left_s
 from nav2_bt_navigator.tree_files import find_tree_file
 from nav2_util import ActionAborted, ConfigurationError, Pose2D, TransformError
 from nav2_util.geometry import make_pose_stamped
