@@ -23,7 +23,6 @@ _MODULES = (
     'navigation_actions',
     'path_actions',
     'pace',
-    'plugin_selectors',
     'robot_conditions',
     'services',
 )
