@@ -7,10 +7,8 @@ from typing import Any
 
 from nav2_behaviors.assisted_teleop import AssistedTeleop
 from nav2_behaviors.behavior_node import BehaviorNode, BehaviorServerParameters, DEFAULT_TYPES
-from nav2_behaviors.drive_on_heading import BackUp, DriveOnHeading
-from nav2_behaviors.spin import Spin
+from nav2_behaviors.recoveries import BackUp, DriveOnHeading, Spin, Wait
 from nav2_behaviors.timed_behavior import TimedBehavior
-from nav2_behaviors.wait import Wait
 from nav2_util import ConfigurationError
 from nav2_util.plugins import did_you_mean
 from nav2_util.twist import Velocity

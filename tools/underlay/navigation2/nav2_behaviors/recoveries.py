@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviours that drive the robot straight forward or backward."""
+"""The behaviours that spin the robot in place, drive it straight, back it up, or wait."""
 
 from __future__ import annotations
 
@@ -7,14 +7,102 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from nav2_behaviors.motion import drive_speed, motion_ahead
-from nav2_behaviors.timed_behavior import LookAheadParameters, TimedBehavior
+from nav2_behaviors.motion import drive_speed, motion_ahead, Turn, turn_rate
+from nav2_behaviors.timed_behavior import (
+    duration_message,
+    LookAheadParameters,
+    seconds,
+    TimedBehavior,
+)
 from nav2_msgs.action import BackUp as BackUpAction
 from nav2_msgs.action import DriveOnHeading as DriveOnHeadingAction
+from nav2_msgs.action import Spin as SpinAction
+from nav2_msgs.action import Wait as WaitAction
 from nav2_util import parameter
 from nav2_util.twist import Velocity
 
-__all__ = ['BackUp', 'DriveOnHeading', 'DriveParameters']
+__all__ = ['BackUp', 'DriveOnHeading', 'DriveParameters', 'Spin', 'SpinParameters', 'Wait']
+
+
+@dataclass(frozen=True)
+class SpinParameters:
+    """The parameters of Spin, without a prefix."""
+
+    max_rotational_vel: float = parameter(1.0, 'The fastest turn (rad/s).', low=0.0)
+    min_rotational_vel: float = parameter(0.4, 'The slowest turn (rad/s).', low=0.0)
+    rotational_acc_lim: float = parameter(3.2, 'How fast it can stop (rad/s^2).', low=0.0)
+
+
+class Spin(TimedBehavior):
+    """Behaviour that rotates the robot in place by an angle, unless a collision is ahead."""
+
+    action = SpinAction
+
+    def configure(self) -> None:
+        """Declare the parameters."""
+        self._look = self.node.parameters.declare(LookAheadParameters)
+        self._limits = self.node.parameters.declare(SpinParameters)
+
+    def begin(self, goal: Any) -> None:
+        """
+        Check the angle, and record the initial yaw.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action: an angle in rad, positive to the left.
+
+        Raises
+        ------
+        ActionAborted
+            The angle is not finite, or the robot's pose is not available.
+
+        """
+        if not math.isfinite(goal.target_yaw):
+            raise self.abort('UNKNOWN', f"'{self.name}' cannot turn by {goal.target_yaw} rad.")
+        self._turn = Turn(goal.target_yaw, self.pose().yaw)
+
+    def step(self, elapsed_s: float) -> bool:
+        """
+        Publish the next angular velocity, lower near the end.
+
+        Parameters
+        ----------
+        elapsed_s
+            The time since the start of the goal, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether the angle is reached.
+
+        Raises
+        ------
+        ActionAborted
+            A collision is ahead, or the robot's pose is not available.
+
+        """
+        turn, limits = self._turn, self._limits.current
+        turn.update(self.pose().yaw)
+        self.server.publish_feedback(
+            SpinAction.Feedback(angular_distance_traveled=turn.turned_rad)
+        )
+        if turn.is_done:
+            return True
+        rate = turn_rate(
+            turn.remaining_rad,
+            limits.max_rotational_vel,
+            limits.min_rotational_vel,
+            limits.rotational_acc_lim,
+        )
+        velocity = Velocity(yaw=math.copysign(rate, turn.target_rad))
+        until_s = turn.remaining_rad / rate if rate else 0.0
+        period_s = 1.0 / self.node.told.current.cycle_frequency
+        horizon_s = self._look.current.simulate_ahead_time
+        _, poses = motion_ahead(velocity, horizon_s, period_s, until_s)
+        self.check_ahead(poses)
+        self.drive(velocity)
+        return False
 
 
 @dataclass(frozen=True)
@@ -134,3 +222,52 @@ class BackUp(DriveOnHeading):
         if x and not speed:
             raise self.abort('INVALID_INPUT', 'The speed must not be 0.')
         return abs(x), -abs(speed)
+
+
+class Wait(TimedBehavior):
+    """Behaviour that keeps the robot waiting for a duration."""
+
+    action = WaitAction
+
+    def time_allowance_s(self, goal: Any) -> float:
+        """
+        Return 0: the duration of the wait is the only limit.
+
+        Parameters
+        ----------
+        goal
+            The goal message of the action.
+
+        """
+        return 0.0
+
+    def begin(self, goal: Any) -> None:
+        """
+        Record how long to wait.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action, with its duration.
+
+        """
+        self._duration_s = seconds(goal.time)
+
+    def step(self, elapsed_s: float) -> bool:
+        """
+        Publish the remaining time as feedback.
+
+        Parameters
+        ----------
+        elapsed_s
+            The time since the start of the goal, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether the time is over.
+
+        """
+        left_s = max(self._duration_s - elapsed_s, 0.0)
+        self.server.publish_feedback(WaitAction.Feedback(time_left=duration_message(left_s)))
+        return left_s == 0.0
