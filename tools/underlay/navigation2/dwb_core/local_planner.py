@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 import math
 
 from dwb_critics.critic import Critic, Scene
-from dwb_critics.map_grid import (
+from dwb_critics.grid import (
+    BaseObstacleCritic,
     GoalAlignCritic,
     GoalDistCritic,
+    ObstacleFootprintCritic,
     PathAlignCritic,
     PathDistCritic,
 )
@@ -19,7 +21,6 @@ from dwb_critics.motion import (
     RotateToGoalCritic,
     TwirlingCritic,
 )
-from dwb_critics.obstacles import BaseObstacleCritic, ObstacleFootprintCritic
 from dwb_plugins.generators import make_generator, Rollouts
 from nav2_controller.control import (
     Command,
