@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import numpy as np
-from slam_toolbox_py.correlation import correlate
 from slam_toolbox_py.mapper import (
     find_again,
     has_moved,
@@ -13,8 +12,8 @@ from slam_toolbox_py.mapper import (
     placement_of,
     trust_in_odometry,
 )
+from slam_toolbox_py.matching import correlate, refine, RefinedMatch, Surfaces
 from slam_toolbox_py.poses import compose, FloatArray, inverse, relative
-from slam_toolbox_py.refinement import refine, RefinedMatch, Surfaces
 from slam_toolbox_py.scans import Scan
 
 __all__ = ['Localizer']

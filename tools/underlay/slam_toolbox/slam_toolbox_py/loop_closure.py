@@ -11,11 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from slam_toolbox_py.correlation import correlate
 from slam_toolbox_py.mapper import Mapper
+from slam_toolbox_py.matching import correlate, refine
 from slam_toolbox_py.pose_graph import carried, Edge
 from slam_toolbox_py.poses import FloatArray, relative
-from slam_toolbox_py.refinement import refine
 
 __all__ = ['close_loops', 'find_chains']
 

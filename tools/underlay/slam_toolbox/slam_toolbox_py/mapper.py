@@ -12,10 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from slam_toolbox_py.correlation import correlate
+from slam_toolbox_py.matching import correlate, refine, RefinedMatch, Surfaces
 from slam_toolbox_py.pose_graph import Edge, PoseGraph
 from slam_toolbox_py.poses import compose, FloatArray, inverse, relative, wrap
-from slam_toolbox_py.refinement import refine, RefinedMatch, Surfaces
 from slam_toolbox_py.scans import Scan
 from slam_toolbox_py.settings import MapperSettings
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from slam_toolbox_py.correlation import CorrelationSettings
+from slam_toolbox_py.matching import CorrelationSettings
 
 __all__ = ['MapperSettings']
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from slam_toolbox_py.correlation import correlate, CorrelationSettings
+from slam_toolbox_py.matching import correlate, CorrelationSettings, refine, Surfaces
 from slam_toolbox_py.poses import compose, relative, transform
-from slam_toolbox_py.refinement import refine, Surfaces
 from slam_toolbox_py.scans import surface_normals, take_scan
 from slam_world import ANGLES, room, walls
 
