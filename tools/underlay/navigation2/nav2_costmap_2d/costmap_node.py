@@ -24,13 +24,14 @@ from nav2_costmap_2d.robot import Robot
 from nav2_util.errors import ConfigurationError
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
+from nav2_util.main import main as run_main
 from nav2_util.parameters import ParameterSet
 from nav2_util.timing import clock_of, now_s
 import numpy as np
 from rclpy.parameter import Parameter
 from rclpy.timer import Timer
 
-__all__ = ['Costmap2DROS', 'make_costmap']
+__all__ = ['Costmap2DROS', 'main', 'make_costmap']
 
 
 class Costmap2DROS(LifecycleNode):
@@ -334,3 +335,8 @@ def _taken_overrides(owner: LifecycleNode, name: str) -> list[Parameter]:
         Parameter(each.removeprefix('ros__parameters.'), value=given.value)
         for each, given in taken.items()
     ]
+
+
+def main() -> int:
+    """Spin a standalone costmap, /costmap/costmap, until a signal; return the exit status."""
+    return run_main(lambda: Costmap2DROS('costmap', namespace='costmap'))
