@@ -9,7 +9,7 @@ import pytest
 from rclpy.duration import Duration
 from tf2_messages import at, numbers, stamped
 from tf2_py import BufferCore
-from tf2_py.refusals import Complaints
+from tf2_py.intake import Complaints
 import yaml
 
 

@@ -9,12 +9,10 @@ import threading
 from typing import Optional, TYPE_CHECKING
 
 from tf2_py._frame_store import FrameStore
-from tf2_py.exceptions import TransformException
+from tf2_py.intake import Intake
 from tf2_py.known_frames import KnownFrames
+from tf2_py.lookups import Lookups
 from tf2_py.messages import nanoseconds, Reading, reading_of, transform_message
-from tf2_py.poses import chain, normalized, Pose
-from tf2_py.refusals import bad_quaternion, both_kinds, Complaints, old_data, refusal
-from tf2_py.samples import Sample
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
@@ -54,7 +52,8 @@ class BufferCore:
         self._store = FrameStore(cache_ns)
         self._lock = threading.RLock()
         self.known_frames = KnownFrames(self._store, self._lock)
-        self._complaints = Complaints(self._warn)
+        self._lookups = Lookups(self._store, self._lock)
+        self._intake = Intake(self._store, self._lock, self._warn)
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """
@@ -115,11 +114,7 @@ class BufferCore:
             The transform is not available; the subclass and the message state why.
 
         """
-        with self._lock:
-            self._store.check(
-                'lookupTransform', target_frame=target_frame, source_frame=source_frame
-            )
-            time_ns, pose = self._pose(target_frame, source_frame, nanoseconds(time))
+        time_ns, pose = self._lookups.pose(target_frame, source_frame, time)
         return transform_message(target_frame, source_frame, time_ns, pose)
 
     def lookup_transform_full_core(
@@ -154,11 +149,10 @@ class BufferCore:
             The transform is not available; the subclass and the message state why.
 
         """
-        with self._lock:
-            self._check_full('lookupTransform', target_frame, source_frame, fixed_frame)
-            time_ns, above = self._pose(target_frame, fixed_frame, nanoseconds(target_time))
-            _, below = self._pose(fixed_frame, source_frame, nanoseconds(source_time))
-        return transform_message(target_frame, source_frame, time_ns, chain(above, below))
+        time_ns, pose = self._lookups.pose_over_time(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+        return transform_message(target_frame, source_frame, time_ns, pose)
 
     def can_transform_core(
         self, target_frame: str, source_frame: str, time: Time
@@ -177,15 +171,8 @@ class BufferCore:
             Whether it succeeds, and the reason for a failure or ''.
 
         """
-        try:
-            with self._lock:
-                self._store.check(
-                    'canTransform', target_frame=target_frame, source_frame=source_frame
-                )
-                self._find(target_frame, source_frame, nanoseconds(time))
-        except TransformException as error:
-            return False, str(error)
-        return True, ''
+        reason = self._lookups.problem(target_frame, source_frame, time)
+        return not reason, reason
 
     def can_transform_full_core(
         self,
@@ -209,14 +196,10 @@ class BufferCore:
             Whether it succeeds, and the reason for a failure or ''.
 
         """
-        try:
-            with self._lock:
-                self._check_full('canTransform', target_frame, source_frame, fixed_frame)
-                self._find(target_frame, fixed_frame, nanoseconds(target_time))
-                self._find(fixed_frame, source_frame, nanoseconds(source_time))
-        except TransformException as error:
-            return False, str(error)
-        return True, ''
+        reason = self._lookups.problem_over_time(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+        return not reason, reason
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
         """
@@ -240,11 +223,7 @@ class BufferCore:
         """
         from rclpy.time import Time
 
-        with self._lock:
-            self._store.check(
-                'getLatestCommonTime', target_frame=target_frame, source_frame=source_frame
-            )
-            return Time(nanoseconds=self._store.common_time_ns(target_frame, source_frame))
+        return Time(nanoseconds=self._lookups.common_time_ns(target_frame, source_frame))
 
     def clear(self) -> None:
         """Remove all transforms except static ones."""
@@ -277,10 +256,7 @@ class BufferCore:
             Whether the transforms are valid at all times.
 
         """
-        for parent, child, stamp_ns, pose in readings:
-            self._insert(
-                parent.lstrip('/'), child.lstrip('/'), stamp_ns, pose, authority, is_static
-            )
+        self._intake.insert(readings, authority, is_static)
 
     def _allFramesAsDot(self) -> str:  # noqa: N802
         """Format the frames as a Graphviz graph."""
@@ -310,40 +286,3 @@ class BufferCore:
     def _warn(self, text: str) -> None:
         """Log a warning about a transform."""
         logging.getLogger('tf2').warning(text)
-
-    def _insert(
-        self, parent: str, child: str, stamp_ns: int, pose: Pose, authority: str, is_static: bool
-    ) -> None:
-        reason = refusal(parent, child, pose, authority)
-        unit = None if reason else normalized(pose)
-        if unit is None:
-            reason = reason or bad_quaternion(child, pose, authority)
-            self._complaints.add(reason, child, authority)
-            return
-        with self._lock:
-            if self._store.changes_kind(child, is_static):
-                self._complaints.add(both_kinds(child, authority), child, 'both')
-            is_new = self._store.insert(
-                child, Sample(stamp_ns, parent, unit, authority), is_static
-            )
-        if not is_new:
-            self._complain_of_old(child, stamp_ns, authority)
-
-    def _complain_of_old(self, child: str, stamp_ns: int, authority: str) -> None:
-        latest = self._store.latest(child)
-        if latest is not None:
-            text = old_data(child, stamp_ns, latest.stamp_ns, self._store.cache_ns, authority)
-            self._complaints.add(text, child, authority)
-
-    def _check_full(self, call: str, target: str, source: str, fixed: str) -> None:
-        self._store.check(call, target_frame=target, source_frame=source, fixed_frame=fixed)
-
-    def _pose(self, target: str, source: str, time_ns: int) -> tuple[int, Pose]:
-        """Return the actual time (0 is the latest common one) and the pose at that time."""
-        time_ns = time_ns or self._store.common_time_ns(target, source)
-        return time_ns, self._store.pose(target, source, time_ns)
-
-    def _find(self, target: str, source: str, time_ns: int) -> None:
-        """Raise an exception if two frames are not connected at a time."""
-        time_ns = time_ns or self._store.common_time_ns(target, source)
-        self._store.route(target, source, time_ns)

@@ -12,7 +12,7 @@ from rclpy.clock import ClockChange, JumpThreshold
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.logging import get_logger
-from tf2_py.refusals import Complaints
+from tf2_py.intake import Complaints
 from tf2_ros._waiting import Question, WaitingBuffer
 from tf2_ros.buffer_interface import BufferInterface
 

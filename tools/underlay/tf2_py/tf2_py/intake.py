@@ -1,14 +1,84 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reject invalid transforms, and warn about them without repetition."""
+"""Which transforms a buffer takes in, and what it says about the others, without repetition."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 import time
+from typing import TYPE_CHECKING
 
-from tf2_py.poses import is_finite, Pose
+from tf2_py.poses import is_finite, normalized, Pose
+from tf2_py.samples import Sample
+
+if TYPE_CHECKING:
+    import threading
+
+    from tf2_py._frame_store import FrameStore
+    from tf2_py.messages import Reading
 
 _SILENCE_S = 10.0
+
+
+class Intake:
+    """
+    Intake of a buffer: stores valid transforms, and warns about the others.
+
+    Parameters
+    ----------
+    store
+        The frames with their samples.
+    lock
+        Guards the store.
+    say
+        The function that logs a warning.
+
+    """
+
+    def __init__(
+        self, store: FrameStore, lock: threading.RLock, say: Callable[[str], object]
+    ) -> None:
+        self._store = store
+        self._lock = lock
+        self._complaints = Complaints(say)
+
+    def insert(self, readings: Iterable[Reading], authority: str, is_static: bool) -> None:
+        """
+        Insert transforms given as frame names and numbers.
+
+        Parameters
+        ----------
+        readings
+            For each transform: parent frame, child frame, stamp in ns, and pose of the child.
+        authority
+            The publisher of the transforms.
+        is_static
+            Whether the transforms are valid at all times.
+
+        """
+        for parent, child, stamp_ns, pose in readings:
+            parent, child = parent.lstrip('/'), child.lstrip('/')
+            reason = refusal(parent, child, pose, authority)
+            unit = None if reason else normalized(pose)
+            if unit is None:
+                reason = reason or bad_quaternion(child, pose, authority)
+                self._complaints.add(reason, child, authority)
+            else:
+                self._keep(child, Sample(stamp_ns, parent, unit, authority), is_static)
+
+    def _keep(self, child: str, sample: Sample, is_static: bool) -> None:
+        with self._lock:
+            if self._store.changes_kind(child, is_static):
+                self._complaints.add(both_kinds(child, sample.authority), child, 'both')
+            is_new = self._store.insert(child, sample, is_static)
+        if not is_new:
+            self._complain_of_old(child, sample)
+
+    def _complain_of_old(self, child: str, sample: Sample) -> None:
+        latest = self._store.latest(child)
+        if latest is not None:
+            authority, cache_ns = sample.authority, self._store.cache_ns
+            text = old_data(child, sample.stamp_ns, latest.stamp_ns, cache_ns, authority)
+            self._complaints.add(text, child, authority)
 
 
 def refusal(parent: str, child: str, pose: Pose, authority: str) -> str:
