@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
-__all__ = ['ACTIONS', 'Goal', 'Phase', 'outcome']
+__all__ = ['ACTIONS', 'THROUGH', 'TO_POSE', 'WAYPOINTS', 'Goal', 'Phase', 'outcome']
 
+TO_POSE, THROUGH, WAYPOINTS = 'navigate_to_pose', 'navigate_through_poses', 'follow_waypoints'
 ACTIONS = {
-    'navigate_to_pose': 'Navigate to pose',
-    'navigate_through_poses': 'Navigate through poses',
-    'follow_waypoints': 'Follow waypoints',
+    TO_POSE: 'Navigate to pose',
+    THROUGH: 'Navigate through poses',
+    WAYPOINTS: 'Follow waypoints',
 }
 """The monitored actions, with their titles."""
 

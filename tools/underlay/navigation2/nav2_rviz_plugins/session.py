@@ -12,9 +12,8 @@ from geometry_msgs.msg import PoseStamped
 from nav2_rviz_plugins.action_watch import ActionWatch
 from nav2_rviz_plugins.interfaces import interface
 from nav2_rviz_plugins.managers import command_all, ManagerWatch
-from nav2_rviz_plugins.progress import ACTIONS, Goal
-from nav2_rviz_plugins.waypoints import waypoint_markers
-from nav2_util.qos import LATCHED
+from nav2_rviz_plugins.progress import ACTIONS, Goal, THROUGH, TO_POSE, WAYPOINTS
+from nav2_rviz_plugins.waypoints import WaypointDisplay
 from nav2_util.timing import steady_clock
 from robot_console.namespaces import below
 from robot_console.service_calls import ServiceCalls
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ['NavigationSession', 'close_sessions', 'session_of']
 
-TO_POSE, THROUGH, WAYPOINTS = ACTIONS
 PERIOD_S = 0.1
 LOOK_S = 1.0
 MOST = 200
@@ -67,7 +65,6 @@ class NavigationSession:
         self.is_watched = False
         """Whether the state of the lifecycle managers is needed."""
         self.note = ''
-        self.markers = MarkerArray()
         self._calls = ServiceCalls(node)
         self._actions = {
             action: ActionWatch(node, self._calls, kind, action, below(namespace, action))
@@ -80,9 +77,7 @@ class NavigationSession:
         self._newest = TO_POSE
         self._begun = dict.fromkeys(ACTIONS, 0)
         self._sent: list[PoseStamped] = []
-        self._marked: Any = None
-        topic = below(namespace, 'waypoints')
-        self._publisher = node.create_publisher(MarkerArray, topic, LATCHED)
+        self._display = WaypointDisplay(node, below(namespace, 'waypoints'))
         self._looked_s = 0.0
         self._timer = node.create_timer(PERIOD_S, self.update, clock=steady_clock())
 
@@ -90,6 +85,11 @@ class NavigationSession:
     def goal(self) -> Goal | None:
         """Return the newest goal of all actions."""
         return self._actions[self._newest].goal
+
+    @property
+    def markers(self) -> MarkerArray:
+        """Return the markers of the goals that are shown."""
+        return self._display.markers
 
     def take_pose(self, pose: PoseStamped) -> None:
         """
@@ -216,7 +216,7 @@ class NavigationSession:
         if self.is_watched:
             for manager in self._managers:
                 manager.update(now_s)
-        self._mark()
+        self._display.update(self.waypoints, self._sent, self.goal)
 
     def told(self) -> dict[str, Any]:
         """Return the state to show on the page."""
@@ -239,7 +239,7 @@ class NavigationSession:
         for manager in self._managers:
             manager.close()
         self._calls.close()
-        self.node.destroy_publisher(self._publisher)
+        self._display.close()
 
     def _is_part(self, action: str) -> bool:
         """Whether the goal of an action is only a part of the waypoint goal in progress."""
@@ -267,26 +267,6 @@ class NavigationSession:
         self.note = ''
         self._sent = poses
         self._actions[action].send(len(poses), **fields)
-
-    def _mark(self) -> None:
-        """Publish the markers of the goals if they have changed."""
-        goal = self.goal
-        current: int | None = None
-        missed: list[int] = []
-        if goal is not None and goal.is_own and goal.action == WAYPOINTS:
-            missed = goal.missed
-            if not goal.phase.is_over:
-                current = int(goal.numbers.get('current_waypoint', 0))
-        poses = self.waypoints
-        is_single = not poses and goal is not None and goal.is_own and goal.action == TO_POSE
-        if is_single and goal is not None and not goal.phase.is_over:
-            poses = self._sent
-        key = [id(each) for each in poses], current, list(missed), is_single
-        if key == self._marked:
-            return
-        self._marked = key
-        self.markers = waypoint_markers(poses, not is_single, current, missed)
-        self._publisher.publish(self.markers)
 
 
 _sessions: WeakKeyDictionary[Node, dict[str, NavigationSession]] = WeakKeyDictionary()

@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The markers of goals: an arrow for each, and a number if there are several."""
+"""Show the goals of a robot: an arrow for each, and a number if there are several."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from geometry_msgs.msg import PoseStamped
+from nav2_rviz_plugins.progress import Goal, TO_POSE, WAYPOINTS
+from nav2_util.qos import LATCHED
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
-__all__ = ['waypoint_markers']
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['WaypointDisplay', 'waypoint_markers']
 
 NAMESPACE = 'waypoints'
 ARROW_M = (0.4, 0.08, 0.08)
@@ -21,6 +26,64 @@ TEXT_ABOVE_M = 0.35
 WAITING = (0.16, 0.62, 0.95)
 CURRENT = (0.20, 0.80, 0.30)
 MISSED = (0.95, 0.30, 0.25)
+
+
+class WaypointDisplay:
+    """
+    Publisher of the markers of waypoints, or of a single goal in progress, when they change.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    topic
+        The topic of the markers.
+
+    """
+
+    def __init__(self, node: Node, topic: str) -> None:
+        self.markers = MarkerArray()
+        """The markers that were published last."""
+        self._key: Any = None
+        self._node = node
+        self._publisher = node.create_publisher(MarkerArray, topic, LATCHED)
+
+    def update(
+        self, waypoints: Sequence[PoseStamped], sent: Sequence[PoseStamped], goal: Goal | None
+    ) -> None:
+        """
+        Publish the markers if they have changed.
+
+        Parameters
+        ----------
+        waypoints
+            The collected waypoints.
+        sent
+            The poses of the goal that was sent last.
+        goal
+            The newest goal of all actions, of any client.
+
+        """
+        current: int | None = None
+        missed: list[int] = []
+        if goal is not None and goal.is_own and goal.action == WAYPOINTS:
+            missed = goal.missed
+            if not goal.phase.is_over:
+                current = int(goal.numbers.get('current_waypoint', 0))
+        poses = waypoints
+        is_single = not poses and goal is not None and goal.is_own and goal.action == TO_POSE
+        if is_single and goal is not None and not goal.phase.is_over:
+            poses = sent
+        key = [id(each) for each in poses], current, list(missed), is_single
+        if key == self._key:
+            return
+        self._key = key
+        self.markers = waypoint_markers(poses, not is_single, current, missed)
+        self._publisher.publish(self.markers)
+
+    def close(self) -> None:
+        """Stop publishing."""
+        self._node.destroy_publisher(self._publisher)
 
 
 def waypoint_markers(
