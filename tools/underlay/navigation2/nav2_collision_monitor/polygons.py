@@ -14,7 +14,7 @@ from nav2_collision_monitor.parameters import (
 )
 from nav2_collision_monitor.shapes import (
     checked_corners,
-    choose,
+    choose_polygon,
     Circle,
     FloatArray,
     parse_points,
@@ -207,7 +207,7 @@ class MonitoredZone:
                 self._warn(f"The polygon '{self.name}' stays where it was. {error}")
         elif self._by_velocity and command is not None:
             is_holonomic = self.parameters.current.holonomic
-            chosen = choose(self._by_velocity, command, is_holonomic)
+            chosen = choose_polygon(self._by_velocity, command, is_holonomic)
             if chosen is not None:
                 self._shape = chosen.shape
             else:

@@ -19,7 +19,7 @@ __all__ = [
     'Shape',
     'VelocityPolygon',
     'checked_corners',
-    'choose',
+    'choose_polygon',
     'parse_points',
 ]
 
@@ -226,7 +226,7 @@ class VelocityPolygon:
         return angle >= start or angle <= end
 
 
-def choose(
+def choose_polygon(
     polygons: Sequence[VelocityPolygon], velocity: Velocity, is_holonomic: bool
 ) -> VelocityPolygon | None:
     """
