@@ -38,8 +38,6 @@ __all__ = ['MPPIController', 'Optimizer']
 
 Floats = npt.NDArray[np.float32]
 
-FloatArray = npt.NDArray[np.float64]
-
 _CRITICS: dict[str, type[Critic]] = {
     'ConstraintCritic': critics.ConstraintCritic,
     'CostCritic': obstacle_critics.CostCritic,
