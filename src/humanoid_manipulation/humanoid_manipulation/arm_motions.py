@@ -9,12 +9,13 @@ from contextlib import contextmanager
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_description.robot import Array
-from humanoid_manipulation.arm_world import Obstacle
+from humanoid_manipulation.arm_trajectory import timed
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.grasps import Grasp
 from humanoid_manipulation.held_things import carrying, HANGING
 from humanoid_manipulation.manipulation_node import ManipulationNode
-from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
+from humanoid_manipulation.motion_planning import approach, BlockedError, plan
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.stances import base_of, Bend, BENDS, effort, grasp_reaches
 from humanoid_manipulation.upper_body import OutOfReachError, Reach
 import numpy as np

@@ -17,44 +17,16 @@ from humanoid_control.dynamics.frames import Frame
 from humanoid_description.drives import SIDES
 from humanoid_description.loading import load_robot
 from humanoid_description.rotations import quaternion_of
-from humanoid_manipulation.errors import ManipulationError
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import mujoco
-import numpy as np
 
-__all__ = ['ArmWorld', 'CollisionPair', 'Obstacle']
+__all__ = ['ArmWorld', 'CollisionPair']
 
 _ARM_LINKS = ('upper_arm', 'forearm', 'palm', 'finger', 'thumb')
 _NEVER = (('finger', 'thumb'), ('forearm', 'palm'))
 """Pairs of links of an arm that overlap or touch by design."""
 _COMPILER = '<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco></robot>'
-
-
-@dataclass(frozen=True, eq=False)
-class Obstacle:
-    """
-    A box-shaped obstacle.
-
-    Attributes
-    ----------
-    name
-        The name in messages.
-    middle
-        The pose of its centre: in the pelvis frame, or, for a held object, in the gripper frame.
-    size_m
-        Its edge lengths (3,) along its axes.
-
-    """
-
-    name: str
-    middle: Frame
-    size_m: tuple[float, float, float]
-
-    def __post_init__(self) -> None:
-        """Validate the pose and the size."""
-        numbers = (*self.size_m, *self.middle.position_m, *self.middle.rotation.ravel())
-        if min(self.size_m) <= 0.0 or not np.isfinite(numbers).all():
-            raise ManipulationError(f"'{self.name}' is not a box: its edges are {self.size_m} m.")
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,10 @@ from humanoid_description.drives import SIDES
 from humanoid_description.errors import DescriptionError
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Array
-from humanoid_manipulation.arm_world import ArmWorld, Obstacle
+from humanoid_manipulation.arm_trajectory import ArmTrajectory
+from humanoid_manipulation.arm_world import ArmWorld
 from humanoid_manipulation.errors import ManipulationError
-from humanoid_manipulation.motion_planning import ArmTrajectory
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import numpy as np
 from rclpy.node import Node

@@ -247,7 +247,7 @@ class ManipulationAction:
 
         """
         await self.node.arms.wait(goal)
-        self.hands.update_held()
+        self.node.update_held()
 
 
 def unsound_side(side: str) -> str:

@@ -9,9 +9,9 @@ from action_msgs.msg import GoalStatus
 from control_msgs.action import GripperCommand
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_manipulation.arm_world import Obstacle
-from humanoid_manipulation.arms import Arms
-from humanoid_manipulation.held_things import HANGING, Held, HeldThings, SOMETHING
+from humanoid_description.robot import Array
+from humanoid_manipulation.held_things import Held, HeldThings, SOMETHING
+from humanoid_manipulation.obstacle import Obstacle
 import numpy as np
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -42,31 +42,35 @@ class Hands:
     ----------
     node
         The node that owns the action clients.
-    arms
-        Measures the gaps and the forces of the grippers.
     held
         The held objects, which are updated.
 
     """
 
-    def __init__(self, node: Node, arms: Arms, held: HeldThings) -> None:
-        self._node, self._arms, self._held = node, arms, held
+    def __init__(self, node: Node, held: HeldThings) -> None:
+        self._node, self._held = node, held
         self._grippers: dict[str, ActionClient] = {}
 
-    def update_held(self) -> None:
+    def update_held(self, side: str, gap_m: float, force_n: float, gripper: Array) -> None:
         """
-        Update which hands hold an object, from the measured gaps and forces of the grippers.
+        Update whether a hand holds an object, from the measured state of its gripper.
 
         A hand that closes with a force but stays open holds something, whichever node closed it;
         a hand whose fingers have moved since it grasped its object no longer holds it.
+
+        Parameters
+        ----------
+        side, gap_m, force_n
+            The side of the hand, the gap between its fingers, and their force: see `Arms.grip_of`.
+        gripper
+            The rotation (3, 3) of the gripper in the pelvis frame.
+
         """
-        for side in HANGING:
-            gap_m, force_n = self._arms.grip_of(side)
-            held = self._held.get(side)
-            if held is None and gap_m > _THIN_M and force_n < -_HOLDING_N:
-                self._held[side] = _something(self._arms, side, gap_m)
-            elif held is not None and abs(gap_m - held.width_m) > _OTHER_M:
-                del self._held[side]
+        held = self._held.get(side)
+        if held is None and gap_m > _THIN_M and force_n < -_HOLDING_N:
+            self._held[side] = _something(gripper, gap_m)
+        elif held is not None and abs(gap_m - held.width_m) > _OTHER_M:
+            del self._held[side]
 
     def holding(self, asked: str) -> tuple[str, Held]:
         """
@@ -154,8 +158,7 @@ class Hands:
         del self._held[side]
 
 
-def _something(arms: Arms, side: str, gap_m: float) -> Held:
+def _something(gripper: Array, gap_m: float) -> Held:
     """Create the held object for a grasp that this node did not perform."""
-    gripper = arms.body.forward(side, arms.reach_of(side)).rotation
     box = Obstacle(SOMETHING, Frame(np.zeros(3), gripper.T), _SOMETHING_M)
     return Held(SOMETHING, (SOMETHING,), box, gap_m, gripper, 0.5 * _SOMETHING_M[2])

@@ -11,7 +11,7 @@ import math
 from humanoid_control.dynamics.frames import Frame
 from humanoid_description.robot import Array
 from humanoid_description.rotations import about_z, quaternion_of
-from humanoid_manipulation.arm_world import Obstacle
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import numpy as np
 from std_msgs.msg import Header

@@ -10,6 +10,7 @@ from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.qos import LATCHED
+from humanoid_description.drives import SIDES
 from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.hands import Hands
@@ -74,7 +75,13 @@ class ManipulationNode(Node):
         self.feet = Feet(self, self.transforms, told.base_frame, self._guard)
         self._held = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
         self.held = HeldThings(self._tell_held)
-        self.hands = Hands(self, self.arms, self.held)
+        self.hands = Hands(self, self.held)
+
+    def update_held(self) -> None:
+        """Update which hands hold an object, from their grippers. Call after `Arms.wait`."""
+        for side in SIDES:
+            gripper = self.arms.body.forward(side, self.arms.reach_of(side)).rotation
+            self.hands.update_held(side, *self.arms.grip_of(side), gripper)
 
     def destroy_node(self) -> None:
         """Destroy the node, and cancel the goals that other nodes still run for it."""

@@ -17,11 +17,12 @@ from humanoid_description.drives import SIDES
 from humanoid_description.rotations import from_quaternion, quaternion_of
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction
+from humanoid_manipulation.arm_trajectory import timed
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.giving import Giving
 from humanoid_manipulation.handling import unsound_side
 from humanoid_manipulation.manipulation_node import ManipulationNode
-from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
+from humanoid_manipulation.motion_planning import approach, BlockedError, plan
 from humanoid_manipulation.picking import Picking
 from humanoid_manipulation.placing import Placing
 from humanoid_manipulation.upper_body import OutOfReachError, Reach

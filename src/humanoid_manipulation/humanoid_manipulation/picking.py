@@ -12,11 +12,11 @@ from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_description.rotations import about_z
 from humanoid_interfaces.action import Pick
-from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp, grasps_of
 from humanoid_manipulation.handling import ManipulationAction, unsound_side
 from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.manipulation_node import ManipulationNode
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.stances import LIFT_M, Stance, stances_for
 from humanoid_manipulation.surroundings import Remembered
 from rclpy.action import ActionClient

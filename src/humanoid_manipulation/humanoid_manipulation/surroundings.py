@@ -14,9 +14,9 @@ from humanoid_common.single_goal import RunningGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_description.robot import Array
 from humanoid_description.rotations import about_z, from_quaternion, yaw_of
-from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.free_floor import FreeFloor
 from humanoid_manipulation.grasps import Graspable
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_perception.places import (
     load_places,
     Outline,

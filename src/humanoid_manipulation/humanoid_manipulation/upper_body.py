@@ -38,6 +38,11 @@ class Reach:
     waist_rad: float
     posture: Posture
 
+    @property
+    def positions_rad(self) -> Array:
+        """Return the joint positions (7,), the waist first."""
+        return np.array([self.waist_rad, *self.posture])
+
 
 class OutOfReachError(ManipulationError):
     """

@@ -9,9 +9,11 @@ from humanoid_control.dynamics.frames import Frame
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from humanoid_description.rotations import from_rpy
-from humanoid_manipulation.arm_world import ArmWorld, Obstacle
+from humanoid_manipulation.arm_trajectory import timed
+from humanoid_manipulation.arm_world import ArmWorld
 from humanoid_manipulation.errors import ManipulationError
-from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
+from humanoid_manipulation.motion_planning import approach, BlockedError, plan
+from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
 import numpy as np
 import pytest
