@@ -129,7 +129,7 @@ def may_look_up(name: str, context: LaunchContext) -> bool:
         The context of the launch, whose event handlers are searched.
 
     """
-    from launch.substitutions.launch_configuration import LaunchConfiguration
+    from launch.substitutions.context_values import LaunchConfiguration
     from launch.utilities import perform_substitutions
 
     waiting = waiting_entities(context)

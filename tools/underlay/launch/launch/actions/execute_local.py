@@ -11,7 +11,7 @@ from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitutions.launch_configuration import LaunchConfiguration
+from launch.substitutions.context_values import LaunchConfiguration
 from launch.utilities.arguments import list_like, of_type, typed
 
 if TYPE_CHECKING:

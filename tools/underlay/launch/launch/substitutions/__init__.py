@@ -10,26 +10,30 @@ from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.substitutions.anon_name import AnonName
-    from launch.substitutions.boolean_substitution import (
+    from launch.substitutions.command import Command, FileContent, FindExecutable
+    from launch.substitutions.context_values import (
+        EnvironmentVariable,
+        LaunchConfiguration,
+        LocalSubstitution,
+    )
+    from launch.substitutions.logic import (
         AllSubstitution,
         AndSubstitution,
         AnySubstitution,
+        EqualsSubstitution,
+        IfElseSubstitution,
+        NotEqualsSubstitution,
         NotSubstitution,
         OrSubstitution,
     )
-    from launch.substitutions.command import Command
-    from launch.substitutions.environment_variable import EnvironmentVariable
-    from launch.substitutions.equals_substitution import EqualsSubstitution, NotEqualsSubstitution
-    from launch.substitutions.file_content import FileContent
-    from launch.substitutions.find_executable import FindExecutable
-    from launch.substitutions.if_else_substitution import IfElseSubstitution
-    from launch.substitutions.launch_configuration import LaunchConfiguration
-    from launch.substitutions.launch_log_dir import LaunchLogDir
-    from launch.substitutions.local_substitution import LocalSubstitution
     from launch.substitutions.path_join_substitution import PathJoinSubstitution, PathSubstitution
     from launch.substitutions.python_expression import PythonExpression
     from launch.substitutions.text_substitution import TextSubstitution
-    from launch.substitutions.this_launch_file import ThisLaunchFile, ThisLaunchFileDir
+    from launch.substitutions.this_launch_file import (
+        LaunchLogDir,
+        ThisLaunchFile,
+        ThisLaunchFileDir,
+    )
 
 __all__ = [
     'AllSubstitution',
@@ -60,6 +64,15 @@ __all__ = [
 # ROS 2 Jazzy has a module for each of them; launch files import from those, too.
 also_found_at(
     __name__,
+    'boolean_substitution',
+    'environment_variable',
+    'equals_substitution',
+    'file_content',
+    'find_executable',
+    'if_else_substitution',
+    'launch_configuration',
+    'launch_log_dir',
+    'local_substitution',
     'not_equals_substitution',
     'path_substitution',
     'substitution_failure',
@@ -67,12 +80,20 @@ also_found_at(
 )
 
 _ELSEWHERE = {
-    'AllSubstitution': 'boolean_substitution',
-    'AndSubstitution': 'boolean_substitution',
-    'AnySubstitution': 'boolean_substitution',
-    'NotEqualsSubstitution': 'equals_substitution',
-    'NotSubstitution': 'boolean_substitution',
-    'OrSubstitution': 'boolean_substitution',
+    'AllSubstitution': 'logic',
+    'AndSubstitution': 'logic',
+    'AnySubstitution': 'logic',
+    'EnvironmentVariable': 'context_values',
+    'EqualsSubstitution': 'logic',
+    'FileContent': 'command',
+    'FindExecutable': 'command',
+    'IfElseSubstitution': 'logic',
+    'LaunchConfiguration': 'context_values',
+    'LaunchLogDir': 'this_launch_file',
+    'LocalSubstitution': 'context_values',
+    'NotEqualsSubstitution': 'logic',
+    'NotSubstitution': 'logic',
+    'OrSubstitution': 'logic',
     'PathSubstitution': 'path_join_substitution',
     'ThisLaunchFileDir': 'this_launch_file',
 }

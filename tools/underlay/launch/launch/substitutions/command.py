@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The output of a command."""
+"""What lies outside the launch: the output of a command, the text of a file, and programs."""
 
 from __future__ import annotations
 
@@ -158,3 +158,110 @@ def _judge(parts: Sequence[str], mode: str, result: subprocess.CompletedProcess[
 
 def _captured(text: str) -> str:
     return f'\nCaptured stderr output: {text}' if text else ''
+
+
+class FileContent(Substitution):
+    """
+    Substitution of the text in a file.
+
+    Parameters
+    ----------
+    path
+        The path of the file, which is read as UTF-8.
+
+    """
+
+    frontend_required = ('path',)
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        self.__path = normalize_to_list_of_substitutions(path)
+
+    @property
+    def path(self) -> list[Substitution]:
+        """Return the path as a list of substitutions."""
+        return self.__path
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        return f'FileContent({" + ".join(sub.describe() for sub in self.__path)})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the contents of the file.
+
+        Parameters
+        ----------
+        context
+            The launch context, in which the path is performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The file does not exist, or cannot be read.
+
+        """
+        path = perform_substitutions(context, self.__path)
+        context.run.note_file(path)
+        try:
+            with open(path, encoding='utf-8') as file:
+                return file.read()
+        except FileNotFoundError as error:
+            from ros_environment.missing_file import explain_missing_file
+
+            advice = explain_missing_file('file', path)
+            raise SubstitutionFailure(f'File not found: {path}\n{advice}') from error
+        except (OSError, UnicodeDecodeError) as error:
+            raise SubstitutionFailure(f'File cannot be read: {path}: {error}') from error
+
+
+class FindExecutable(Substitution):
+    """
+    Substitution of the path of a program that the shell would find.
+
+    Parameters
+    ----------
+    name
+        The name of the program.
+
+    """
+
+    is_constant = True
+    frontend_required = ('name',)
+
+    def __init__(self, *, name: SomeSubstitutionsType) -> None:
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Return the name as a list of substitutions."""
+        return self.__name
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        return f'FindExec({" + ".join(sub.describe() for sub in self.__name)})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the path of the program.
+
+        Parameters
+        ----------
+        context
+            The launch context, in which the name is performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The program is not on the PATH.
+
+        """
+        from launch._checks.programs import find_program
+
+        name = perform_substitutions(context, self.__name)
+        found = find_program(name)
+        if found is None:
+            raise SubstitutionFailure(
+                f"executable '{name}' not found on the PATH; install it, or source the "
+                'environment that has it'
+            )
+        return found

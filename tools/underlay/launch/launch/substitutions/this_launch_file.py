@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch file that is being read, and its folder."""
+"""The files of this launch: the launch file that is being read, its folder, and the log folder."""
 
 from __future__ import annotations
 
@@ -60,3 +60,25 @@ class ThisLaunchFileDir(PathOperator):
 
         """
         return launch_file_location(context, 'current_launch_file_directory', 'ThisLaunchFileDir')
+
+
+class LaunchLogDir(PathOperator):
+    """Stands for the folder of the log files of this launch."""
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        return 'LaunchLogDir()'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the log directory, which is created if it does not exist.
+
+        Parameters
+        ----------
+        context
+            The launch context, which is not used.
+
+        """
+        from launch.logging import launch_config
+
+        return str(launch_config.log_dir)
