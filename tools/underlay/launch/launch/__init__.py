@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_environment.lazy import lazy_exports
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch import (
@@ -31,8 +31,12 @@ if TYPE_CHECKING:
     from launch.launch_description_source import LaunchDescriptionSource
     from launch.launch_introspector import LaunchIntrospector
     from launch.launch_service import LaunchService
-    from launch.some_actions_type import SomeActionsType, SomeActionsType_types_tuple
-    from launch.some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple
+    from launch.some_entities_type import (
+        SomeActionsType,
+        SomeActionsType_types_tuple,
+        SomeEntitiesType,
+        SomeEntitiesType_types_tuple,
+    )
     from launch.some_substitutions_type import (
         SomeSubstitutionsType,
         SomeSubstitutionsType_types_tuple,
@@ -70,8 +74,12 @@ __all__ = [
     'utilities',
 ]
 
+# ROS 2 Jazzy has a module for it; programs import from that, too.
+also_found_at(__name__, 'some_actions_type')
+
 _ELSEWHERE = {
-    'SomeActionsType_types_tuple': 'some_actions_type',
+    'SomeActionsType': 'some_entities_type',
+    'SomeActionsType_types_tuple': 'some_entities_type',
     'SomeEntitiesType_types_tuple': 'some_entities_type',
     'SomeSubstitutionsType_types_tuple': 'some_substitutions_type',
     'actions': '',

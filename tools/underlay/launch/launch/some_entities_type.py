@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Type of one or more entities of a launch description."""
+"""Types of one or more entities: of a launch description, and as the reaction to an event."""
 
 from __future__ import annotations
 
@@ -9,5 +9,7 @@ from typing import Union
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]
+SomeActionsType = SomeEntitiesType
 
 SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)
+SomeActionsType_types_tuple = SomeEntitiesType_types_tuple

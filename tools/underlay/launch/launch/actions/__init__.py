@@ -10,11 +10,16 @@ from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.actions.declare_launch_argument import DeclareLaunchArgument
-    from launch.actions.emit_event import EmitEvent
     from launch.actions.environment_variables import (
         AppendEnvironmentVariable,
         SetEnvironmentVariable,
         UnsetEnvironmentVariable,
+    )
+    from launch.actions.event_actions import (
+        EmitEvent,
+        RegisterEventHandler,
+        Shutdown,
+        UnregisterEventHandler,
     )
     from launch.actions.execute_local import ExecuteLocal
     from launch.actions.execute_process import ExecuteProcess
@@ -27,8 +32,6 @@ if TYPE_CHECKING:
     )
     from launch.actions.log_info import LogInfo
     from launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
-    from launch.actions.register_event_handler import RegisterEventHandler, UnregisterEventHandler
-    from launch.actions.shutdown_action import Shutdown
     from launch.actions.timer_action import TimerAction
     from launch.launch_context import LaunchContext
 
@@ -154,15 +157,18 @@ class ResetEnvironment(Action):
 also_found_at(
     __name__,
     'append_environment_variable',
+    'emit_event',
     'opaque_coroutine',
     'pop_environment',
     'pop_launch_configurations',
     'push_environment',
     'push_launch_configurations',
+    'register_event_handler',
     'reset_environment',
     'reset_launch_configurations',
     'set_environment_variable',
     'set_launch_configuration',
+    'shutdown_action',
     'unregister_event_handler',
     'unset_environment_variable',
     'unset_launch_configuration',
@@ -170,12 +176,14 @@ also_found_at(
 
 _ELSEWHERE = {
     'AppendEnvironmentVariable': 'environment_variables',
+    'EmitEvent': 'event_actions',
     'OpaqueCoroutine': 'opaque_function',
+    'RegisterEventHandler': 'event_actions',
     'ResetLaunchConfigurations': 'launch_configurations',
     'SetEnvironmentVariable': 'environment_variables',
     'SetLaunchConfiguration': 'launch_configurations',
-    'Shutdown': 'shutdown_action',
-    'UnregisterEventHandler': 'register_event_handler',
+    'Shutdown': 'event_actions',
+    'UnregisterEventHandler': 'event_actions',
     'UnsetEnvironmentVariable': 'environment_variables',
     'UnsetLaunchConfiguration': 'launch_configurations',
 }

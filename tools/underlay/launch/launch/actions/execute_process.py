@@ -136,6 +136,6 @@ def _parse_on_exit(entity: Entity) -> dict[str, Any]:
             f"Attribute on_exit of Entity {entity.type_name} must be 'shutdown', the only "
             f"reaction that a launch file can name there, but it is '{reaction}'"
         )
-    from launch.actions.shutdown_action import Shutdown
+    from launch.actions.event_actions import Shutdown
 
     return {'on_exit': [Shutdown()]}

@@ -56,7 +56,7 @@ class IncludeLaunchDescription(Action):
     ) -> None:
         super().__init__(**kwargs)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
-            from launch.launch_description_sources.any_launch_description_source import (
+            from launch.launch_description_sources.launch_files import (
                 AnyLaunchDescriptionSource,
             )
 

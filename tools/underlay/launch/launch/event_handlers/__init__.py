@@ -10,8 +10,7 @@ from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.event import Event
-    from launch.event_handlers.on_action_event_base import OnActionEventBase
-    from launch.event_handlers.on_execution_complete import OnExecutionComplete
+    from launch.event_handlers.on_action_event_base import OnActionEventBase, OnExecutionComplete
     from launch.event_handlers.on_shutdown import OnShutdown
     from launch.event_handlers.process_event_handlers import (
         OnProcessExit,
@@ -49,9 +48,17 @@ def event_named(name: str) -> Callable[[Event], bool]:
 
 
 # ROS 2 Jazzy has a module for each of them; launch files import from those, too.
-also_found_at(__name__, 'event_named', 'on_process_exit', 'on_process_io', 'on_process_start')
+also_found_at(
+    __name__,
+    'event_named',
+    'on_execution_complete',
+    'on_process_exit',
+    'on_process_io',
+    'on_process_start',
+)
 
 _ELSEWHERE = {
+    'OnExecutionComplete': 'on_action_event_base',
     'OnProcessExit': 'process_event_handlers',
     'OnProcessIO': 'process_event_handlers',
     'OnProcessStart': 'process_event_handlers',

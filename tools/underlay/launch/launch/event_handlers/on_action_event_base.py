@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of handlers of events that belong to an action."""
+"""The handlers of events that belong to an action: their base class, and that of completion."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
+    from launch.action import Action
     from launch.launch_context import LaunchContext
 
 Reaction = Union[SomeEntitiesType, Callable[..., Optional[SomeEntitiesType]]]
@@ -163,3 +164,43 @@ def checked_reaction(
                 f"but got '{entity!r}' of type '{type(entity).__name__}'"
             )
     return None, entities
+
+
+class OnExecutionComplete(OnActionEventBase):
+    """
+    Event handler that reacts when the execution of an action is complete.
+
+    Parameters
+    ----------
+    target_action
+        An action, a predicate that accepts actions, or None for all.
+    on_completion
+        The entities that are visited, or a function of the event and the context that returns
+        them.
+    **kwargs
+        Keyword arguments of `BaseEventHandler`, such as `handle_once`.
+
+    Raises
+    ------
+    TypeError
+        The target or the reaction has the wrong type.
+
+    """
+
+    def __init__(
+        self,
+        *,
+        target_action: Optional[Union[Callable[[Any], bool], Action]] = None,
+        on_completion: Reaction,
+        **kwargs: Any,
+    ) -> None:
+        from launch.action import Action
+        from launch.events import ExecutionComplete
+
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_completion,
+            target_event_cls=ExecutionComplete,
+            target_action_cls=Action,
+            **kwargs,
+        )

@@ -37,7 +37,7 @@ ACTIONS = {
     'reset': 'launch.actions.launch_configurations:ResetLaunchConfigurations',
     'reset_env': 'launch.actions:ResetEnvironment',
     'set_env': 'launch.actions.environment_variables:SetEnvironmentVariable',
-    'shutdown': 'launch.actions.shutdown_action:Shutdown',
+    'shutdown': 'launch.actions.event_actions:Shutdown',
     'timer': 'launch.actions.timer_action:TimerAction',
     'unset_env': 'launch.actions.environment_variables:UnsetEnvironmentVariable',
 }

@@ -8,8 +8,7 @@ from collections.abc import Iterable
 from typing import Any, Optional, Union
 
 from launch.action import Action
-from launch.actions.emit_event import EmitEvent
-from launch.actions.register_event_handler import RegisterEventHandler
+from launch.actions.event_actions import EmitEvent, RegisterEventHandler
 from launch.event_handler import BaseEventHandler
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
