@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Split the output of a process into lines, format and log them."""
+"""What is told of a process: its output, line by line, its start and its end."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING
 
-from launch.logging import get_output_loggers, launch_config
+from launch.events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
+from launch.logging import get_logger, get_output_loggers, launch_config
 from launch.logging._output import is_on_screen
 from launch.logging._screen import screen
+
+if TYPE_CHECKING:
+    from launch._supervision.program import PerformedOptions, ProgramOwner
+    from launch.launch_context import LaunchContext
 
 _STREAMS = (1, 2)
 _LAST_LINES = 20
@@ -103,6 +108,127 @@ class ProcessOutput:
         self._loggers[stream].info('%s', text)
         if not self._is_seen[stream]:
             self._unseen.extend(text.split('\n')[-_LAST_LINES:])
+
+
+class ProcessReport:
+    """
+    Reports the start, the output and the end of a process, in the log and as events.
+
+    Parameters
+    ----------
+    action
+        The action that runs the process.
+    details
+        The name, cmd, cwd and env of the process, to which its pid is added.
+    options
+        How the process is run.
+    context
+        The launch context, to which events are emitted.
+
+    Attributes
+    ----------
+    output
+        The logging of the output.
+    pid
+        The id of the process; 0 while none runs.
+
+    """
+
+    def __init__(
+        self,
+        action: ProgramOwner,
+        details: dict[str, Any],
+        options: PerformedOptions,
+        context: LaunchContext,
+    ) -> None:
+        self._action = action
+        self._details = details
+        self._log_cmd = options.log_cmd
+        self._context = context
+        self._logger = get_logger(details['name'])
+        self.output = ProcessOutput(
+            details['name'],
+            options.output,
+            LineFormat(options.output_format, action),
+            keep=options.cached_output,
+        )
+        self.pid = 0
+
+    def start(self, pid: int) -> None:
+        """
+        Report the start of the process.
+
+        Parameters
+        ----------
+        pid
+            Its id.
+
+        """
+        self.pid = self._details['pid'] = pid
+        if self._log_cmd:
+            self._logger.info(
+                "process details: cmd='%s', cwd='%s', custom_env?=%s",
+                self._command_line(),
+                self._details['cwd'],
+                self._details['env'] is not None,
+            )
+        self._logger.info('process started with pid [%s]', pid)
+        self._context.emit_event_sync(ProcessStarted(**self._event_details()))
+
+    def feed(self, stream: int, data: bytes) -> None:
+        """
+        Log output, and emit its event if it is handled.
+
+        Parameters
+        ----------
+        stream, data
+            As for `ProcessOutput.feed`.
+
+        """
+        self.output.feed(stream, data)
+        event_class = ProcessStdout if stream == 1 else ProcessStderr
+        event = event_class(text=data, **self._event_details())
+        if self._context.would_handle_event(event):
+            self._context.emit_event_sync(event)
+
+    def end(self, return_code: int, *, was_interrupted: bool) -> None:
+        """
+        Report the end of the process; an unexpected failure is noted, with its last lines.
+
+        Parameters
+        ----------
+        return_code
+            The exit status, negative for a signal.
+        was_interrupted
+            Whether the launch has ended the process.
+
+        """
+        self.output.flush()
+        if return_code == 0:
+            self._logger.info('process has finished cleanly [pid %s]', self.pid)
+        else:
+            self._logger.error(
+                "process has died [pid %s, exit code %s, cmd '%s'].",
+                self.pid,
+                return_code,
+                self._command_line(),
+            )
+            if not was_interrupted:
+                self._context.run.note_failure(return_code)
+                self.output.show_last_lines()
+        self._context.emit_event_sync(
+            ProcessExited(returncode=return_code, **self._event_details())
+        )
+
+    def _command_line(self) -> str:
+        return ' '.join(self._details['cmd'])
+
+    def _event_details(self) -> dict[str, Any]:
+        return {
+            'action': self._action,
+            'pid': self.pid,
+            **{key: self._details[key] for key in ('name', 'cmd', 'cwd', 'env')},
+        }
 
 
 class LineSplitter:

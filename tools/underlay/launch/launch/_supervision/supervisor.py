@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Supervise the process of an action, from start to exit."""
+"""Supervise the process of an action, from start to exit, and pass the events of the launch on."""
 
 from __future__ import annotations
 
@@ -10,17 +10,20 @@ import signal
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch._checks.programs import explain_spawn_failure
-from launch._supervision.process_group import end_leftovers, Escalation
-from launch._supervision.process_output import LineFormat, ProcessOutput
+from launch._supervision.process_group import end_leftovers, Escalation, EscapedProcesses
+from launch._supervision.process_output import ProcessReport
 from launch._supervision.program import execute, PerformedOptions, Program, ProgramOwner
 from launch._supervision.running_process import RunningProcess, start_process
-from launch.events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
+from launch.event import Event
+from launch.event_handler import BaseEventHandler
+from launch.events import Shutdown
+from launch.events.process import ProcessStdin, ProcessTargetedEvent, SignalProcess
 from launch.logging import get_logger, launch_config
 
 if TYPE_CHECKING:
-    from launch._supervision.member import Member
     from launch.launch_context import LaunchContext
-    from launch.launch_run import RunningProcesses
+
+_EVENTS = (ProcessTargetedEvent, ProcessStdin, Shutdown)
 
 
 class Supervisor:
@@ -58,22 +61,17 @@ class Supervisor:
     ) -> None:
         self._action = action
         self._options = options
-        self._context = context
         self._run = context.run
         self._loop = loop
         self._details: dict[str, Any] = action.description_of_process()
         self._label: str = self._details['name']
         self._logger: logging.Logger = get_logger(self._label)
-        self.output = ProcessOutput(
-            self._label,
-            options.output,
-            LineFormat(options.output_format, action),
-            keep=options.cached_output,
-        )
+        self._report = ProcessReport(action, self._details, options, context)
+        self.output = self._report.output
         self.return_code: Optional[int] = None
         self._process: Optional[RunningProcess] = None
         self._escalation: Optional[Escalation] = None
-        self._escaped: list[Member] = []
+        self._escaped = EscapedProcesses()
         self._is_detached = options.detached or self._is_detached_by_environment()
         self._stopped = loop.create_future()
         self._let_go = loop.create_future()
@@ -174,9 +172,11 @@ class Supervisor:
             if self._is_detached and not await self._ends_before_launch(process):
                 return False
             self.return_code = await process.exited
-            self._report_end(process)
+            self._report_end(process, self.return_code)
             await end_leftovers(process.pid, was_interrupted=self._escalation is not None)
-            await self._end_escaped()
+            await self._escaped.end(
+                float(self._options.sigterm_timeout), float(self._options.sigkill_timeout)
+            )
             process.drain()
             self.output.flush()
         finally:
@@ -204,7 +204,7 @@ class Supervisor:
                 spawn=execute if processes is None else processes.spawn,
                 emulate_tty=self._options.emulate_tty,
                 loop=self._loop,
-                on_output=self._on_output,
+                on_output=self._report.feed,
                 output_path=self._output_path(),
             )
         except (OSError, ValueError) as error:
@@ -234,57 +234,24 @@ class Supervisor:
         )
 
     def _report_start(self, process: RunningProcess) -> None:
-        self._details['pid'] = process.pid
-        if self._options.log_cmd:
-            self._logger.info(
-                "process details: cmd='%s', cwd='%s', custom_env?=%s",
-                self._command_line(),
-                self._details['cwd'],
-                self._details['env'] is not None,
-            )
-        self._logger.info('process started with pid [%s]', process.pid)
-        self._context.emit_event_sync(ProcessStarted(**self._event_details()))
+        self._report.start(process.pid)
         if self._stopped.done():
             self._begin_escalation()
 
-    def _report_end(self, process: RunningProcess) -> None:
+    def _report_end(self, process: RunningProcess, status: int) -> None:
         if self._escalation is not None:
             self._escalation.cancel()
         process.drain()
-        self.output.flush()
-        if self.return_code == 0:
-            self._logger.info('process has finished cleanly [pid %s]', process.pid)
-        else:
-            self._report_failure(process)
-        self._context.emit_event_sync(
-            ProcessExited(returncode=self.return_code or 0, **self._event_details())
-        )
-
-    def _report_failure(self, process: RunningProcess) -> None:
-        self._logger.error(
-            "process has died [pid %s, exit code %s, cmd '%s'].",
-            process.pid,
-            self.return_code,
-            self._command_line(),
-        )
-        if self._escalation is None:
-            self._run.note_failure(self.return_code or 0)
-            self.output.show_last_lines()
+        self._report.end(status, was_interrupted=self._escalation is not None)
 
     def _forget(self, process: RunningProcess) -> None:
         """Release a process that has exited; one that has not is left to the registry."""
         self._process = None
+        self._report.pid = 0
         if process.exited.done():
             process.close()
             if self._run.processes is not None and not self._is_detached:
                 self._run.processes.remove(process)
-
-    def _on_output(self, stream: int, data: bytes) -> None:
-        self.output.feed(stream, data)
-        event_class = ProcessStdout if stream == 1 else ProcessStderr
-        event = event_class(text=data, **self._event_details())
-        if self._context.would_handle_event(event):
-            self._context.emit_event_sync(event)
 
     def _begin_escalation(self) -> None:
         process = self._process
@@ -307,49 +274,65 @@ class Supervisor:
         if processes is None:  # the launch itself terminates all processes outside the groups
             process.send_signal(number)
             return
-        self._note_escaped(process, processes, number)
+        self._escaped.note(process.pid, processes.descendants(process.pid), number)
         process.send_signal(number)
-        if self._escaped:
-            from launch._supervision.member import send
+        self._escaped.send(number)
 
-            for member in self._escaped:
-                send(member, number)
 
-    def _note_escaped(
-        self, process: RunningProcess, processes: RunningProcesses, number: signal.Signals
-    ) -> None:
-        """Record the descendants outside the group while their ancestry is known."""
-        from launch._supervision.member import is_alive
+class ProcessControl(BaseEventHandler):
+    """
+    Event handler that forwards the events that target a process to its supervisor.
 
-        with_nested = number == signal.SIGKILL
-        news = (
-            member
-            for member in processes.descendants(process.pid)
-            if member.group != process.pid and (with_nested or not member.is_nested)
-        )
-        self._escaped = list(dict.fromkeys([*filter(is_alive, self._escaped), *news]))
+    Parameters
+    ----------
+    action
+        The action that runs the process, which identifies its events.
+    supervisor
+        The supervisor of the process.
 
-    async def _end_escaped(self) -> None:
-        """Terminate the descendants that have survived the signals sent to the process."""
-        if not self._escaped:
-            return
-        from launch._supervision.member import is_alive
-        from launch._supervision.remainder import end_members
+    """
 
-        await end_members(
-            lambda number: [member for member in self._escaped if is_alive(member)],
-            float(self._options.sigterm_timeout),
-            float(self._options.sigkill_timeout),
-            interrupted=self._escaped,
-        )
-        self._escaped = []
+    def __init__(self, action: object, supervisor: Supervisor) -> None:
+        super().__init__(matcher=self.matches)
+        self._action = action
+        self._supervisor = supervisor
 
-    def _command_line(self) -> str:
-        return ' '.join(self._details['cmd'])
+    def matches(self, event: Event) -> bool:
+        """
+        Whether an event targets the process, or all processes.
 
-    def _event_details(self) -> dict[str, Any]:
-        return {
-            'action': self._action,
-            'pid': self._process.pid if self._process else 0,
-            **{key: self._details[key] for key in ('name', 'cmd', 'cwd', 'env')},
-        }
+        Parameters
+        ----------
+        event
+            The event that was emitted.
+
+        """
+        if not isinstance(event, _EVENTS):  # most are not; each process is asked about each event
+            return False
+        if isinstance(event, ProcessTargetedEvent):
+            return event.process_matcher(self._action)
+        if isinstance(event, ProcessStdin):
+            return event.action is self._action
+        return True
+
+    def handle(self, event: Event, context: LaunchContext) -> None:
+        """
+        Terminate the process, send it a signal, or write to it, depending on the event.
+
+        Parameters
+        ----------
+        event
+            An event that `matches` accepts.
+        context
+            As for `BaseEventHandler.handle`.
+
+        """
+        super().handle(event, context)
+        if isinstance(event, SignalProcess):
+            self._supervisor.send_signal(event.signal)
+        elif isinstance(event, ProcessStdin):
+            self._supervisor.write(event.text)
+        elif isinstance(event, Shutdown):
+            self._supervisor.end_with_launch()
+        else:
+            self._supervisor.stop()

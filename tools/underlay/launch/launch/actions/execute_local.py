@@ -329,8 +329,7 @@ class ExecuteLocal(Action):
             require_later_program(description.cmd[0], description.env, context)
 
     def _begin_supervision(self, context: LaunchContext, options: PerformedOptions) -> None:
-        from launch._supervision.process_control import ProcessControl
-        from launch._supervision.supervisor import Supervisor
+        from launch._supervision.supervisor import ProcessControl, Supervisor
 
         loop = context.asyncio_loop
         if loop is None:
