@@ -37,11 +37,11 @@ if TYPE_CHECKING:
         SomeEntitiesType,
         SomeEntitiesType_types_tuple,
     )
-    from launch.some_substitutions_type import (
+    from launch.substitution import (
         SomeSubstitutionsType,
         SomeSubstitutionsType_types_tuple,
+        Substitution,
     )
-    from launch.substitution import Substitution
 
 __all__ = [
     'Action',
@@ -74,14 +74,15 @@ __all__ = [
     'utilities',
 ]
 
-# ROS 2 Jazzy has a module for it; programs import from that, too.
-also_found_at(__name__, 'some_actions_type')
+# ROS 2 Jazzy has a module for each of them; programs import from those, too.
+also_found_at(__name__, 'some_actions_type', 'some_substitutions_type')
 
 _ELSEWHERE = {
     'SomeActionsType': 'some_entities_type',
     'SomeActionsType_types_tuple': 'some_entities_type',
     'SomeEntitiesType_types_tuple': 'some_entities_type',
-    'SomeSubstitutionsType_types_tuple': 'some_substitutions_type',
+    'SomeSubstitutionsType': 'substitution',
+    'SomeSubstitutionsType_types_tuple': 'substitution',
     'actions': '',
     'conditions': '',
     'descriptions': '',

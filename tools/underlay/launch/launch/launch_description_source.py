@@ -7,8 +7,7 @@ import os
 from typing import Optional, TYPE_CHECKING
 
 from launch.launch_description import LaunchDescription
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

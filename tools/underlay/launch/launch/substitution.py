@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of substitutions, and the error of one that cannot be performed."""
+"""What becomes a text: the base class of substitutions, a constant, and the type of all such."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, ClassVar, NoReturn, TYPE_CHECKING
+from collections.abc import Iterable, Sequence
+import os
+from typing import Any, ClassVar, NoReturn, TYPE_CHECKING, Union
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -98,3 +99,65 @@ def _no_sum(substitution: Substitution) -> TypeError:
         f"'{name}' cannot be added to something with '+', as its text is not known yet: "
         f"write a list, such as ['/ns/', {name}(...)]"
     )
+
+
+class TextSubstitution(Substitution):
+    """
+    Substitution of a text that is known already.
+
+    Parameters
+    ----------
+    text
+        The text.
+
+    Raises
+    ------
+    TypeError
+        The text is not a `str`.
+
+    """
+
+    is_constant = True
+
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(
+                f"TextSubstitution expected the text to be a 'str', "
+                f"but got {text!r} of type '{type(text).__name__}'"
+            )
+        self.__text = text
+
+    @property
+    def text(self) -> str:
+        """Return the text."""
+        return self.__text
+
+    def __repr__(self) -> str:
+        """Format the class with the text."""
+        return f'{type(self).__name__}({self.__text!r})'
+
+    def describe(self) -> str:
+        """Return the text in quotes."""
+        return f"'{self.__text}'"
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the text.
+
+        Parameters
+        ----------
+        context
+            The launch context, which is not used.
+
+        """
+        return self.__text
+
+
+SomeSubstitutionsType = Union[
+    str,
+    'os.PathLike[str]',
+    Substitution,
+    Iterable[Union[str, 'os.PathLike[str]', Substitution]],
+]
+
+SomeSubstitutionsType_types_tuple = (str, os.PathLike, Substitution, Iterable)

@@ -7,8 +7,11 @@ import os
 from typing import Any, Optional
 
 from launch.launch_context import LaunchContext
-from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
-from launch.substitution import Substitution
+from launch.substitution import (
+    SomeSubstitutionsType,
+    SomeSubstitutionsType_types_tuple,
+    Substitution,
+)
 from launch.utilities import (
     ensure_argument_type,
     normalize_to_list_of_substitutions,

@@ -4,14 +4,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 import logging
 import os
 import signal
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from launch._supervision.member import Member
 
 _TO_THE_GROUP = frozenset(
     (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGKILL, signal.SIGSTOP, signal.SIGCONT)
@@ -202,74 +198,3 @@ async def _wait_until_empty(group: int, patience_s: float) -> None:
     end = loop.time() + patience_s
     while loop.time() < end and not is_empty(group):
         await asyncio.sleep(_LOOK_EVERY_S)
-
-
-class EscapedProcesses:
-    """The descendants of a process that have left its group; they get its signals as well."""
-
-    def __init__(self) -> None:
-        self._members: list[Member] = []
-
-    def note(self, group: int, descendants: Iterable[Member], number: signal.Signals) -> None:
-        """
-        Record the descendants outside the group while their ancestry is known.
-
-        Parameters
-        ----------
-        group
-            The id of the group, which is that of the process.
-        descendants
-            What the process has started, directly or indirectly.
-        number
-            The signal that is sent next; those of a nested launch get only SIGKILL.
-
-        """
-        from launch._supervision.member import is_alive
-
-        with_nested = number == signal.SIGKILL
-        news = (
-            member
-            for member in descendants
-            if member.group != group and (with_nested or not member.is_nested)
-        )
-        self._members = list(dict.fromkeys([*filter(is_alive, self._members), *news]))
-
-    def send(self, number: signal.Signals) -> None:
-        """
-        Send a signal to all of them.
-
-        Parameters
-        ----------
-        number
-            The signal.
-
-        """
-        if not self._members:
-            return
-        from launch._supervision.member import send
-
-        for member in self._members:
-            send(member, number)
-
-    async def end(self, sigterm_s: float, sigkill_s: float) -> None:
-        """
-        Terminate those that have survived the signals sent to the process.
-
-        Parameters
-        ----------
-        sigterm_s, sigkill_s
-            The time from SIGINT to SIGTERM and from SIGTERM to SIGKILL, in s.
-
-        """
-        if not self._members:
-            return
-        from launch._supervision.member import is_alive
-        from launch._supervision.remainder import end_members
-
-        await end_members(
-            lambda number: [member for member in self._members if is_alive(member)],
-            sigterm_s,
-            sigkill_s,
-            interrupted=self._members,
-        )
-        self._members = []

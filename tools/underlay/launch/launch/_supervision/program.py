@@ -40,6 +40,11 @@ class PerformedOptions:
     respawn_delay: Optional[float]
     respawn_max_retries: int
 
+    @property
+    def timeouts_s(self) -> tuple[float, float]:
+        """Return the time from SIGINT to SIGTERM, and from SIGTERM to SIGKILL."""
+        return float(self.sigterm_timeout), float(self.sigkill_timeout)
+
     def may_respawn(self, respawned: int) -> bool:
         """
         Whether to respawn the process after it has exited.

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Terminate processes outside the supervised groups when the launch ends."""
+"""Terminate processes outside the supervised groups, when their ancestor or the launch ends."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 import os
 import signal
 import time
@@ -82,6 +82,68 @@ class Remainder:
         groups = self._supervised_groups()
         with_nested = number == signal.SIGKILL
         return [m for m in members if m.group not in groups and (with_nested or not m.is_nested)]
+
+
+class EscapedProcesses:
+    """The descendants of a process that have left its group; they get its signals as well."""
+
+    def __init__(self) -> None:
+        self._members: list[Member] = []
+
+    def note(self, group: int, descendants: Iterable[Member], number: signal.Signals) -> None:
+        """
+        Record the descendants outside the group while their ancestry is known.
+
+        Parameters
+        ----------
+        group
+            The id of the group, which is that of the process.
+        descendants
+            What the process has started, directly or indirectly.
+        number
+            The signal that is sent next; those of a nested launch get only SIGKILL.
+
+        """
+        with_nested = number == signal.SIGKILL
+        news = (
+            member
+            for member in descendants
+            if member.group != group and (with_nested or not member.is_nested)
+        )
+        self._members = list(dict.fromkeys([*filter(is_alive, self._members), *news]))
+
+    def send(self, number: signal.Signals) -> None:
+        """
+        Send a signal to all of them.
+
+        Parameters
+        ----------
+        number
+            The signal.
+
+        """
+        for member in self._members:
+            send(member, number)
+
+    async def end(self, sigterm_s: float, sigkill_s: float) -> None:
+        """
+        Terminate those that have survived the signals sent to the process.
+
+        Parameters
+        ----------
+        sigterm_s, sigkill_s
+            The time from SIGINT to SIGTERM and from SIGTERM to SIGKILL, in s.
+
+        """
+        if not self._members:
+            return
+        await end_members(
+            lambda number: [member for member in self._members if is_alive(member)],
+            sigterm_s,
+            sigkill_s,
+            interrupted=self._members,
+        )
+        self._members = []
 
 
 async def end_members(

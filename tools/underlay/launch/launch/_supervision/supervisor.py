@@ -10,7 +10,7 @@ import signal
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch._checks.programs import explain_spawn_failure
-from launch._supervision.process_group import end_leftovers, Escalation, EscapedProcesses
+from launch._supervision.process_group import end_leftovers, Escalation
 from launch._supervision.process_output import ProcessReport
 from launch._supervision.program import execute, PerformedOptions, Program, ProgramOwner
 from launch._supervision.running_process import RunningProcess, start_process
@@ -21,6 +21,7 @@ from launch.events.process import ProcessStdin, ProcessTargetedEvent, SignalProc
 from launch.logging import get_logger, launch_config
 
 if TYPE_CHECKING:
+    from launch._supervision.remainder import EscapedProcesses
     from launch.launch_context import LaunchContext
 
 _EVENTS = (ProcessTargetedEvent, ProcessStdin, Shutdown)
@@ -71,7 +72,7 @@ class Supervisor:
         self.return_code: Optional[int] = None
         self._process: Optional[RunningProcess] = None
         self._escalation: Optional[Escalation] = None
-        self._escaped = EscapedProcesses()
+        self._escaped: Optional[EscapedProcesses] = None
         self._is_detached = options.detached or self._is_detached_by_environment()
         self._stopped = loop.create_future()
         self._let_go = loop.create_future()
@@ -154,12 +155,9 @@ class Supervisor:
             if not self._options.may_respawn(respawned):
                 return
             respawned += 1
-            await self._wait_before_respawn()
-
-    async def _wait_before_respawn(self) -> None:
-        delay = self._options.respawn_delay
-        if delay and not self._stopped.done():
-            await asyncio.wait([self._stopped], timeout=delay)
+            delay = self._options.respawn_delay
+            if delay and not self._stopped.done():
+                await asyncio.wait([self._stopped], timeout=delay)
 
     async def _run_once(self) -> bool:
         """Run the process until it exits; return False if it failed to start or was let go."""
@@ -174,9 +172,8 @@ class Supervisor:
             self.return_code = await process.exited
             self._report_end(process, self.return_code)
             await end_leftovers(process.pid, was_interrupted=self._escalation is not None)
-            await self._escaped.end(
-                float(self._options.sigterm_timeout), float(self._options.sigkill_timeout)
-            )
+            if self._escaped is not None:
+                await self._escaped.end(*self._options.timeouts_s)
             process.drain()
             self.output.flush()
         finally:
@@ -213,9 +210,7 @@ class Supervisor:
             self._run.note_failure(127)
             return None
         if self._run.processes is not None and not self._is_detached:
-            self._run.processes.add(
-                process, float(self._options.sigterm_timeout), float(self._options.sigkill_timeout)
-            )
+            self._run.processes.add(process, *self._options.timeouts_s)
         return process
 
     def _output_path(self) -> Optional[str]:
@@ -274,6 +269,10 @@ class Supervisor:
         if processes is None:  # the launch itself terminates all processes outside the groups
             process.send_signal(number)
             return
+        if self._escaped is None:
+            from launch._supervision.remainder import EscapedProcesses
+
+            self._escaped = EscapedProcesses()
         self._escaped.note(process.pid, processes.descendants(process.pid), number)
         process.send_signal(number)
         self._escaped.send(number)

@@ -8,8 +8,7 @@ import os
 from typing import Any, NoReturn, Optional, TYPE_CHECKING
 
 from launch.action import Action
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import perform_substitutions
 from launch.utilities.arguments import list_like, of_type, optional_text_like
 

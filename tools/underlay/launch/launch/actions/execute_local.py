@@ -10,7 +10,7 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch.substitutions.context_values import LaunchConfiguration
 from launch.utilities.arguments import list_like, of_type, typed
 

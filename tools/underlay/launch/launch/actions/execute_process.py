@@ -8,7 +8,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch.actions.execute_local import ExecuteLocal
 from launch.descriptions.executable import Executable, SomeVariables
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity

@@ -16,7 +16,7 @@ from launch.actions import (
 )
 from launch.actions.launch_configurations import ResetLaunchConfigurations, SetLaunchConfiguration
 from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch.utilities.arguments import list_like, mapping_like, typed
 from launch.utilities.type_utils import is_substitution, perform_typed_substitution
 

@@ -13,7 +13,7 @@ from launch.actions.launch_configurations import SetLaunchConfiguration
 from launch.launch_description import DeclaredArgument, Inclusion, LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.arguments import list_like, text_like
 

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch.action import Action
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

@@ -6,8 +6,7 @@ from __future__ import annotations
 from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from launch.event_handler import EventHandler
 from launch.event_handlers.on_shutdown import OnShutdown
 from launch.events import TimerEvent
 from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch.utilities.arguments import list_like, typed
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 

@@ -8,8 +8,11 @@ from typing import Optional, TYPE_CHECKING
 import warnings
 
 from launch.condition import Condition
-from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
-from launch.substitution import Substitution
+from launch.substitution import (
+    SomeSubstitutionsType,
+    SomeSubstitutionsType_types_tuple,
+    Substitution,
+)
 from launch.utilities import (
     ensure_argument_type,
     normalize_to_list_of_substitutions,

@@ -11,8 +11,7 @@ import shlex
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch._checks.programs import find_program
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import perform_substitutions
 from launch.utilities.arguments import list_like, mapping_like, optional_text_like, text_like
 

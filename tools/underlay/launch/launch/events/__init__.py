@@ -11,7 +11,6 @@ from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch.events import process
-    from launch.launch_description import LaunchDescription
     from launch.launch_description_entity import LaunchDescriptionEntity
 
 __all__ = [
@@ -59,11 +58,11 @@ class IncludeLaunchDescription(Event):
 
     name = 'launch.events.IncludeLaunchDescription'
 
-    def __init__(self, launch_description: LaunchDescription) -> None:
+    def __init__(self, launch_description: LaunchDescriptionEntity) -> None:
         self.__launch_description = launch_description
 
     @property
-    def launch_description(self) -> LaunchDescription:
+    def launch_description(self) -> LaunchDescriptionEntity:
         """Return the description to visit."""
         return self.__launch_description
 

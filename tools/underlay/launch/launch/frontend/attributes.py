@@ -7,8 +7,7 @@ from collections.abc import Iterable
 from typing import Any, List, Optional, TYPE_CHECKING  # noqa: UP035
 
 from launch.frontend.entity import Entity
-from launch.substitution import Substitution
-from launch.substitutions.text_substitution import TextSubstitution
+from launch.substitution import Substitution, TextSubstitution
 
 if TYPE_CHECKING:
     from launch.frontend.parser import Parser

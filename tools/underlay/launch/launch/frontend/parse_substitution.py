@@ -9,8 +9,7 @@ import re
 from typing import Any, Union
 
 from launch.frontend.expose import instantiate_substitution
-from launch.substitution import Substitution
-from launch.substitutions.text_substitution import TextSubstitution
+from launch.substitution import Substitution, TextSubstitution
 
 _NAME = re.compile(r'[A-Za-z][A-Za-z0-9_-]*')
 _HARMLESS = re.compile(r'[A-Za-z0-9_/.:,#=-]+')

@@ -8,7 +8,7 @@ import os
 from launch.frontend.parser import Parser
 from launch.launch_description import LaunchDescription
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):

@@ -12,7 +12,7 @@ from launch.failures import CallSite, note_line
 from launch.invalid_launch_file_error import InvalidFrontendLaunchFileError, InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 
 _PYTHON = '.py'
 _FUNCTION = 'generate_launch_description'

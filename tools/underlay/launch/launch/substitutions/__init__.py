@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.substitution import SubstitutionFailure
+from launch.substitution import SubstitutionFailure, TextSubstitution
 from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     )
     from launch.substitutions.path_join_substitution import PathJoinSubstitution, PathSubstitution
     from launch.substitutions.python_expression import PythonExpression
-    from launch.substitutions.text_substitution import TextSubstitution
     from launch.substitutions.this_launch_file import (
         LaunchLogDir,
         ThisLaunchFile,
@@ -76,6 +75,7 @@ also_found_at(
     'not_equals_substitution',
     'path_substitution',
     'substitution_failure',
+    'text_substitution',
     'this_launch_file_dir',
 )
 

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import shlex
 from typing import TYPE_CHECKING
 
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution, SubstitutionFailure
+from launch.substitution import SomeSubstitutionsType, Substitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

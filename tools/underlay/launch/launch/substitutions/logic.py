@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution, SubstitutionFailure
+from launch.substitution import SomeSubstitutionsType, Substitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import read_boolean
 

@@ -7,8 +7,7 @@ from collections.abc import Iterable
 import os
 from typing import TYPE_CHECKING
 
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

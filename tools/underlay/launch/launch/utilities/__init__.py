@@ -13,8 +13,7 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
@@ -58,7 +57,7 @@ def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Subs
 
 
 def _normalize(item: Any) -> Substitution:
-    from launch.substitutions.text_substitution import TextSubstitution
+    from launch.substitution import TextSubstitution
 
     if isinstance(item, Substitution):
         return item

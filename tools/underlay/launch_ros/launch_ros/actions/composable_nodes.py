@@ -9,7 +9,7 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
 from launch.utilities import (
     ensure_argument_type,
     normalize_to_list_of_substitutions,

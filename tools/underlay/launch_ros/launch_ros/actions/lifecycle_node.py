@@ -8,7 +8,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:

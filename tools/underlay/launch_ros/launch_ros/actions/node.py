@@ -10,8 +10,7 @@ from launch.actions.execute_process import ExecuteProcess
 from launch.descriptions.executable import SomeVariables
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities.arguments import list_like, optional_text_like, text_like
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (

@@ -8,7 +8,7 @@ from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.parameters_and_remappings import (
     evaluate_parameter_dict,

@@ -7,7 +7,7 @@ from typing import Any, TYPE_CHECKING, Union
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:

@@ -7,8 +7,7 @@ import os
 from typing import ClassVar
 
 from launch.launch_context import LaunchContext
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.substitutions.path_join_substitution import PathOperator
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 

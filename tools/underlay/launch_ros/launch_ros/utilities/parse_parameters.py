@@ -7,8 +7,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch.frontend.attributes import children_named, parse_pairs
 from launch.frontend.type_utils import get_data_type_from_identifier
-from launch.substitution import Substitution
-from launch.substitutions.text_substitution import TextSubstitution
+from launch.substitution import Substitution, TextSubstitution
 from launch.utilities.type_utils import is_substitution
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 

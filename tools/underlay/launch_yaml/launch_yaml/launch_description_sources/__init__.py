@@ -6,7 +6,7 @@ from __future__ import annotations
 from launch.launch_description_sources.frontend_launch_description_source import (
     FrontendLaunchDescriptionSource,
 )
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType
 from launch_yaml.parser import Parser
 from ros_environment.lazy import also_found_at
 

@@ -9,8 +9,7 @@ from typing import Any, Optional
 
 from launch.condition import Condition
 from launch.launch_context import LaunchContext
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from ros_environment.temporary_files import write_temporary_file
