@@ -12,8 +12,12 @@ from typing import Any
 from launch.actions import GroupAction
 from launch.substitutions import TextSubstitution
 from launch_ros.actions import Node, PushRosNamespace, SetParameter, SetRemap
-from launch_ros.actions._node_names import InvalidNameError, validate_namespace, validate_node_name
 from launch_ros.parameter_descriptions import Parameter
+from launch_ros.utilities.node_names import (
+    InvalidNameError,
+    validate_namespace,
+    validate_node_name,
+)
 import pytest
 
 rclpy = pytest.importorskip('rclpy')

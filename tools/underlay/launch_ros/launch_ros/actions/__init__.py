@@ -9,15 +9,18 @@ from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
     from launch_ros.actions.composable_nodes import ComposableNodeContainer, LoadComposableNodes
+    from launch_ros.actions.following_nodes import (
+        PushROSNamespace,
+        PushRosNamespace,
+        SetParameter,
+        SetParametersFromFile,
+        SetRemap,
+    )
     from launch_ros.actions.lifecycle_node import LifecycleNode
     from launch_ros.actions.lifecycle_transition import LifecycleTransition
     from launch_ros.actions.node import Node
-    from launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
-    from launch_ros.actions.ros_timer import ROSTimer
-    from launch_ros.actions.set_parameter import SetParameter, SetParametersFromFile
-    from launch_ros.actions.set_remap import SetRemap
+    from launch_ros.actions.ros_time import ROSTimer, SetUseSimTime
     from launch_ros.actions.set_ros_log_dir import SetROSLogDir
-    from launch_ros.actions.set_use_sim_time import SetUseSimTime
 
 __all__ = [
     'ComposableNodeContainer',
@@ -40,13 +43,24 @@ also_found_at(
     __name__,
     'composable_node_container',
     'load_composable_nodes',
+    'push_ros_namespace',
+    'ros_timer',
+    'set_parameter',
     'set_parameters_from_file',
+    'set_remap',
+    'set_use_sim_time',
 )
 
 _ELSEWHERE = {
     'ComposableNodeContainer': 'composable_nodes',
     'LoadComposableNodes': 'composable_nodes',
-    'SetParametersFromFile': 'set_parameter',
+    'PushROSNamespace': 'following_nodes',
+    'PushRosNamespace': 'following_nodes',
+    'ROSTimer': 'ros_time',
+    'SetParameter': 'following_nodes',
+    'SetParametersFromFile': 'following_nodes',
+    'SetRemap': 'following_nodes',
+    'SetUseSimTime': 'ros_time',
 }
 
 __getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

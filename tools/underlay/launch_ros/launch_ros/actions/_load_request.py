@@ -10,8 +10,8 @@ from typing import Any, Optional, TYPE_CHECKING
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch.utilities import perform_substitutions
-from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import global_parameters, remap_pairs, remap_rules
+from launch_ros.utilities.node_names import expand_node_names, NodeNames
 from launch_ros.utilities.parameter_list import named_values, NamedValue, to_ros_parameter
 from launch_ros.utilities.parameters_and_remappings import evaluate_parameters
 

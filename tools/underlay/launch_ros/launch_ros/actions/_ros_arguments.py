@@ -10,8 +10,8 @@ from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.launch_context import LaunchContext
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros.actions._node_names import NodeNames
 from launch_ros.parameter_descriptions import Parameter
+from launch_ros.utilities.node_names import NodeNames
 from launch_ros.utilities.parameter_files import flow_text, is_parameter_file, write_parameter_file
 from launch_ros.utilities.parameters_and_remappings import (
     evaluate_parameters,

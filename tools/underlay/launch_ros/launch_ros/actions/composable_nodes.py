@@ -16,7 +16,7 @@ from launch.utilities import (
     perform_substitutions,
 )
 from launch_ros.actions.node import Node
-from launch_ros.utilities.track_node_names import warn_of_same_names
+from launch_ros.utilities.node_names import UNKNOWN_NAMESPACE, warn_of_same_names
 
 if TYPE_CHECKING:
     import asyncio
@@ -230,7 +230,6 @@ class LoadComposableNodes(Action):
         """Reload the same nodes whenever this launch respawns the container."""
         from launch.event_handlers.process_event_handlers import OnProcessStart
         from launch_ros._service_calls import STARTED_ANEW
-        from launch_ros.actions._node_names import UNKNOWN_NAMESPACE
         from launch_ros.actions.node import Node
 
         full_name = name if name.startswith('/') else f'/{name}'

@@ -12,7 +12,6 @@ from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities.arguments import list_like, optional_text_like, text_like
-from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
     extend_node,
     global_arguments,
@@ -24,12 +23,12 @@ from launch_ros.actions._ros_arguments import (
     remap_rules,
     rule_arguments,
 )
-from launch_ros.substitutions.executable_in_package import ExecutableInPackage
+from launch_ros.substitutions.find_package import ExecutableInPackage
+from launch_ros.utilities.node_names import expand_node_names, NodeNames, warn_of_same_names
 from launch_ros.utilities.parameters_and_remappings import (
     normalize_parameters,
     normalize_remap_rules,
 )
-from launch_ros.utilities.track_node_names import warn_of_same_names
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity

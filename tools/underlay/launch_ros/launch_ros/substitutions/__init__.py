@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_environment.lazy import lazy_exports
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
-    from launch_ros.substitutions.executable_in_package import ExecutableInPackage
     from launch_ros.substitutions.find_package import (
+        ExecutableInPackage,
         FindPackage,
         FindPackagePrefix,
         FindPackageShare,
@@ -24,7 +24,11 @@ __all__ = [
     'Parameter',
 ]
 
+# ROS 2 Jazzy has a module for it; launch files import from that, too.
+also_found_at(__name__, 'executable_in_package')
+
 _ELSEWHERE = {
+    'ExecutableInPackage': 'find_package',
     'FindPackagePrefix': 'find_package',
     'FindPackageShare': 'find_package',
 }

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Substitutions for the install directories of ROS packages."""
+"""Substitutions for what a package has installed: its folders, and its executables."""
 
 from __future__ import annotations
 
 import os
 from typing import ClassVar
 
+from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 from launch.launch_context import LaunchContext
 from launch.substitution import SomeSubstitutionsType, Substitution
+from launch.substitutions import SubstitutionFailure
 from launch.substitutions.path_join_substitution import PathOperator
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -88,8 +90,6 @@ class FindPackagePrefix(FindPackage):
             The package is not installed.
 
         """
-        from launch_ros.substitutions._installed_package import prefix_of
-
         return prefix_of(package_name)
 
 
@@ -113,3 +113,117 @@ class FindPackageShare(FindPackagePrefix):
         """
         prefix: str = super().find(package_name)
         return os.path.join(prefix, 'share', package_name)
+
+
+class ExecutableInPackage(FindPackagePrefix):
+    """
+    Stands for the path of an executable that a package has installed.
+
+    Parameters
+    ----------
+    executable
+        The file name of the executable.
+    package
+        The package that installs the executable.
+
+    """
+
+    frontend_required = ('executable', 'package')
+
+    def __init__(
+        self,
+        executable: SomeSubstitutionsType,
+        package: SomeSubstitutionsType,
+    ) -> None:
+        super().__init__(package)
+        self.__executable = normalize_to_list_of_substitutions(executable)
+
+    @property
+    def executable(self) -> list[Substitution]:
+        """Return the executable name, as substitutions."""
+        return self.__executable
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        package = ' + '.join(sub.describe() for sub in self.package)
+        executable = ' + '.join(sub.describe() for sub in self.__executable)
+        return f'ExecInPkg(pkg={package}, exec={executable})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the path of the executable below `lib/<package>` of the install prefix.
+
+        Parameters
+        ----------
+        context
+            The launch context used to perform substitutions in the names.
+
+        Raises
+        ------
+        PackageNotFoundError
+            The package is not installed.
+        SubstitutionFailure
+            The package has no such executable; the message states what is missing.
+
+        """
+        executable = perform_substitutions(context, self.__executable)
+        package = perform_substitutions(context, self.package)
+        prefix = self.find(package)
+        folder = os.path.join(prefix, 'lib', package)
+        path = os.path.join(folder, executable)
+        if os.path.isfile(path) and os.access(path, os.X_OK):
+            return path
+        problem = (
+            f"executable '{executable}' not found on the libexec directory '{folder}' "
+            if os.path.isdir(folder)
+            else f"package '{package}' found at '{prefix}', but libexec directory "
+            f"'{folder}' does not exist"
+        )
+        explanation = _explain(package, executable, prefix)
+        raise SubstitutionFailure('\n'.join(filter(None, [problem, explanation])))
+
+
+def _explain(package: str, executable: str, prefix: str) -> str:
+    """Explain a missing executable from the workspace around the current directory."""
+    from ros_environment.workspace import explain_missing_executable
+
+    return explain_missing_executable(package, executable, prefix)
+
+
+class _ExplainedPackageNotFoundError(PackageNotFoundError):
+    """A package was not found; the message states why, as far as known."""
+
+    def __init__(self, error: KeyError, explanation: str) -> None:
+        super().__init__(*error.args)
+        self._text = '\n'.join(filter(None, [str(error), explanation]))
+
+    def __str__(self) -> str:
+        return self._text
+
+
+def prefix_of(package_name: str) -> str:
+    """
+    Return the install prefix of a package.
+
+    Parameters
+    ----------
+    package_name
+        The package.
+
+    Raises
+    ------
+    PackageNotFoundError
+        It is not installed; the message states why, as far as the workspace shows.
+
+    """
+    try:
+        return str(get_package_prefix(package_name))
+    except PackageNotFoundError as error:
+        raise _ExplainedPackageNotFoundError(error, _explain(package_name)) from None
+
+
+def _explain(package_name: str) -> str:
+    """Explain a missing package from the workspace around the current directory."""
+    from ros_environment.workspace import explain_missing_package
+
+    return explain_missing_package(package_name)

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_environment.lazy import lazy_exports
+from ros_environment.lazy import also_found_at, lazy_exports
 
 if TYPE_CHECKING:
-    from launch_ros.utilities.namespace_utils import (
+    from launch_ros.utilities.node_names import (
+        add_node_name,
+        get_node_name_count,
         is_namespace_absolute,
         is_root_namespace,
         make_namespace_absolute,
@@ -21,7 +23,6 @@ if TYPE_CHECKING:
         normalize_remap_rule,
         normalize_remap_rules,
     )
-    from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
     'add_node_name',
@@ -37,17 +38,20 @@ __all__ = [
     'to_parameters_list',
 ]
 
+# ROS 2 Jazzy has a module for each of them; other packages import from those, too.
+also_found_at(__name__, 'namespace_utils', 'track_node_names')
+
 _ELSEWHERE = {
-    'add_node_name': 'track_node_names',
+    'add_node_name': 'node_names',
     'evaluate_parameters': 'parameters_and_remappings',
-    'get_node_name_count': 'track_node_names',
-    'is_namespace_absolute': 'namespace_utils',
-    'is_root_namespace': 'namespace_utils',
-    'make_namespace_absolute': 'namespace_utils',
+    'get_node_name_count': 'node_names',
+    'is_namespace_absolute': 'node_names',
+    'is_root_namespace': 'node_names',
+    'make_namespace_absolute': 'node_names',
     'normalize_parameters': 'parameters_and_remappings',
     'normalize_remap_rule': 'parameters_and_remappings',
     'normalize_remap_rules': 'parameters_and_remappings',
-    'prefix_namespace': 'namespace_utils',
+    'prefix_namespace': 'node_names',
     'to_parameters_list': 'parameter_list',
 }
 

@@ -13,10 +13,10 @@ from typing import NamedTuple, Optional, TYPE_CHECKING
 
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
-from launch_ros.utilities.track_node_names import get_node_names
+from launch_ros.utilities.node_names import get_node_names
 
 if TYPE_CHECKING:
-    from launch_ros.actions._node_names import NodeNames
+    from launch_ros.utilities.node_names import NodeNames
 
 _FullName = tuple[str, Optional[str]]
 

@@ -14,7 +14,7 @@ from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch.utilities.type_utils import EXPONENT
 from launch_ros.parameter_descriptions import Parameter
-from launch_ros.utilities.namespace_utils import prefix_namespace
+from launch_ros.utilities.node_names import prefix_namespace
 from launch_ros.utilities.parameter_values import checked
 from launch_ros.utilities.parameters_and_remappings import EvaluatedParameters
 

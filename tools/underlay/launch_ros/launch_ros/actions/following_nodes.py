@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch actions that set parameters of all nodes that follow."""
+"""Launch actions for all nodes that follow: their parameters, remappings and namespace."""
 
 from __future__ import annotations
 
@@ -8,8 +8,14 @@ from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
-from launch.substitution import SomeSubstitutionsType
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.utilities.node_names import (
+    InvalidNameError,
+    make_namespace_absolute,
+    prefix_namespace,
+    validate_namespace,
+)
 from launch_ros.utilities.parameters_and_remappings import (
     evaluate_parameter_dict,
     normalize_parameter_dict,
@@ -184,3 +190,154 @@ def _require(path: str) -> None:
         from ros_environment.missing_file import explain_missing_file
 
         raise FileNotFoundError(explain_missing_file('parameter file', path))
+
+
+class SetRemap(Action):
+    """
+    Remaps a name of the nodes that follow, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    src, dst
+        The original and the new name.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
+
+    def __init__(
+        self,
+        src: SomeSubstitutionsType,
+        dst: SomeSubstitutionsType,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__src = normalize_to_list_of_substitutions(src)
+        self.__dst = normalize_to_list_of_substitutions(dst)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_remap` element, with the attributes `from` and `to`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class and the keyword arguments of its constructor.
+
+        """
+        _, kwargs = super().parse(entity, parser)
+        kwargs['src'] = parser.parse_substitution(entity.get_attr('from'))
+        kwargs['dst'] = parser.parse_substitution(entity.get_attr('to'))
+        return cls, kwargs
+
+    @property
+    def src(self) -> list[Substitution]:
+        """Return the original name, as substitutions."""
+        return self.__src
+
+    @property
+    def dst(self) -> list[Substitution]:
+        """Return the new name, as substitutions."""
+        return self.__dst
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Add the remapping; it precedes those of the nodes themselves.
+
+        Parameters
+        ----------
+        context
+            The launch context; its configuration `ros_remaps` holds the global remappings.
+
+        """
+        rule = (
+            perform_substitutions(context, self.__src),
+            perform_substitutions(context, self.__dst),
+        )
+        known = context.launch_configurations.get('ros_remaps', [])
+        context.launch_configurations['ros_remaps'] = [*known, rule]
+        context.run.note(source=rule[0], target=rule[1])
+
+
+class PushROSNamespace(Action):
+    """
+    Puts the nodes that follow below a namespace, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    namespace
+        A relative namespace is appended to the current one; an absolute one replaces it.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
+
+    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__namespace = normalize_to_list_of_substitutions(namespace)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `push_ros_namespace` element, with the attribute `namespace`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class and the keyword arguments of its constructor.
+
+        """
+        _, kwargs = super().parse(entity, parser)
+        kwargs['namespace'] = parser.parse_substitution(entity.get_attr('namespace'))
+        return cls, kwargs
+
+    @property
+    def namespace(self) -> list[Substitution]:
+        """Return the namespace, as substitutions."""
+        return self.__namespace
+
+    def execute(self, context: LaunchContext) -> None:
+        """
+        Combine the namespace with the current one.
+
+        Parameters
+        ----------
+        context
+            The launch context; its configuration `ros_namespace` holds the namespace.
+
+        Raises
+        ------
+        RuntimeError
+            The resulting namespace is not allowed in ROS.
+
+        """
+        pushed = perform_substitutions(context, self.__namespace)
+        previous = context.launch_configurations.get('ros_namespace')
+        namespace = make_namespace_absolute(prefix_namespace(previous, pushed)) or '/'
+        try:
+            validate_namespace(namespace)
+        except InvalidNameError as error:
+            raise RuntimeError(
+                'The resulting namespace is invalid: '
+                f"[previous_namespace='{previous}', pushed_namespace='{pushed}']. {error}",
+            ) from error
+        context.launch_configurations['ros_namespace'] = namespace
+        context.run.note(namespace=namespace)
+
+
+PushRosNamespace = PushROSNamespace

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The name and the namespace of a node: expand and validate them.
+How nodes are named: namespaces are joined, names expanded and validated, and equal ones counted.
 
 Valid names are recognised here; rclpy, which is slow to import, only explains invalid ones.
 """
@@ -16,7 +16,6 @@ from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch.substitution import Substitution
 from launch.utilities import perform_substitutions
-from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 
 _UNKNOWN_NAME = '<node_name_unspecified>'
 UNKNOWN_NAMESPACE = '<node_namespace_unspecified>'
@@ -180,3 +179,152 @@ def _let_judge(judge: Callable[[str], Any], name: str) -> None:
         judge(name)
     except NameValidationException as error:
         raise InvalidNameError(str(error)) from error
+
+
+def is_root_namespace(namespace: Optional[str]) -> bool:
+    """
+    Whether a namespace is the root namespace.
+
+    Parameters
+    ----------
+    namespace
+        The namespace; None is not the root.
+
+    """
+    return namespace == '/'
+
+
+def is_namespace_absolute(namespace: Optional[str]) -> bool:
+    """
+    Whether a namespace is absolute (starts with a slash).
+
+    Parameters
+    ----------
+    namespace
+        The namespace; None is not absolute.
+
+    """
+    return namespace is not None and namespace.startswith('/')
+
+
+def make_namespace_absolute(namespace: Optional[str]) -> Optional[str]:
+    """
+    Prepend a slash to a relative namespace.
+
+    Parameters
+    ----------
+    namespace
+        The namespace; an absolute one, or None, is returned unchanged.
+
+    """
+    if namespace is None or is_namespace_absolute(namespace):
+        return namespace
+    return f'/{namespace}'
+
+
+def prefix_namespace(base: Optional[str], namespace: Optional[str]) -> Optional[str]:
+    """
+    Join a namespace to a base, without a trailing slash.
+
+    Parameters
+    ----------
+    base
+        The parent of a relative namespace; None or empty leaves the namespace unchanged.
+    namespace
+        The namespace; an absolute one replaces the base, None stands for the base itself.
+
+    Returns
+    -------
+    str or None
+        The namespace, which is relative if the base is; None if both are None.
+
+    """
+    if namespace is None or is_namespace_absolute(namespace):
+        combined = base if namespace is None else namespace
+    elif not base:
+        combined = namespace
+    else:
+        combined = f'{base.rstrip("/")}/{namespace}'
+    if combined is None or is_root_namespace(combined):
+        return combined
+    return combined.rstrip('/') or '/' * combined.startswith('/')
+
+
+_KEY = 'unique_ros_node_names'
+
+
+def add_node_name(context: LaunchContext, node_name: str) -> int:
+    """
+    Increment the count of nodes with a fully qualified name.
+
+    Parameters
+    ----------
+    context
+        The launch context, which stores the counts.
+    node_name
+        The fully qualified name of the node.
+
+    Returns
+    -------
+    int
+        The number of nodes with this name, including the new one.
+
+    """
+    counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
+    context.extend_globals({_KEY: counts})
+    counts[node_name] = counts.get(node_name, 0) + 1
+    return counts[node_name]
+
+
+def get_node_name_count(context: LaunchContext, node_name: str) -> int:
+    """
+    Return the number of nodes created with a fully qualified name.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+    node_name
+        The fully qualified name.
+
+    """
+    counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
+    return counts.get(node_name, 0)
+
+
+def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str) -> None:
+    """
+    Increment the count of a fully qualified name, and log a warning if it is a duplicate.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+    node_name
+        The fully qualified name of the node.
+    logger_name
+        The name of the logger.
+
+    """
+    count = add_node_name(context, node_name)
+    if count > 1:
+        from launch.logging import get_logger
+
+        get_logger(logger_name).warning(
+            'there are now at least %s nodes with the name %s created within this launch context',
+            count,
+            node_name,
+        )
+
+
+def get_node_names(context: LaunchContext) -> list[str]:
+    """
+    Return the fully qualified names of the nodes created so far.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+
+    """
+    return list(context.get_locals_as_dict().get(_KEY) or {})
