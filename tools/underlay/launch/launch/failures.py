@@ -9,8 +9,8 @@ reported with the error.
 from __future__ import annotations
 
 from collections.abc import Sequence
+import inspect
 import os
-import sys
 from typing import Any, NamedTuple, Optional, TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def calling_line() -> Optional[CallSite]:
 
     None if launch itself is the caller, at run time or in a command.
     """
-    frame = sys._getframe(1)
+    frame = inspect.currentframe()
     while frame is not None:
         package = _package(frame.f_globals)
         if package in _COMMANDS or frame.f_globals.get('__name__') in _COMMANDS:
@@ -73,7 +73,7 @@ def calling_line() -> Optional[CallSite]:
         file_name = frame.f_code.co_filename
         if package not in _OWN_PACKAGES and not file_name.startswith(_STANDARD_LIBRARY):
             return CallSite(file_name, frame.f_lineno)
-        frame = frame.f_back  # type: ignore[assignment]
+        frame = frame.f_back
     return None
 
 

@@ -179,14 +179,20 @@ def _run(item: pytest.Function, test: _LaunchTest, session: LaunchSession) -> No
             pytest.skip('the test has not reached its yield')
         _resume(session, session.suspended.pop(test.first_part))
         return
-    arguments = {name: item.funcargs[name] for name in item._fixtureinfo.argnames}
-    function = partial(item.obj, **arguments)
+    function = partial(item.obj, **_arguments(item))
     if inspect.iscoroutinefunction(item.obj):
         session.wait_for(function)
     elif not (inspect.isgeneratorfunction(item.obj) or inspect.isasyncgenfunction(item.obj)):
         session.call(function)
     else:
         _run_parts(item, test, session, function())
+
+
+def _arguments(item: pytest.Function) -> dict[str, Any]:
+    """Return the values of the fixtures and parameters that a test takes by name."""
+    parameters = inspect.signature(item.obj).parameters.values()
+    taken = [each.name for each in parameters if each.default is each.empty]
+    return {name: item.funcargs[name] for name in taken if name in item.funcargs}
 
 
 def _run_parts(

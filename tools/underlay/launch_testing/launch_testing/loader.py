@@ -9,6 +9,7 @@ import inspect
 from types import ModuleType
 from typing import Any, Optional
 import unittest
+from unittest.util import strclass
 
 from launch import LaunchDescription
 from launch_testing.markers import is_post_shutdown_test, parameter_sets
@@ -209,8 +210,13 @@ def bind(cases: list[unittest.TestCase], injected: Mapping[str, Any]) -> unittes
         original = type(case)
         if original not in classes:
             classes[original] = _subclass(original, injected)
-        suite.addTest(_bound_case(classes[original], case._testMethodName, injected))
+        suite.addTest(_bound_case(classes[original], _method_name(case), injected))
     return suite
+
+
+def _method_name(case: unittest.TestCase) -> str:
+    """Return the name of the method that a case runs."""
+    return unittest.TestCase.id(case).removeprefix(f'{strclass(type(case))}.')
 
 
 def _subclass(

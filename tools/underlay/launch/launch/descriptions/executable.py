@@ -186,29 +186,10 @@ class Executable:
         if self.__env is not None:
             environment = _perform_variables(context, self.__env)
         else:
-            environment = _copy_of(context.environment)
+            environment = dict(context.environment)
             if runs_python(self.__final_cmd or [], shell=shell):
                 environment.setdefault('PYTHONUNBUFFERED', '1')
         return {**environment, **_perform_variables(context, self.__additional_env)}
-
-
-_last_copy: tuple[Any, dict[str, str]] = ({}, {})
-
-
-def _copy_of(variables: Mapping[str, str]) -> dict[str, str]:
-    """
-    Copy environment variables to a dictionary.
-
-    `os.environ` holds bytes and decodes a variable on each access, so the last copy is reused
-    until a variable changes.
-    """
-    global _last_copy
-    if variables is not os.environ:
-        return dict(variables)
-    raw = os.environ._data  # type: ignore[attr-defined]
-    if raw != _last_copy[0]:
-        _last_copy = dict(raw), dict(variables)
-    return dict(_last_copy[1])
 
 
 def _normalize_variables(keyword: str, variables: Mapping[Any, Any]) -> Variables:
