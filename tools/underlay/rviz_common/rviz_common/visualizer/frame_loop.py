@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When frames are drawn: at the frame rate, and hardly ever while no page is open."""
+"""When frames are drawn and inputs handled: at the frame rate, and hardly ever without a page."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ import time
 
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.timer import Timer
 from rviz_common.frames import FrameListener
+from rviz_common.inputs import WorkQueue
 from rviz_common.polled_topic import rest_all, resume_all
+from rviz_common.status import described_error
 
-__all__ = ['REST_HZ', 'Attention', 'FrameLoop']
+__all__ = ['Attention', 'FrameLoop']
 
 FASTEST_HZ = 60.0
 
@@ -23,30 +26,43 @@ PATIENCE_S = 5.0
 
 class FrameLoop:
     """
-    Timer that calls a function for each frame, in the node's thread.
+    Draws frames, and runs the work that widgets post, in the node's thread.
 
     The clock is steady, so that frames continue while a simulator is paused.
 
     Parameters
     ----------
     node
-        The node that spins the timer.
+        The node that spins.
     frame
         Draws a frame.
-    rate_hz
-        The frame rate, limited to 1 to 60 Hz.
+    attention
+        Decides when to rest.
+
+    Attributes
+    ----------
+    queue
+        The work that widgets post; it is run soon.
 
     """
 
-    def __init__(self, node: Node, frame: Callable[[], None], rate_hz: float) -> None:
-        self._node = node
-        self._frame = frame
+    def __init__(self, node: Node, frame: Callable[[], None], attention: Attention) -> None:
+        self._node, self._frame, self._attention = node, frame, attention
+        self._logger = node.get_logger()
         self._clock = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(_period_s(rate_hz), frame, clock=self._clock)
+        self._timer: Timer | None = None
+        self._rate_hz = REST_HZ
+        self._is_closed = False
+        self.queue = WorkQueue(self.rouse)
+
+    @property
+    def rests(self) -> bool:
+        """Whether no page is open, so that hardly any frames are drawn."""
+        return self._attention.rests
 
     def set_rate(self, rate_hz: float) -> None:
         """
-        Change the frame rate.
+        Draw frames at a rate from now on, except while resting.
 
         Parameters
         ----------
@@ -54,14 +70,39 @@ class FrameLoop:
             The frame rate, limited to 1 to 60 Hz.
 
         """
-        period_ns = int(_period_s(rate_hz) * 1e9)
-        if period_ns != self._timer.timer_period_ns:
-            self._timer.timer_period_ns = period_ns
+        self._rate_hz = rate_hz
+        period_s = _period_s(REST_HZ if self.rests else rate_hz)
+        if self._timer is None:
+            self._timer = self._node.create_timer(period_s, self._frame, clock=self._clock)
+        elif int(period_s * 1e9) != self._timer.timer_period_ns:
+            self._timer.timer_period_ns = int(period_s * 1e9)
             self._timer.reset()
 
+    def attend(self) -> None:
+        """Rest while no page is open, and resume when one is opened."""
+        if self._attention.look():
+            self.set_rate(self._rate_hz)
+
+    def rouse(self) -> None:
+        """Schedule posted work to run soon; a browser may post until the page is closed."""
+        executor = self._node.executor
+        if executor is not None and not self._is_closed:
+            executor.create_task(self._work)
+
     def close(self) -> None:
-        """Stop drawing frames."""
-        self._node.destroy_timer(self._timer)
+        """Stop drawing frames and running work."""
+        self._is_closed = True
+        if self._timer is not None:
+            self._node.destroy_timer(self._timer)
+
+    def _work(self) -> None:
+        """Run the work that widgets have posted."""
+        try:
+            self.attend()
+            self.queue.run()
+        except Exception as error:  # a failing widget must not stop anything else
+            self._logger.error(f'An input failed: {described_error(error)}')
+            self.rouse()  # for the remaining work
 
 
 def _period_s(rate_hz: float) -> float:

@@ -11,16 +11,15 @@ from rviz_common.config.configuration import DISPLAYS, PANELS, SAVED_VIEWS, TOOL
 from rviz_common.config.configuration import OPTIONS as OPTIONS_PLACE
 from rviz_common.context import Context
 from rviz_common.frames import FrameListener, Frames
-from rviz_common.inputs import WorkQueue
 from rviz_common.pace import Pace
 from rviz_common.panels.head import FileFolder, Head
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
-from rviz_common.status import described_error, printable, Statuses
+from rviz_common.status import printable, Statuses
 from rviz_common.view import Background, Cameras, View, WORLD
 from rviz_common.visualizer.display_entry import Maker
 from rviz_common.visualizer.display_tree import Entry, Group
-from rviz_common.visualizer.frame_loop import Attention, FrameLoop, REST_HZ
+from rviz_common.visualizer.frame_loop import Attention, FrameLoop
 from rviz_common.visualizer.global_options import (
     BACKGROUND,
     FIXED_FRAME,
@@ -85,23 +84,21 @@ class Visualizer:
     ) -> None:
         self._buffer = Buffer()
         self._listener = FrameListener(self._buffer, node)
+        attention = Attention(
+            node, self._listener, lambda: bool(page.viser.get_clients()), may_rest
+        )
+        self._loop = FrameLoop(node, self.frame, attention)
         frames = Frames(self._buffer)
-        self.context = Context(node, page, frames, WorkQueue(self._rouse), self)
+        self.context = Context(node, page, frames, self._loop.queue, self)
         self.status = Statuses()
         self.watch = FrameWatch(node, frames, self.status)
         self._logger = node.get_logger()
-        self._pace = Pace()
+        self._pace, self._slow = Pace(), Pace(1.0)
         self._maker = Maker(self.context, f'{WORLD}/displays')
         self._background = Background(page.viser)
         self._open(configuration, path)
         self._files = FileFolder(self.context)
-        self._attention = Attention(
-            node, self._listener, lambda: bool(page.viser.get_clients()), may_rest
-        )
-        self._slow = Pace(1.0)
-        self._is_closed = False
-        self._loop = FrameLoop(node, self.frame, self.options[FRAME_RATE])
-        page.viser.on_client_connect(lambda _: self._rouse())
+        page.viser.on_client_connect(lambda _: self._loop.rouse())
 
     def load(self, configuration: Configuration, path: str = '') -> None:
         """
@@ -117,7 +114,6 @@ class Visualizer:
         """
         self._close()
         self._open(configuration, path)
-        self._set_rate()
 
     def save(self, path: str) -> None:
         """
@@ -209,15 +205,15 @@ class Visualizer:
 
     def frame(self) -> None:
         """Draw the next frame; while no page is open, run only the essential work."""
-        self._attend()
-        if self._attention.rests and not self._slow.is_due():
+        self._loop.attend()
+        if self._loop.rests and not self._slow.is_due():
             self.panels.update()
             return
         self._listener.take_all()
         if self._pace.is_due():
             self.watch.update()
         with self.context.server.atomic():
-            if not self._attention.rests:
+            if not self._loop.rests:
                 self._background.update()
             self.cameras.update()
             self.displays.update()
@@ -240,7 +236,6 @@ class Visualizer:
 
     def close(self) -> None:
         """Close all displays, tools and panels."""
-        self._is_closed = True
         self._loop.close()
         self._close()
         self._files.close()
@@ -260,6 +255,7 @@ class Visualizer:
         self.watch.update()
         self.head = Head(self.context, self)
         self.panels = PanelTabs(self.context, configuration.panels)
+        self._loop.set_rate(self.options[FRAME_RATE])
         for sentence in surprises(self):
             self._logger.warning(sentence)
 
@@ -277,19 +273,9 @@ class Visualizer:
             self.context.frames.fixed_frame = value.strip().lstrip('/')
             self.watch.update()
         elif option == FRAME_RATE:
-            self._set_rate()
+            self._loop.set_rate(value)
         else:
             self._background.choose(value)
-
-    def _attend(self) -> None:
-        """Rest while no page is open, and resume when one is opened."""
-        if self._attention.look():
-            self._set_rate()
-
-    def _set_rate(self) -> None:
-        """Set the timer to the configured frame rate, or to the resting rate."""
-        rests = self._attention.rests
-        self._loop.set_rate(REST_HZ if rests else self.options[FRAME_RATE])
 
     def _sections(self) -> dict[Place, Any]:
         """Return the sections of the file that may have changed."""
@@ -301,18 +287,3 @@ class Visualizer:
             TOOLS: self.tools.to_file(),
             VIEW: self.cameras.view.to_file(),
         }
-
-    def _work(self) -> None:
-        """Run the work that widgets have posted."""
-        try:
-            self._attend()
-            self.context.queue.run()
-        except Exception as error:  # a failing widget must not stop anything else
-            self._logger.error(f'An input failed: {described_error(error)}')
-            self._rouse()  # for the remaining work
-
-    def _rouse(self) -> None:
-        """Schedule posted work to run soon; a browser may post until the page is closed."""
-        executor = self.context.node.executor
-        if executor is not None and not self._is_closed:
-            executor.create_task(self._work)
