@@ -7,7 +7,7 @@ from humanoid_control.walking.footing import Foothold, SoleReading
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gait_context import GaitContext, GaitInput
 from humanoid_control.walking.obstacle_guard import LegInAir
-from humanoid_control.walking.pendulum import BalanceReference, DcmPlan
+from humanoid_control.walking.pendulum import BalanceReference
 from humanoid_control.walking.planar import (
     GroundPlane,
     other,
@@ -17,7 +17,7 @@ from humanoid_control.walking.planar import (
     smooth_turn,
     Turning,
 )
-from humanoid_control.walking.step_adjustment import Residual, StepAdjuster
+from humanoid_control.walking.step_plan import LandingPlan, StepClock
 from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
 
 _INSTANT_S = 1e-4
@@ -43,10 +43,6 @@ class CurrentStep:
     ----------
     side
         Side of the swing foot.
-    landing
-        Pose at which the swing foot lands, in the odom frame.
-    elapsed_s, rate
-        Time on the clock of the step, and the rate of that clock relative to real time.
     error_m
         Distance of the divergent component of motion from its reference.
 
@@ -56,17 +52,11 @@ class CurrentStep:
         self._context = context
         self.support = support
         self.side = other(support)
-        self._shift_s = shift_s
-        self._start_m = zmp
-        self._passed_s = 0.0
-        self._real_s = 0.0
-        self.elapsed_s = 0.0
-        self.rate = 1.0
+        self._clock = StepClock(context.parameters, shift_s)
         self.error_m = 0.0
         self._lifted_from = context.footing[self.side]
         self._lift_off = self._lifted_from.pose
         self._foot = SwingFoot(self._lift_off)
-        self._adjuster = StepAdjuster(context.planner, context.pendulum.rate_1_s)
         p = context.parameters
         self._lift = Lift(
             p.swing.height_m, p.timing.swing_s, p.swing.reach_down_m_s, p.swing.deepest_m
@@ -74,40 +64,22 @@ class CurrentStep:
         self._tilt = context.slope
         self._has_touched = False
         self._lost_s = 0.0
-        self._nominal = self._next_landing()
-        self._planned_for = context.is_stopping
-        self._nominal_plan = self._planned(self._nominal)
-        self._plan = self._nominal_plan
-        self.landing = self._nominal
-
-    @property
-    def end_s(self) -> float:
-        """Return the planned time of the landing, on the clock of the step."""
-        return self._shift_s + self._context.parameters.timing.swing_s
-
-    @property
-    def _adjustable_until_s(self) -> float:
-        return self.end_s - self._context.parameters.step_adjustment.until_s
+        self._landing = LandingPlan(context, support, shift_s, zmp)
 
     @property
     def duration_s(self) -> float:
         """Return the actual duration, with the weight shift counted at its regular duration."""
-        return self._real_s + self._context.parameters.timing.shift_s - self._shift_s
-
-    @property
-    def swing_phase(self) -> float:
-        """Return the phase of the swing: 0 in double support, 1 at its end, above 1 if late."""
-        return max(0.0, self.elapsed_s - self._shift_s) / self._context.parameters.timing.swing_s
+        return self._clock.duration_s
 
     @property
     def sides(self) -> tuple[int, ...]:
         """Return the sides of the feet that carry the robot."""
-        return SIDES if self.elapsed_s < self._shift_s else (self.support,)
+        return SIDES if self._clock.in_air_s < 0.0 else (self.support,)
 
     @property
     def footsteps(self) -> list[Footstep]:
         """Return the planned footsteps, this one first."""
-        return self._context.footsteps(self.landing, self.support)
+        return self._landing.footsteps
 
     def advance(self, passed_s: float) -> None:
         """
@@ -122,13 +94,7 @@ class CurrentStep:
             Time since the last control period.
 
         """
-        p, before_s = self._context.parameters, self.elapsed_s
-        self._passed_s = min(passed_s, p.swing.longest_tick_s)
-        self._real_s += passed_s
-        self.elapsed_s += passed_s * self.rate
-        if not self._has_touched:
-            in_air_s = before_s + self._passed_s * self.rate
-            self.elapsed_s = min(self.elapsed_s, max(self._shift_s, in_air_s))
+        self._clock.advance(passed_s, waits=not self._has_touched)
 
     def replan(self, now: GaitInput) -> None:
         """
@@ -142,23 +108,21 @@ class CurrentStep:
             As for `Phase.replan`.
 
         """
-        if self._has_touched or self.elapsed_s > self._adjustable_until_s:
+        if self._has_touched or self._clock.elapsed_s > self._clock.adjustable_until_s:
             return
         blockage = self._context.guard.blockage
         if blockage and blockage.leg is not None:
             # The foot is not where it was planned to be.
             self._foot = SwingFoot(now.soles[self.side].pose)
-        self._planned_for = self._context.is_stopping
-        self._nominal = self.landing = self._in_time(self._next_landing())
-        self._nominal_plan = self._plan = self._planned(self._nominal)
+        self._landing.restart(self._in_time(self._landing.next_pose()))
 
     def _in_time(self, landing: PlanarPose) -> PlanarPose:
         """Limit a landing to what the foot can reach in time: a faster swing topples the robot."""
-        if self.swing_phase <= 0.0:
+        if self._clock.swing_phase <= 0.0:
             return landing
         start_m = self._foot.pose.position_m
         way_m = landing.position_m - start_m
-        most_m = self._context.parameters.obstacles.turn_back_m_s * max(0.0, self._arrival_s)
+        most_m = self._context.parameters.obstacles.turn_back_m_s * max(0.0, self._clock.arrival_s)
         if abs(way_m) <= most_m:
             return landing
         return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
@@ -180,7 +144,8 @@ class CurrentStep:
         """
         p, sole = self._context.parameters, now.soles[self.side]
         swings = (
-            p.obstacles.leg_touch_from_phase < self.swing_phase < 1.0 and not self._has_touched
+            p.obstacles.leg_touch_from_phase < self._clock.swing_phase < 1.0
+            and not self._has_touched
         )
         if not swings or sole.load > p.swing.touch_load:
             return None
@@ -203,9 +168,9 @@ class CurrentStep:
         if self._has_touched:
             self._notice_loss(sole, now.passed_s)
             return
-        if now.passed_s > self._passed_s and self.swing_phase > 0.0:
+        if now.passed_s > self._clock.passed_s and self._clock.swing_phase > 0.0:
             self._foot = SwingFoot(sole.pose)
-        if not (self._touches(sole) or self._is_late):
+        if not (self._touches(sole) or self._clock.is_late):
             return
         self._has_touched = True
         plane = GroundPlane(sole.plane.height_m, self._tilt)
@@ -214,16 +179,15 @@ class CurrentStep:
     def _notice_loss(self, sole: SoleReading, passed_s: float) -> None:
         """Resume the swing if the foot loses contact before its planned landing."""
         p = self._context.parameters
-        bears = sole.load > p.swing.lost_load or self.swing_phase > 1.0
+        bears = sole.load > p.swing.lost_load or self._clock.swing_phase > 1.0
         self._lost_s = 0.0 if bears else self._lost_s + passed_s
         if self._lost_s < p.swing.lost_s:
             return
         self._has_touched, self._lost_s = False, 0.0
         self._context.footing.put(self.side, self._lifted_from)
         self._foot = SwingFoot(sole.pose)
-        if self._arrival_s < p.swing.least_s:
-            self.landing = sole.pose
-            self._plan = self._planned(self.landing)
+        if self._clock.arrival_s < p.swing.least_s:
+            self._landing.move(sole.pose)
 
     def has_landed(self, now: GaitInput) -> bool:
         """
@@ -235,9 +199,11 @@ class CurrentStep:
             Estimates and measurements of this control period.
 
         """
-        p, phase = self._context.parameters, self.swing_phase
+        p, phase = self._context.parameters, self._clock.swing_phase
         bears = now.soles[self.side].load > p.swing.touchdown_load or phase > 1.0
-        return self._is_late or (self._has_touched and phase > p.swing.landing_phase and bears)
+        return self._clock.is_late or (
+            self._has_touched and phase > p.swing.landing_phase and bears
+        )
 
     def reference(self, now: GaitInput) -> BalanceReference:
         """
@@ -249,11 +215,12 @@ class CurrentStep:
             As for `Phase.reference`, which also describes the result.
 
         """
-        self._replan_if_stopping_changed()
-        time_s = min(self.elapsed_s, self.end_s - _INSTANT_S)
-        if self.elapsed_s < self._adjustable_until_s:
-            self._adjust(now, time_s)
-        reference = self._plan.at(time_s)
+        clock, landing = self._clock, self._landing
+        landing.heed_stop()
+        time_s = min(clock.elapsed_s, clock.end_s - _INSTANT_S)
+        if clock.elapsed_s < clock.adjustable_until_s:
+            landing.adjust(now.dcm_m, self.sides, time_s, clock)
+        reference = landing.at(time_s)
         self.error_m = abs(now.dcm_m - reference.dcm_m)
         return reference
 
@@ -261,105 +228,46 @@ class CurrentStep:
     def turning(self) -> Turning:
         """Return the mean heading of the feet, interpolated from lift-off to landing."""
         support = self._context.footing.pose(self.support)
-        before, after = support.halfway(self._lift_off), support.halfway(self.landing)
-        turning = smooth_turn(before.yaw_rad, after.yaw_rad, self.elapsed_s, self.end_s)
-        return Turning(turning.heading_rad, turning.rate_rad_s * self.rate)
+        before, after = support.halfway(self._lift_off), support.halfway(self._landing.pose)
+        clock = self._clock
+        turning = smooth_turn(before.yaw_rad, after.yaw_rad, clock.elapsed_s, clock.end_s)
+        return Turning(turning.heading_rad, turning.rate_rad_s * clock.rate)
 
     def swing(self) -> Swing | None:
         """Compute the swing foot target, or None without one; call it once per control period."""
-        in_air_s = self.elapsed_s - self._shift_s
-        if in_air_s <= 0.0 or self._has_touched:
+        clock, foot = self._clock, self._foot
+        if clock.in_air_s <= 0.0 or self._has_touched:
             return None
-        passed_s = min(self._passed_s, in_air_s / self.rate)
-        remaining_s = self._arrival_s + passed_s
-        foot = self._foot
-        foot.advance(self.landing, remaining_s, passed_s)
+        passed_s = min(clock.passed_s, clock.in_air_s / clock.rate)
+        foot.advance(self._landing.pose, clock.arrival_s + passed_s, passed_s)
         start, rise_m = self._context.footing[self.side].plane, self._rise_m
-        height_m, climb_m_s, climb_m_s2 = self._lift.at(in_air_s, rise_m)
-        share = min(1.0, self.swing_phase)
+        height_m, climb_m_s, climb_m_s2 = self._lift.at(clock.in_air_s, rise_m)
+        share = min(1.0, clock.swing_phase)
         self._tilt = start.tilt + share * (self._context.slope - start.tilt)
         motion = SoleMotion(
             foot.pose,
             GroundPlane(start.height_m + height_m, self._tilt),
             foot.velocity_m_s,
-            climb_m_s * self.rate,
+            climb_m_s * clock.rate,
             foot.turn_rad_s,
             foot.acceleration_m_s2,
-            climb_m_s2 * self.rate**2,
+            climb_m_s2 * clock.rate**2,
             foot.turn_rad_s2,
         )
         return Swing(self.side, motion)
 
     @property
-    def _arrival_s(self) -> float:
-        """Return the time until the foot is above its landing."""
-        p, in_air_s = self._context.parameters, self.elapsed_s - self._shift_s
-        return (p.swing.early_arrival * p.timing.swing_s - in_air_s) / self.rate
-
-    @property
     def _rise_m(self) -> float:
         """Return the expected height of the ground at the landing above that at the lift-off."""
         footing, slope = self._context.footing, self._context.slope
-        way_m = self.landing.position_m - footing.pose(self.support).position_m
+        way_m = self._landing.pose.position_m - footing.pose(self.support).position_m
         landing_m = footing[self.support].plane.height_beside(way_m, slope)
         return landing_m - footing[self.side].plane.height_m
 
-    @property
-    def _is_late(self) -> bool:
-        """Whether the landing is overdue."""
-        return self.elapsed_s > self.end_s + self._context.parameters.swing.late_touchdown_s
-
     def _touches(self, sole: SoleReading) -> bool:
         """Detect contact of the descending foot with the ground."""
-        p, phase = self._context.parameters, self.swing_phase
+        p, phase = self._context.parameters, self._clock.swing_phase
         enough = p.swing.touch_load if phase > p.swing.gentle_phase else p.swing.touchdown_load
         # Friction on the front of an obstacle is not ground contact.
         is_below = abs(sole.drag) < sole.load
         return phase > p.swing.touchdown_phase and sole.load > enough and is_below
-
-    def _next_landing(self) -> PlanarPose:
-        """Plan the landing of the foot, corrected to the reference path unless the robot stops."""
-        planner, support = self._context.planner, self._context.footing.pose(self.support)
-        start = planner.middle_beside(support, self.support)
-        if not self._context.is_stopping:
-            start = self._context.path.corrected(start)
-        goal = planner.next_middle(start, self.support, self._context.velocity)
-        landing = planner.landing(support, self.support, goal)
-        return PlanarPose(self._context.guard.kept_off(landing.position_m), landing.yaw_rad)
-
-    def _planned(self, landing: PlanarPose) -> DcmPlan:
-        """Plan the DCM from the start of the step until the robot rests, for a landing."""
-        steps = self._context.footsteps(landing, self.support)
-        return self._context.plan(
-            self._context.step_segments(self.support, steps, self._start_m, self._shift_s)
-        )
-
-    def _replan_if_stopping_changed(self) -> None:
-        """Replan the DCM when the robot has started to stop, or no longer stops."""
-        if self._context.is_stopping != self._planned_for:
-            self._planned_for = self._context.is_stopping
-            self._nominal_plan = self._planned(self._nominal)
-            self._plan = self._planned(self.landing)
-
-    def _adjust(self, now: GaitInput, time_s: float) -> None:
-        """Adjust the position and the timing of the landing to the error of the DCM."""
-        support = self._context.footing.pose(self.support)
-        residual = Residual.of(
-            self._nominal_plan.at(time_s),
-            now.dcm_m,
-            self._context.parameters.balance.dcm_gain,
-            self._context.footing.polygon(self.sides),
-            support,
-        )
-        adjustment = self._adjuster.adjusted(
-            self._nominal,
-            support,
-            self.support,
-            residual,
-            self.end_s - time_s,
-            self.rate,
-        )
-        self.rate = adjustment.rate
-        if adjustment.landing != self.landing:
-            self.landing = adjustment.landing
-            self._plan = self._planned(self.landing)
