@@ -160,9 +160,9 @@ class SoakRun:
     def _hold_hand_before_body(self) -> None:
         """Raise the left hand to the carrying posture."""
         control = self._robot.walking.control
-        arm = control.trajectory_controllers[ARM]
+        arm = control.goals.limbs[ARM]
         request = TrajectoryRequest(arm.own, [TrajectoryPoint(SETTLE_S, CARRYING_RAD)])
-        arm.accept(control.checked_goal(ARM, request), lambda end: None)
+        arm.accept(control.goals.checked_goal(ARM, request), lambda end: None)
 
     def run(self, duration_s: float) -> SoakResult:
         """

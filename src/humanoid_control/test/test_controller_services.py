@@ -41,9 +41,9 @@ class Robot:
 
     def send(self, name: str = LEFT) -> list[Any]:
         """Send a goal; return where its end comes."""
-        controller, ends = self.control.controllers[name], []
+        controller, ends = self.control.goals.by_name[name], []
         request = TrajectoryRequest(controller.own, [TrajectoryPoint(1.0, [0.5])])
-        controller.accept(self.control.checked_goal(name, request), ends.append)
+        controller.accept(self.control.goals.checked_goal(name, request), ends.append)
         self.tick()
         return ends
 

@@ -45,7 +45,7 @@ class Hand:
     @property
     def gripper(self) -> GripperController:
         """Return its controller."""
-        return self.control.gripper_controllers[NAME]
+        return self.control.goals.grippers[NAME]
 
     @property
     def press_n(self) -> float:
@@ -66,7 +66,7 @@ class Hand:
     def grip(self, gap_m: float, most_n: float = 0.0) -> list[GripResult]:
         """Give a goal; return where its end comes."""
         results: list[GripResult] = []
-        self.gripper.accept(self.control.checked_grip(NAME, gap_m, most_n), results.append)
+        self.gripper.accept(self.control.goals.checked_grip(NAME, gap_m, most_n), results.append)
         return results
 
 

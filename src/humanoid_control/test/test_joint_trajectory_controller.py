@@ -64,7 +64,7 @@ class Robot:
     @property
     def arm(self) -> Any:
         """Return the controller of the arm."""
-        return self.control.controllers[NAME]
+        return self.control.goals.by_name[NAME]
 
     def run(self, seconds: float) -> None:
         """Let time pass."""
@@ -80,12 +80,12 @@ class Robot:
         self, *points: tuple[float, Sequence[float]], name: str = NAME, **options: Any
     ) -> list[GoalResult]:
         """Send a goal; return where its end comes."""
-        joints = self.control.controllers[name].own
+        joints = self.control.goals.by_name[name].own
         way = [TrajectoryPoint(time_s, positions) for time_s, positions in points]
         request = TrajectoryRequest(joints, way, **options)
         results: list[GoalResult] = []
-        goal = self.control.checked_goal(name, request)
-        self.control.controllers[name].accept(goal, results.append)
+        goal = self.control.goals.checked_goal(name, request)
+        self.control.goals.by_name[name].accept(goal, results.append)
         return results
 
     def told_rad(self, joint: str = 'left_shoulder') -> float:
@@ -126,7 +126,7 @@ def test_joints_in_another_order() -> None:
     """A goal may name the joints of a controller in any order."""
     robot = Robot()
     request = TrajectoryRequest(tuple(reversed(ARM)), [TrajectoryPoint(1.0, [-0.5, 0.2])])
-    robot.arm.accept(robot.control.checked_goal(NAME, request), robot.results.append)
+    robot.arm.accept(robot.control.goals.checked_goal(NAME, request), robot.results.append)
     robot.run(1.5)
     assert robot.told_rad('left_shoulder') == pytest.approx(0.2)
     assert robot.told_rad('left_elbow') == pytest.approx(-0.5)
@@ -359,7 +359,7 @@ def test_refused(
     robot.run(0.5)
     request = TrajectoryRequest(joints, [TrajectoryPoint(*point) for point in points], **options)
     with pytest.raises(CommandError) as refusal:
-        robot.control.checked_goal(NAME, request)
+        robot.control.goals.checked_goal(NAME, request)
     assert reason in str(refusal.value)
     robot.run(0.6)
     assert running[0].code == ErrorCode.SUCCESSFUL
@@ -371,15 +371,15 @@ def test_a_hundred_goals_at_random() -> None:
     robot, chance = Robot(), random.Random(4)
     sent: list[list[GoalResult]] = []
     for _ in range(100):
-        name = chance.choice(list(robot.control.controllers))
-        count = len(robot.control.controllers[name].own)
+        name = chance.choice(list(robot.control.goals.by_name))
+        count = len(robot.control.goals.by_name[name].own)
         way = [
             (0.6 * (1 + k), [chance.uniform(-0.5, 0.5) for _ in range(count)]) for k in range(2)
         ]
         sent.append(robot.send(*way, name=name))
         robot.run(chance.choice([0.0, 0.01, 0.1, 0.7, 1.5]))
         if chance.random() < 0.4:
-            robot.control.controllers[name].cancel_goal()
+            robot.control.goals.by_name[name].cancel_goal()
             robot.run(chance.choice([0.0, 0.05]))
     robot.run(2.0)
     assert all(len(results) == 1 for results in sent)

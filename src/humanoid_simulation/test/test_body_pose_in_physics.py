@@ -89,10 +89,10 @@ def test_who_is_to_walk_comes_up_first(bent: Bent) -> None:
 def test_it_stands_and_walks_with_its_waist_turned(bent: Bent, angle_rad: float) -> None:
     """Somebody reaches with an arm meanwhile, say."""
     control = bent.robot.walking.control
-    waist = control.trajectory_controllers['waist_controller']
+    waist = control.goals.limbs['waist_controller']
     ends: list[GoalResult] = []
     request = TrajectoryRequest(waist.own, [TrajectoryPoint(1.0, [angle_rad])])
-    waist.accept(control.checked_goal('waist_controller', request), ends.append)
+    waist.accept(control.goals.checked_goal('waist_controller', request), ends.append)
     assert bent.robot.wait(2.0)
     assert [end.code for end in ends] == [ErrorCode.SUCCESSFUL]
     bent.robot.drive(0.25, 0.0, 0.2)

@@ -32,16 +32,16 @@ class Hand:
         self.robot = LockstepRobot(settings, Scene(things=(BOTTLE,)), hands=True)
         self.control = self.robot.walking.control
         name = 'left_arm_controller'
-        arm = self.control.trajectory_controllers[name]
+        arm = self.control.goals.limbs[name]
         request = TrajectoryRequest(arm.own, [TrajectoryPoint(1.0, LEVEL_RAD)])
-        arm.accept(self.control.checked_goal(name, request), lambda end: None)
+        arm.accept(self.control.goals.checked_goal(name, request), lambda end: None)
         self.grip(0.072)
         assert self.robot.wait(2.0)
 
     @property
     def gap_m(self) -> float:
         """Return the gap between the fingers."""
-        return self.control.gripper_controllers['left_gripper_controller'].state.gap_m
+        return self.control.goals.grippers['left_gripper_controller'].state.gap_m
 
     @property
     def bottle_m(self) -> np.ndarray:
@@ -53,8 +53,8 @@ class Hand:
     def grip(self, gap_m: float, most_n: float = 0.0) -> list[GripResult]:
         """Give the gripper a goal; return where its end comes."""
         name, results = 'left_gripper_controller', list[GripResult]()
-        grip = self.control.checked_grip(name, gap_m, most_n)
-        self.control.gripper_controllers[name].accept(grip, results.append)
+        grip = self.control.goals.checked_grip(name, gap_m, most_n)
+        self.control.goals.grippers[name].accept(grip, results.append)
         return results
 
     def take_bottle(self) -> GripResult:
@@ -102,10 +102,10 @@ def test_a_full_bottle_is_held_while_walking(hand: Hand) -> None:
 def test_an_arm_does_not_sag(hand: Hand) -> None:
     """Its weight is borne wherever it is, level and stretched out too."""
     name = 'left_arm_controller'
-    arm = hand.control.trajectory_controllers[name]
+    arm = hand.control.goals.limbs[name]
     for posture in (LEVEL_RAD, (-1.2, 0.3, 0.3, -0.4, 0.0, -0.4)):
         request = TrajectoryRequest(arm.own, [TrajectoryPoint(1.0, posture)])
-        arm.accept(hand.control.checked_goal(name, request), lambda end: None)
+        arm.accept(hand.control.goals.checked_goal(name, request), lambda end: None)
         assert hand.robot.wait(2.0)
         positions_rad = hand.robot.backend.observe()[''].positions_rad[arm.indices]
         # Noise, and the weight of the hand alone at the wrist.

@@ -51,12 +51,12 @@ class ControllerActions:
     def __init__(self, node: Node, robot: str, control: RobotControl) -> None:
         refusals = Refusals(node.get_logger().warning)
         self._servers: list[GoalServer[Any, Any]] = []
-        for name, limb in control.trajectory_controllers.items():
+        for name, limb in control.goals.limbs.items():
             action = topic(robot, f'{name}/follow_joint_trajectory')
             self._servers.append(
                 FollowJointTrajectoryServer(node, action, control, limb, refusals)
             )
-        for name, gripper in control.gripper_controllers.items():
+        for name, gripper in control.goals.grippers.items():
             action = topic(robot, f'{name}/gripper_cmd')
             self._servers.append(GripperCommandServer(node, action, control, gripper, refusals))
         self._due = RateLimiter(FEEDBACK_RATE_HZ)
@@ -141,7 +141,7 @@ class FollowJointTrajectoryServer(GoalServer[TrajectoryGoal, GoalResult]):
 
         """
         request = _request(goal, self.time_s)
-        return self._control.checked_goal(self._controller.name, request)
+        return self._control.goals.checked_goal(self._controller.name, request)
 
     def finished(self, handle: ServerGoalHandle, end: GoalResult) -> tuple[Any, str]:
         """
@@ -268,7 +268,7 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
 
         """
         command = goal.command
-        return self._control.checked_grip(
+        return self._control.goals.checked_grip(
             self._controller.name, command.position, command.max_effort
         )
 

@@ -225,7 +225,7 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     """
     manager, claims = control.manager, control.manager.claims
     claimable = any(
-        claims.is_claimable(controller.indices) for controller in control.controllers.values()
+        claims.is_claimable(controller.indices) for controller in control.goals.by_name.values()
     )
     limbs = [
         ControllerInfo(
@@ -235,7 +235,7 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
             claims.joints_of(name),
             controller.own,
         )
-        for name, controller in control.controllers.items()
+        for name, controller in control.goals.by_name.items()
     ]
     modes = [
         ControllerInfo(name, kind, name == manager.mode, claims.joints_of(name), manager.joints)
@@ -294,10 +294,10 @@ def switch(
         return False, f'{message} Nothing was switched.'
     for name in deactivate:
         if not faults[name]:
-            _set(control.controllers[name], False)
+            _set(control.goals.by_name[name], False)
     for name in activate:
         if not faults[name]:
-            _set(control.controllers[name], True)
+            _set(control.goals.by_name[name], True)
     lists = [names for names in (activate, deactivate) if names]
     return all(any(not faults[name] for name in names) for names in lists), message
 
@@ -311,7 +311,7 @@ def _set(controller: GoalController[Any, Any], active: bool) -> None:
 
 def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> str:
     """Return the reason why a controller cannot be switched; empty if it can."""
-    controller = control.controllers.get(name)
+    controller = control.goals.by_name.get(name)
     if controller is None:
         return _not_switched(control, name)
     if active and not control.manager.claims.is_claimable(controller.indices):

@@ -3,36 +3,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers import (
-    checked_goal,
     checked_trajectory,
     ClaimingController,
     CommandError,
     ControllerManager,
     Follower,
-    GoalController,
-    Grip,
     JointNames,
     Mode,
-    TrajectoryGoal,
     TrajectoryPoint,
-    TrajectoryRequest,
     TrajectoryRunner,
 )
 from humanoid_control.controllers.command_controllers import Clock, Silence
 from humanoid_control.controllers.gripper_controller import gripper_controllers
 from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
 from humanoid_control.controllers.modes import Still
+from humanoid_control.hosting.goal_controllers import GoalControllers, HELD
 from humanoid_control.limits import JointLimits
 from humanoid_control.walking.commands import BodyPose, STANDING, VelocityCommand
 
 WalkAt = Callable[[VelocityCommand], None]
 HoldBody = Callable[[BodyPose | None], None]
-HELD = 'The robot must hold still; stop_state says why.'
 VELOCITY_TIMEOUT_S = 0.5
 
 
@@ -87,19 +81,13 @@ class RobotControl:
         self._runner = TrajectoryRunner(joints)
         self._follower = Follower(joints, clock=clock)
         self._velocity, self._silence = STANDING, Silence(VELOCITY_TIMEOUT_S, clock)
-        self.trajectory_controllers = {each.name: each for each in limb_controllers(joints)}
-        """Joint trajectory controllers of arms, head and waist, by name."""
-        self.gripper_controllers = {
-            each.name: each for each in gripper_controllers(joints, limits)
-        }
-        self.controllers: Mapping[str, GoalController[Any, Any]] = {
-            **self.trajectory_controllers,
-            **self.gripper_controllers,
-        }
-        """All controllers that accept goals, by name."""
-        limbs = self.controllers.values()
-        claimants: list[ClaimingController] = [self.still, *limbs, self._runner, self._follower]
+        limbs, grippers = limb_controllers(joints), gripper_controllers(joints, limits)
+        claimants: list[ClaimingController] = [self.still, *limbs, *grippers]
+        claimants += [self._runner, self._follower]
         self.manager = ControllerManager(joints, modes, claimants, limits, say)
+        claims = self.manager.claims
+        self.goals = GoalControllers(self._names, limits, limbs, grippers, self.still, claims)
+        """The controllers that accept goals."""
 
     @property
     def must_hold(self) -> bool:
@@ -165,74 +153,6 @@ class RobotControl:
             self.manager.claims.check(self._runner, trajectory.indices)
             self._runner.accept(trajectory)
 
-    def checked_goal(self, controller: str, request: TrajectoryRequest) -> TrajectoryGoal:
-        """
-        Validate a trajectory goal of a controller of arms, head or waist.
-
-        Parameters
-        ----------
-        controller
-            Name of the controller, one of `trajectory_controllers`.
-        request
-            The goal that its client requests.
-
-        Returns
-        -------
-        TrajectoryGoal
-            The goal, which the controller can accept now.
-
-        Raises
-        ------
-        CommandError
-            The joints cannot execute it, the controller is inactive, the robot must hold still, or
-            the joints belong to the mode or to a controller of higher priority.
-
-        """
-        wanted = self.trajectory_controllers[controller]
-        goal = checked_goal(controller, wanted.own, self._names, self._limits, request)
-        self._check_free(wanted)
-        return goal
-
-    def checked_grip(self, controller: str, gap_m: float, most_n: float) -> Grip:
-        """
-        Validate a goal of a gripper controller.
-
-        Parameters
-        ----------
-        controller
-            Name of the controller, one of `gripper_controllers`.
-        gap_m
-            Gap between the fingers.
-        most_n
-            Maximum force; 0 is that of the actuator.
-
-        Returns
-        -------
-        Grip
-            The goal within the limits of the gripper, which the controller can accept now.
-
-        Raises
-        ------
-        CommandError
-            The gap or the force is out of range, or the reasons of `checked_goal`.
-
-        """
-        wanted = self.gripper_controllers[controller]
-        grip = wanted.checked(gap_m, most_n)
-        self._check_free(wanted)
-        return grip
-
-    def _check_free(self, controller: GoalController[Any, Any]) -> None:
-        """Check that a controller can claim its joints now."""
-        if not controller.is_active:
-            raise CommandError(
-                f"'{controller.name}' is inactive. Activate it: ros2 control switch_controllers "
-                f'--activate {controller.name}'
-            )
-        if self.must_hold:
-            raise CommandError(HELD)
-        self.manager.claims.check(controller, controller.indices)
-
     def walk(self, velocity: VelocityCommand) -> None:
         """
         Command a walking velocity, which expires unless it is repeated within the timeout.
@@ -296,8 +216,7 @@ class RobotControl:
             self._forget()
             if self._hold_body is not None:
                 self._hold_body(None)
-            for controller in self.controllers.values():
-                controller.abort(HELD)
+            self.goals.abort(HELD)
         self.still.on = must
 
     def update(self, observation: Observation) -> JointTargets:
@@ -323,24 +242,13 @@ class RobotControl:
             must_stand = has_expired or self.must_hold or self.manager.is_leaving
             self._walk(STANDING if must_stand else self._velocity)
         targets = self.manager.update(observation)
-        self._end_lost_goals()
+        self.goals.end_lost()
         return targets
 
     def reset(self) -> None:
         """Drop all commands, and restart from the next observation."""
         self._forget()
         self.manager.reset()
-
-    def _end_lost_goals(self) -> None:
-        """End the goals of controllers whose joints others have taken."""
-        claims, trouble = self.manager.claims, self.manager.claims.trouble
-        for controller in self.controllers.values():
-            if trouble:
-                controller.release(f'{trouble[:1].upper()}{trouble[1:]}.')
-            elif controller.has_goal and not claims.owns(controller, controller.indices):
-                owners = {claims.owner(joint) for joint in controller.own}
-                others = ', '.join(f"'{name}'" for name in sorted(owners - {controller.name}))
-                controller.abort(f'Its joints were claimed by {others}.')
 
     def _forget(self) -> None:
         """Drop all commands."""
