@@ -7,10 +7,9 @@ from collections.abc import Iterable
 
 from humanoid_description.checks.build import NAME
 from humanoid_description.checks.humanoid import NAMES, SHAPE
-from humanoid_description.checks.joints import JOINTS
+from humanoid_description.checks.joints import JOINTS, STRUCTURE
 from humanoid_description.checks.links import BODIES, MESHES
 from humanoid_description.checks.outcome import Check, Outcome
-from humanoid_description.checks.structure import STRUCTURE
 from humanoid_description.robot import Robot
 
 __all__ = ['Outcome', 'check_robot']

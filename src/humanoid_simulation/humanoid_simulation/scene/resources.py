@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 from urllib.parse import unquote, urlsplit
 
-from humanoid_description.checks.structure import STRUCTURE
+from humanoid_description.checks.joints import STRUCTURE
 from humanoid_description.errors import DescriptionError
 from humanoid_description.kinematics import poses
 from humanoid_description.loading import load_robot
