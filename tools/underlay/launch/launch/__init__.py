@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         utilities,
     )
     from launch.action import Action
-    from launch.condition import Condition
+    from launch.conditions import Condition
     from launch.event import Event
     from launch.event_handler import EventHandler
     from launch.invalid_launch_file_error import InvalidLaunchFileError
@@ -75,9 +75,10 @@ __all__ = [
 ]
 
 # ROS 2 Jazzy has a module for each of them; programs import from those, too.
-also_found_at(__name__, 'some_actions_type', 'some_substitutions_type')
+also_found_at(__name__, 'condition', 'some_actions_type', 'some_substitutions_type')
 
 _ELSEWHERE = {
+    'Condition': 'conditions',
     'SomeActionsType': 'some_entities_type',
     'SomeActionsType_types_tuple': 'some_entities_type',
     'SomeEntitiesType_types_tuple': 'some_entities_type',

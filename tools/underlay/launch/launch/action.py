@@ -10,7 +10,7 @@ from launch.failures import calling_line, CallSite
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from launch.condition import Condition
+    from launch.conditions import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext

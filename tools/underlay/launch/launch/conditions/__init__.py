@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The conditions under which an action is executed."""
+"""The conditions under which an action is executed, and their base class."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Optional, TYPE_CHECKING
 import warnings
 
-from launch.condition import Condition
 from launch.substitution import (
     SomeSubstitutionsType,
     SomeSubstitutionsType_types_tuple,
@@ -33,6 +32,42 @@ __all__ = [
 
 VALID_TRUE_EXPRESSIONS = ['true', '1']
 VALID_FALSE_EXPRESSIONS = ['false', '0']
+
+
+class Condition:
+    """
+    Base class of conditions: a question that decides whether an action is executed.
+
+    Parameters
+    ----------
+    predicate
+        Called with the launch context; without one the condition is never fulfilled.
+
+    """
+
+    def __init__(self, *, predicate: Optional[Callable[[LaunchContext], bool]] = None) -> None:
+        self._predicate = predicate
+
+    def describe(self) -> str:
+        """Return a short human-readable description."""
+        return repr(self)
+
+    def evaluate(self, context: LaunchContext) -> bool:
+        """
+        Evaluate the condition in the current state of the launch.
+
+        Parameters
+        ----------
+        context
+            The launch context, which is passed to the predicate.
+
+        Returns
+        -------
+        bool
+            Whether the condition is fulfilled.
+
+        """
+        return self._predicate(context) if self._predicate is not None else False
 
 
 class InvalidConditionExpressionError(Exception):

@@ -16,7 +16,7 @@ from launch_ros.utilities.parameters_and_remappings import (
 )
 
 if TYPE_CHECKING:
-    from launch.condition import Condition
+    from launch.conditions import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
 

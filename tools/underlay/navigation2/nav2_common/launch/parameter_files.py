@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Optional
 
-from launch.condition import Condition
+from launch.conditions import Condition
 from launch.launch_context import LaunchContext
 from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.substitutions import SubstitutionFailure
