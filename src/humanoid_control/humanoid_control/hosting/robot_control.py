@@ -18,10 +18,10 @@ from humanoid_control.controllers import (
     TrajectoryRunner,
 )
 from humanoid_control.controllers.command_controllers import Clock, Silence
+from humanoid_control.controllers.goal_controllers import GoalControllers, HELD
 from humanoid_control.controllers.gripper_controller import gripper_controllers
 from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
 from humanoid_control.controllers.modes import Still
-from humanoid_control.hosting.goal_controllers import GoalControllers, HELD
 from humanoid_control.limits import JointLimits
 from humanoid_control.walking.commands import BodyPose, STANDING, VelocityCommand
 

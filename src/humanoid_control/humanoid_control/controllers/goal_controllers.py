@@ -6,19 +6,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from humanoid_control.controllers import (
+from humanoid_control.controllers.claims import JointClaims
+from humanoid_control.controllers.commands import CommandError, JointNames
+from humanoid_control.controllers.gripper_controller import Grip, GripperController
+from humanoid_control.controllers.interface import GoalController
+from humanoid_control.controllers.joint_trajectory_controller import JointTrajectoryController
+from humanoid_control.controllers.modes import Still
+from humanoid_control.controllers.trajectory_goal import (
     checked_goal,
-    CommandError,
-    GoalController,
-    Grip,
-    GripperController,
-    JointNames,
-    JointTrajectoryController,
     TrajectoryGoal,
     TrajectoryRequest,
 )
-from humanoid_control.controllers.claims import JointClaims
-from humanoid_control.controllers.modes import Still
 from humanoid_control.limits import JointLimits
 
 HELD = 'The robot must hold still; stop_state says why.'
