@@ -219,10 +219,10 @@ def prefix_of(package_name: str) -> str:
     try:
         return str(get_package_prefix(package_name))
     except PackageNotFoundError as error:
-        raise _ExplainedPackageNotFoundError(error, _explain(package_name)) from None
+        raise _ExplainedPackageNotFoundError(error, _why_missing(package_name)) from None
 
 
-def _explain(package_name: str) -> str:
+def _why_missing(package_name: str) -> str:
     """Explain a missing package from the workspace around the current directory."""
     from ros_environment.workspace import explain_missing_package
 
