@@ -120,9 +120,10 @@ def test_run(prefix: Path, start: Start) -> None:
 
 
 def outcome(script: str) -> str:
-    """Return the last line that a script of rclpy writes, of its traceback if it fails."""
+    """Return the last line that a script of rclpy writes: of a traceback if it fails or hangs."""
+    watched = f'import faulthandler; faulthandler.dump_traceback_later(50.0, exit=True)\n{script}'
     done = subprocess.run(
-        [sys.executable, '-c', script],
+        [sys.executable, '-c', watched],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

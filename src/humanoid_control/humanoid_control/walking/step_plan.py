@@ -17,7 +17,7 @@ class StepClock:
 
     Parameters
     ----------
-    parameters
+    parameters : WalkParameters
         Gait parameters.
     shift_s
         Duration of double support, in which the weight shifts to the support foot.
