@@ -20,18 +20,12 @@ from urllib.parse import urlsplit
 from programs import wait_until
 import pytest
 
-__all__ = ['Browser', 'Tab', 'browser_started', 'chromium', 'new_page']
+__all__ = ['Browser', 'Tab', 'browser_started', 'chromium']
 
 CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
 ARGUMENTS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox']
 SIZE = {'width': 900, 'height': 620}
-# Drawing without a graphics card takes all processors: pages draw some ten pictures a second.
-SELDOM = """
-    const draw = window.requestAnimationFrame.bind(window);
-    window.requestAnimationFrame = (step) => window.setTimeout(() => draw(step), 80);
-    window.cancelAnimationFrame = window.clearTimeout.bind(window);
-"""
 PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
 
@@ -157,7 +151,7 @@ class Browser:
 
     def open(self, url: str, size: dict[str, int] = SIZE) -> Tab:
         """Open a page of viser."""
-        return Tab(new_page(self._browser, size), url)
+        return Tab(self._browser.new_page(viewport=size, reduced_motion='reduce'), url)
 
     def pid(self) -> int:
         """Return the id of the process that all others of the browser belong to."""
@@ -183,10 +177,3 @@ def chromium() -> Iterator[Any]:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         yield browser
         browser.close()
-
-
-def new_page(browser: Any, size: dict[str, int]) -> Any:
-    """Open a page of playwright, of a size in pixels, that leaves the processors to others."""
-    page = browser.new_page(viewport=size, reduced_motion='reduce')
-    page.add_init_script(SELDOM)
-    return page

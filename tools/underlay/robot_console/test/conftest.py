@@ -13,7 +13,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.append(str(Path(__file__).parents[3] / 'test'))
 
-from browser import chromium, new_page  # noqa: E402
+from browser import chromium  # noqa: E402
 
 OWN = ('http://127.0.0.1:', 'ws://127.0.0.1:', 'blob:', 'data:', 'about:')
 
@@ -36,7 +36,7 @@ def open_tab(browser: Any) -> Iterator[Callable[[int, int], Any]]:
             failures.append(url)
 
     def open_one(width: int, height: int) -> Any:
-        tab = new_page(browser, {'width': width, 'height': height})
+        tab = browser.new_page(viewport={'width': width, 'height': height})
         tabs.append(tab)
         tab.on('pageerror', lambda error: failures.append(str(error)))
         tab.on('request', lambda request: note(request.url))

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from browser import chromium, new_page
+from browser import chromium
 import pytest
 from rviz_fakes import navigation_world, NavigationWorld
 
@@ -47,7 +47,7 @@ def world() -> Iterator[NavigationWorld]:
 @pytest.fixture
 def tab(world: NavigationWorld, browser: Any) -> Iterator[Any]:
     """Open the page, in which no script may fail."""
-    tab = new_page(browser, {'width': 900, 'height': 600})
+    tab = browser.new_page(viewport={'width': 900, 'height': 600})
     failures: list[str] = []
     tab.on('pageerror', lambda error: failures.append(str(error)))
     tab.goto(f'http://127.0.0.1:{world.page.port}/?fixedDpr=0.5', wait_until='commit')
