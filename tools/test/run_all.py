@@ -26,7 +26,7 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT_S = 70 * 60.0
 MOST_UNSTEADY = 3
-CORES = min(os.cpu_count() or 1, 16)
+CORES = min(os.cpu_count() or 1, 12)
 """Processors that tests may keep busy: each process of tests reserves some of the DDS domains.
 
 With more than there are, simulators take them from each other and fall behind real time.
@@ -248,9 +248,12 @@ def _package(name: str) -> Suite:
 
 def tools() -> Suite:
     """Return the tests of tools/ that do not care what runs beside them."""
-    shared = ['-n', str(CORES), '--dist', 'loadfile', '--no-loadscope-reorder']
+    # These tests wait for most of their time, so that three processes take one and a half cores
+    # when they are alone, and one core beside a package.
+    workers = max(1, CORES * 3 // 2)
+    shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
     suite = _pytest('tools/', ['tools', '-m', 'not alone'], shared)
-    return replace(suite, cores=CORES / 2)  # its tests wait half of their time
+    return replace(suite, cores=CORES / 2)
 
 
 def alone() -> Suite:
