@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 import math
+from operator import attrgetter
 from typing import Any
 
 from control_msgs.action import FollowJointTrajectory
@@ -23,10 +24,15 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 __all__ = ['Actions']
 
-_WALKING = ('come_back', 'move', 'turn', 'follow_path')
-_LOOKING = ('look_at', 'look_around', 'find')
-_HANDLING = ('pick', 'place', 'hand_over')
-_TELLING = ('where', 'describe', 'identify', 'tell_count')
+_METHODS: Mapping[str, str] = {
+    **{name: f'_walking.{name}' for name in ('come_back', 'move', 'turn', 'follow_path')},
+    **{name: f'_looking.{name}' for name in ('look_at', 'look_around', 'find')},
+    **{name: f'_handling.{name}' for name in ('pick', 'place', 'hand_over')},
+    **{name: f'_telling.{name}' for name in ('where', 'describe', 'identify', 'tell_count')},
+    'tidy': '_tidying.tidy',
+    **{name: f'_{name}' for name in ('go_to', 'wave', 'point_at', 'say', 'wait', 'stop')},
+}
+"""The method of `Actions`, or of one of its parts, that implements each skill."""
 _DOWN = (0.0, 0.1, 0.0, -0.3)
 _UP, _OUT = (-1.6, 0.6, 0.0, -1.6), (-1.6, 1.0, 0.0, -1.0)
 
@@ -44,12 +50,7 @@ class Actions:
 
     """
 
-    IMPLEMENTED = frozenset(
-        (
-            *(*_WALKING, *_LOOKING, *_TELLING, *_HANDLING),
-            *('go_to', 'tidy', 'wave', 'point_at', 'say', 'wait', 'stop'),
-        )
-    )
+    IMPLEMENTED = frozenset(_METHODS)
     """The names of the implemented skills."""
 
     def __init__(self, robot: RobotInterface, watch: WorldWatch, skills: Skills) -> None:
@@ -57,22 +58,9 @@ class Actions:
         self._recall = Recall(watch)
         self._walking = Walking(robot, watch, self._recall)
         self._looking = Looking(robot, watch, self._recall, self._walking)
-        handling = Handling(robot, watch, self._recall)
-        telling = Telling(robot, watch, self._recall, self._walking, self._looking)
-        tidying = Tidying(robot, watch, self._walking, self._looking, handling)
-        self._starts: Mapping[str, Callable[..., SkillRun]] = {
-            **{name: getattr(self._walking, name) for name in _WALKING},
-            **{name: getattr(self._looking, name) for name in _LOOKING},
-            **{name: getattr(telling, name) for name in _TELLING},
-            **{name: getattr(handling, name) for name in _HANDLING},
-            'go_to': self._go_to,
-            'tidy': tidying.tidy,
-            'wave': self._wave,
-            'point_at': self._point_at,
-            'say': self._say,
-            'wait': self._wait,
-            'stop': self._stop,
-        }
+        self._telling = Telling(robot, watch, self._recall, self._walking, self._looking)
+        self._handling = Handling(robot, watch, self._recall)
+        self._tidying = Tidying(robot, watch, self._walking, self._looking, self._handling)
 
     def begin_plan(self) -> None:
         """Store the pose to come back to, and forget the objects found by the previous plan."""
@@ -107,7 +95,7 @@ class Actions:
         }
         if skill.says:
             self._robot.say(skill.says.format_map(said))
-        run: SkillRun = self._starts[step.skill](**arguments)
+        run: SkillRun = attrgetter(_METHODS[step.skill])(self)(**arguments)
         return run
 
     def _stop(self) -> SkillRun:

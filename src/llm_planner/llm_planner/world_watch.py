@@ -156,7 +156,7 @@ class WorldWatch:
         if skill.steps:
             return ''
         if skill.name not in self._implemented:
-            return skill.without or f'I cannot {skill.name.replace("_", " ")} yet.'
+            return f'I cannot {skill.name.replace("_", " ")} yet.'
         name = skill.server
         if skill.server_kind == 'action':
             name = f'{name}/_action/send_goal'

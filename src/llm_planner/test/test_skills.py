@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from llm_planner.actions import Actions
 from llm_planner.skills_file import load_skills, skills_path, SkillsError
 import pytest
 import yaml
@@ -25,6 +26,11 @@ def test_the_own_file() -> None:
     assert skills.simple('bring') == {'find', 'go_to', 'pick', 'come_back', 'hand_over'}
     assert {each.name for each in skills if not each.sayings} == {'pick', 'tell_count'}
     assert all(skill.steps or skill.does for skill in skills)
+
+
+def test_each_simple_skill_is_implemented() -> None:
+    """And nothing is that is not in the file: there it is put together from others."""
+    assert {each.name for each in load_skills(OWN) if not each.steps} == Actions.IMPLEMENTED
 
 
 def test_the_installed_file() -> None:
