@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 from humanoid_control.controllers import CommandError
 from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.parameters import MODES
 from humanoid_control.hosting.walking_robot import WalkingController, WalkingRobotControl
 from humanoid_control.mock_backend import MockBackend
 from humanoid_control.walking.commands import STANDING, VelocityCommand
@@ -63,6 +64,12 @@ def _humanoid(model: Robot) -> Humanoid:
     humanoid = Humanoid(model)
     humanoid.run(20)
     return humanoid
+
+
+def test_each_mode_can_be_chosen(humanoid: Humanoid) -> None:
+    """By the parameter `mode`, in whose first choice the robot starts."""
+    assert humanoid.control.manager.modes == MODES
+    assert humanoid.control.manager.mode == MODES[0]
 
 
 def test_what_can_be_claimed(humanoid: Humanoid) -> None:
