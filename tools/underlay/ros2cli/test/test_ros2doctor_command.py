@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 import os
 from pathlib import Path
+import socket
 import subprocess
 import sys
 import time
@@ -14,7 +15,8 @@ import pytest
 from ros2cli.cli import main
 from ros2cli.entry import Entry
 from ros2doctor.api import DoctorCheck, DoctorReport, Report, Result
-from ros2doctor.verb.hello import table
+from ros2doctor.verb import hello
+from ros2doctor.verb.hello import MulticastGroup, table
 
 Ros2 = Callable[..., subprocess.CompletedProcess[str]]
 HERE = 'test_ros2doctor_command_extensions'
@@ -307,6 +309,20 @@ def test_hello_hears_itself(ros2: Ros2) -> None:
     assert 'MULTIMACHINE COMMUNICATION SUMMARY' in lines
     [own] = [line for line in lines if '(this process)' in line]
     assert int(own.split()[-2]) > 0
+
+
+def test_hello_without_its_port(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A port that another program uses for itself is named; greetings go on by topic."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(('', 0))
+        monkeypatch.setattr(hello, 'PORT', other.getsockname()[1])
+        with MulticastGroup(1) as group:
+            group.send('a/1')
+            assert list(group.received()) == []
+    words = 'multicast does not work on this machine: Address already in use\n'
+    assert capsys.readouterr().out == words
 
 
 def test_hello_table() -> None:

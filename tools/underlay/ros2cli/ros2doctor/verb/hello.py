@@ -162,12 +162,13 @@ class MulticastGroup:
     Attributes
     ----------
     error
-        Why joining the group or sending a greeting failed; None without a failure.
+        Why joining the group, for which the port must not be in exclusive use by another program,
+        or sending a greeting failed; None without a failure.
 
     Raises
     ------
     OSError
-        The TTL is out of range, or another program uses the port exclusively.
+        The TTL is out of range.
 
     """
 
@@ -177,9 +178,9 @@ class MulticastGroup:
         set_option(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         set_option(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
         set_option(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
-        self._socket.bind(('', PORT))
         self._socket.setblocking(False)
         try:
+            self._socket.bind(('', PORT))
             membership = socket.inet_aton(GROUP) + struct.pack('I', socket.INADDR_ANY)
             set_option(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
         except OSError as error:
