@@ -29,7 +29,7 @@ MOST_UNSTEADY = 3
 CORES = min(os.cpu_count() or 1, 12)
 """Processors that tests may keep busy: each process of tests reserves some of the DDS domains.
 
-With more than there are, simulators take them from each other and fall behind real time.
+With more packages at once, simulators take processors from each other and fall behind real time.
 """
 LONGEST = (
     'humanoid_simulation',
@@ -248,9 +248,9 @@ def _package(name: str) -> Suite:
 
 def tools() -> Suite:
     """Return the tests of tools/ that do not care what runs beside them."""
-    # These tests wait for most of their time, so that three processes take one and a half cores
-    # when they are alone, and one core beside a package.
-    workers = max(1, CORES * 3 // 2)
+    # These tests wait much: with three processes on two cores, beside a package, hardly any time
+    # is idle; with two, a sixth was.
+    workers = CORES * 3 // 2
     shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
     suite = _pytest('tools/', ['tools', '-m', 'not alone'], shared)
     return replace(suite, cores=CORES / 2)

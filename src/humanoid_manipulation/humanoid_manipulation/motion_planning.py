@@ -158,7 +158,20 @@ class _Search:
         self._upper = np.array([body.upper_rad, *arm.upper_rad])
 
     def way(self, start: Array, goal: Array) -> list[Array] | None:
-        """Search for a collision-free path; return its waypoints, or None if none was found."""
+        """
+        Search for a collision-free path with two trees, one from each end.
+
+        Parameters
+        ----------
+        start, goal
+            Postures of the waist and the arm (n,), in rad.
+
+        Returns
+        -------
+        list or None
+            The waypoints (n,) from start to goal; None if no path was found.
+
+        """
         if self._is_free_between(start, goal):
             return [start, goal]
         trees = ([(start, -1)], [(goal, -1)])
