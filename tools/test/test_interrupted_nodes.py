@@ -66,7 +66,8 @@ import rclpy
 rclpy.init()
 try:
     os.kill(os.getpid(), signal.SIGINT)
-    time.sleep(60)
+    while True:  # a thread that is just starting may take the signal: no sleep is cut short then
+        time.sleep(0.01)
 except KeyboardInterrupt:
     pass
 while rclpy.ok():

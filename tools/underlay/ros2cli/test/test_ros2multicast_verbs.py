@@ -34,8 +34,8 @@ def test_interrupt_is_quiet(start_ros2: Start) -> None:
     receiver = start_ros2('multicast', 'receive', '--group', '225.0.0.9')
     assert receiver.stdout.readline() == 'Waiting for UDP multicast datagram...\n'
     receiver.send_signal(signal.SIGINT)
-    assert receiver.wait(timeout=100) == 2
-    assert receiver.stderr.read() == ''
+    _, errors = receiver.communicate(timeout=100)
+    assert (receiver.returncode, errors) == (2, '')
 
 
 @pytest.mark.parametrize(
