@@ -29,6 +29,8 @@ COLUMNS = (
     'circle',
     'foreign private names',
 )
+# Public by the documentation of the standard library, in spite of its underscore.
+DOCUMENTED = {'os._exit'}
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -215,7 +217,8 @@ def foreign_private_names(module: Module) -> list[str]:
     Returns
     -------
     list of str
-        As `line: expression`, without those of `self`, `cls` and the class itself.
+        As `line: expression`, without those of `self`, `cls` and the class itself, and without
+        `DOCUMENTED` ones.
 
     """
     own = {'self', 'cls', *(each.name for each in module.classes)}
@@ -224,6 +227,8 @@ def foreign_private_names(module: Module) -> list[str]:
         if not isinstance(node, ast.Attribute) or not node.attr.startswith('_'):
             continue
         text = ast.unparse(node)
+        if text in DOCUMENTED:
+            continue
         if node.attr.endswith('__') or (text.partition('.')[0] in own and text.count('.') == 1):
             continue
         if isinstance(node.value, ast.Call) and ast.unparse(node.value) == 'super()':

@@ -39,3 +39,21 @@ def test_private_imports_are_seen(tmp_path: Path, line: str, found: list[str]) -
     """Each way of importing counts, but not the standard library."""
     (tmp_path / 'launch.py').write_text(f'{line}\n')
     assert private_imports(tmp_path) == found
+
+
+@pytest.mark.parametrize(
+    ('line', 'found'),
+    [
+        ('message._check_fields = False', ['1: message._check_fields']),
+        ('self.node._clock.now()', ['1: self.node._clock']),
+        ('self._clock.now()', []),
+        ('super()._look()', []),
+        ('message.__class__', []),
+        ('os._exit(0)', []),
+        ('atexit._run_exitfuncs()', ['1: atexit._run_exitfuncs']),
+    ],
+)
+def test_private_names_of_others_are_seen(tmp_path: Path, line: str, found: list[str]) -> None:
+    """Accesses to private attributes of other objects count, but not documented functions."""
+    module = figures.Module('launch', tmp_path / 'launch.py', f'{line}\n')
+    assert figures.foreign_private_names(module) == found
