@@ -1,17 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command `ament_copyright` and the function that packages' tests call."""
+"""The command `ament_copyright`, and what it reads in the head of a source file."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 import os
 from pathlib import Path
+import re
 import sys
 
-from ament_copyright.header import read_header
-
 SOURCES = {'.py', '.c', '.cc', '.cpp', '.cxx', '.h', '.hh', '.hpp', '.hxx'}
+COMMENT = re.compile(r'^\s*(#|//|/\*|\*|"""|\'\'\'|$)')
+HOLDER = re.compile(
+    r'(?:copyright\s*(?:\(c\)|©)?\s*[:,]?\s*\d{4}|SPDX-FileCopyrightText:)', re.IGNORECASE
+)
+LICENCE = re.compile(
+    r'SPDX-License-Identifier:|permission is hereby granted|redistribution and use|licen[sc]e',
+    re.IGNORECASE,
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -92,6 +100,40 @@ def _excluded(path: Path, patterns: Sequence[str]) -> bool:
 def _defect(path: Path) -> str:
     text = path.read_text(encoding='utf-8', errors='replace')
     return read_header(text).defect if text.strip() else ''
+
+
+@dataclass(frozen=True)
+class Header:
+    """Whether a file's head names a holder of the copyright and a licence."""
+
+    has_holder: bool
+    has_licence: bool
+
+    @property
+    def defect(self) -> str:
+        """Say what is missing; empty where nothing is."""
+        if not self.has_holder:
+            return 'could not find copyright notice'
+        return '' if self.has_licence else 'could not find the licence that the file is under'
+
+
+def read_header(text: str) -> Header:
+    """
+    Read the comments before the first statement of a source text.
+
+    Parameters
+    ----------
+    text
+        The source text, in Python, C or C++.
+
+    """
+    head = []
+    for line in text.splitlines():
+        if not COMMENT.match(line):
+            break
+        head.append(line)
+    comments = '\n'.join(head)
+    return Header(bool(HOLDER.search(comments)), bool(LICENCE.search(comments)))
 
 
 if __name__ == '__main__':

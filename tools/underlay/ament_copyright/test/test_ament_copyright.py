@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ament_copyright.header import read_header
-from ament_copyright.main import main
+from ament_copyright.main import main, read_header
 import pytest
 
 NOTICE = '# Copyright 2026 A. Person\n# Licensed under the Apache License, Version 2.0\n'
