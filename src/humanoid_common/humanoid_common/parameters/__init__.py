@@ -7,12 +7,13 @@ Nothing here needs ROS; `humanoid_common.node_parameters` declares such a datacl
 
 from __future__ import annotations
 
-from humanoid_common.parameters.errors import ParameterError, unknown_parameter_warnings
 from humanoid_common.parameters.specs import parameter, ParameterRules, ParameterSpec, specs_of
 from humanoid_common.parameters.values import (
     build,
     checked_value,
+    ParameterError,
     ParameterValue,
+    unknown_parameter_warnings,
     values_of,
     widened,
 )
