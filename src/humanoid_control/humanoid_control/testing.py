@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robot with three joints, for tests of backends and controllers."""
+"""A robot with three joints, and goals for trajectories, for tests of backends and controllers."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
+from builtin_interfaces.msg import Duration
+from control_msgs.action import FollowJointTrajectory
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.limits import JointLimits
 from humanoid_description.drives import Drive
 import numpy as np
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 JOINTS = ('left_elbow', 'right_elbow', 'left_knee')
 DRIVES = {
@@ -66,3 +72,30 @@ def targets(*positions_rad: float, velocity_rad_s: float = 0.0) -> JointTargets:
     """
     count = len(positions_rad)
     return JointTargets(np.array(positions_rad), np.full(count, velocity_rad_s), np.zeros(count))
+
+
+def trajectory_goal(
+    joints: Sequence[str], *points: tuple[float, Sequence[float]], **fields: Any
+) -> FollowJointTrajectory.Goal:
+    """
+    Build a FollowJointTrajectory goal.
+
+    Parameters
+    ----------
+    joints
+        The names of the joints.
+    points
+        Times from the start, in seconds, and joint positions.
+    fields
+        Other fields of the goal, such as tolerances.
+
+    """
+    way = [
+        JointTrajectoryPoint(
+            positions=list(map(float, positions)),
+            time_from_start=Duration(sec=int(time_s), nanosec=round(time_s % 1 * 1e9)),
+        )
+        for time_s, positions in points
+    ]
+    trajectory = JointTrajectory(joint_names=list(joints), points=way)
+    return FollowJointTrajectory.Goal(trajectory=trajectory, **fields)

@@ -18,7 +18,7 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.hosting.conversions import seconds
 from humanoid_control.hosting.goal_server import FEEDBACK_RATE_HZ
 from humanoid_control.mock_robot import MockRobot
-from humanoid_control.trajectory_testing import trajectory_goal
+from humanoid_control.testing import trajectory_goal
 from humanoid_description.drives import load_drives
 import pytest
 from rcl_interfaces.msg import Log

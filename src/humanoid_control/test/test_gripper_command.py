@@ -12,7 +12,7 @@ from controller_manager_msgs.srv import ListControllers
 from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.mock_robot import MockRobot
-from humanoid_control.trajectory_testing import trajectory_goal
+from humanoid_control.testing import trajectory_goal
 import pytest
 from sensor_msgs.msg import JointState
 

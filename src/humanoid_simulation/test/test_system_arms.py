@@ -12,7 +12,7 @@ from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
 from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import RosSandbox
-from humanoid_control.trajectory_testing import trajectory_goal
+from humanoid_control.testing import trajectory_goal
 from humanoid_simulation.testing.simulators import RobotClient, simulation
 import numpy as np
 import pytest
