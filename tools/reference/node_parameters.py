@@ -36,8 +36,10 @@ NODES = {
     'robot_control description_reporter': (
         'robot_control.description_reporter.ReporterParameters'
     ),
-    'temperature_monitor temp_publisher': 'temperature_monitor.settings.PublisherParameters',
-    'temperature_monitor temp_analyzer': 'temperature_monitor.settings.AnalyzerParameters',
+    'temperature_monitor temp_publisher': (
+        'temperature_monitor.temp_publisher.PublisherParameters'
+    ),
+    'temperature_monitor temp_analyzer': 'temperature_monitor.temp_analyzer.AnalyzerParameters',
 }
 """The parameters of each executable that has some."""
 

@@ -3,16 +3,28 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 import sys
 from typing import Any
 
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
 from humanoid_common.qos import STATE
 from humanoid_common.running import run_node
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
 from temperature_monitor.heat_alarm import HeatAlarm
-from temperature_monitor.settings import AnalyzerParameters
+
+_COLDEST = -273.15
+
+
+@dataclass(frozen=True)
+class AnalyzerParameters:
+    """When it is hot."""
+
+    threshold_celsius: float = parameter(
+        25.0, 'Warn about readings above this.', at_least=_COLDEST, at_most=10000.0
+    )
 
 
 class TempAnalyzer(Node):

@@ -8,7 +8,8 @@ from typing import Any
 
 from humanoid_common.parameters import build, ParameterError
 import pytest
-from temperature_monitor.settings import AnalyzerParameters, PublisherParameters
+from temperature_monitor.temp_analyzer import AnalyzerParameters
+from temperature_monitor.temp_publisher import PublisherParameters
 import yaml
 
 CONFIG = Path(__file__).parents[1] / 'config'
