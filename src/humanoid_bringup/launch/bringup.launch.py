@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_bringup.launch_arguments import is_simulated, robot_time
 from humanoid_bringup.page_address import announce_page
-from humanoid_bringup.robot_time import is_simulated, robot_time
 from humanoid_bringup.robot_watch import watch_robot
 from launch import LaunchDescription, Substitution
 from launch.actions import (

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_bringup.robot_time import robot_time
+from humanoid_bringup.launch_arguments import robot_time
 from launch import LaunchDescription, Substitution
 from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
 from launch.conditions import IfCondition

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_bringup.fleet import robot_namespaces
+from humanoid_bringup.launch_arguments import robot_namespaces
 import pytest
 
 
