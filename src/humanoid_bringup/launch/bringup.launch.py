@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from humanoid_bringup.launch_arguments import is_simulated, robot_time
-from humanoid_bringup.page_address import announce_page
-from humanoid_bringup.robot_watch import watch_robot
+from humanoid_bringup.robot_watch import announce_page, watch_robot
 from launch import LaunchDescription, Substitution
 from launch.actions import (
     DeclareLaunchArgument,

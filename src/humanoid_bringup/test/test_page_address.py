@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from humanoid_bringup.page_address import announcement, Startup
+from humanoid_bringup.robot_watch import announcement, Startup
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import ros_sandbox
 from sensor_msgs.msg import JointState
