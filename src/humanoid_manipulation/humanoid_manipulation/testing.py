@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 import re
-from typing import Any
+from typing import Any, TypeVar
 
 from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.testing.actions import ActionCaller, End
@@ -16,9 +16,9 @@ from humanoid_common.testing.processes import RunningProgram
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
-from humanoid_manipulation.manipulator import Manipulator
 from humanoid_simulation.testing.clients import EntityClient
 from humanoid_simulation.testing.simulators import RobotClient, simulation
+from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
@@ -27,6 +27,7 @@ __all__ = ['CAN_M', 'PATIENCE_S', 'TableWorld', 'table_world']
 CAN_M = (0.62, 0.15, 0.76)
 """The initial position of the can."""
 PATIENCE_S = 240.0
+NodeT = TypeVar('NodeT', bound=Node)
 _SCENE = """\
 things:
   - {name: table, shape: box, size: [0.7, 1.2, 0.7], position: [0.85, 0, 0.35]}
@@ -221,8 +222,8 @@ class TableWorld:
 
 @contextmanager
 def table_world(
-    folder: Path, real_time_factor: float, is_launched: bool = False
-) -> Iterator[tuple[TableWorld, Manipulator | None]]:
+    folder: Path, real_time_factor: float, manipulator: Callable[..., NodeT] | None = None
+) -> Iterator[tuple[TableWorld, NodeT | None]]:
     """
     Start a simulated robot in front of a table, and its manipulator node.
 
@@ -232,8 +233,9 @@ def table_world(
         A folder for the files of the scene.
     real_time_factor
         The real-time factor of the simulation.
-    is_launched
-        Whether the manipulator runs in a process of its own; None is yielded for the node then.
+    manipulator
+        Creates the manipulator node in this process. Without it, the node is launched in a process
+        of its own, and None is yielded for it.
 
     """
     scene, places = folder / 'kitchen.yaml', folder / 'places.yaml'
@@ -241,13 +243,11 @@ def table_world(
     scene.write_text(_SCENE)
     places.write_text(_PLACES)
     urdf.write_text(humanoid_urdf(hands=True))
-    launched.write_text(_LAUNCH % (str(urdf), str(places), 2 if is_launched else 1))
+    launched.write_text(_LAUNCH % (str(urdf), str(places), 1 if manipulator else 2))
     parameters = {'scene': str(scene), 'hands': 'true', 'real_time_factor': f'{real_time_factor}'}
     with simulation(**parameters) as ros, running_launch_file(launched) as program:
-        manipulator = None
-        if not is_launched:
-            own = {'places_file': str(places), 'use_sim_time': True}
-            manipulator = ros.start(Manipulator, own)
+        own = {'places_file': str(places), 'use_sim_time': True}
+        node = ros.start(manipulator, own) if manipulator else None
         world = TableWorld(ros, program)
-        yield world, manipulator
+        yield world, node
         world.close()

@@ -30,7 +30,7 @@ pytestmark = pytest.mark.timeout(4000)
 @pytest.fixture(name='world', scope='module')
 def _world(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TableWorld]:
     """Give a robot before a table, whose arms are moved by a process of its own."""
-    with table_world(tmp_path_factory.mktemp('stops'), 1.0, is_launched=True) as (world, _):
+    with table_world(tmp_path_factory.mktemp('stops'), 1.0) as (world, _):
         yield world
 
 

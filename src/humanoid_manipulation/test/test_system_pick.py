@@ -21,7 +21,7 @@ def _running(
 ) -> Iterator[tuple[TableWorld, Manipulator]]:
     """Give a robot before a table, and the node that moves its arms."""
     folder = tmp_path_factory.mktemp('manipulation')
-    with table_world(folder, 1.5) as (world, manipulator):
+    with table_world(folder, 1.5, Manipulator) as (world, manipulator):
         assert manipulator is not None
         yield world, manipulator
 
