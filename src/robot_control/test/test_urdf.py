@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from robot_control.robot_model import Joint
-from robot_control.urdf import parse_urdf, UrdfError
+from robot_control.urdf import Joint, parse_urdf, UrdfError
 
 ARM = """<?xml version="1.0"?>
 <robot name="arm">
