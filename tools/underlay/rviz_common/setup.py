@@ -27,8 +27,8 @@ setup(
             'rviz_common/Displays = rviz_common.panels.displays_panel:DisplaysPanel',
             'rviz_common/Time = rviz_common.panels.time_panel:TimePanel',
             'rviz_common/Tool Properties = '
-            'rviz_common.panels.tool_properties_panel:ToolPropertiesPanel',
-            'rviz_common/Views = rviz_common.panels.views_panel:ViewsPanel',
+            'rviz_common.panels.view_and_tool_panels:ToolPropertiesPanel',
+            'rviz_common/Views = rviz_common.panels.view_and_tool_panels:ViewsPanel',
         ],
     },
 )

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The panel of views."""
+"""The panels of the views and of the tools, with their properties."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from rviz_common.panel import Panel
 from rviz_common.panels.property_editor import PropertyEditor
 from rviz_common.status import escaped, Level, MARKS
+from rviz_common.tool import Tool
 from rviz_common.view import KINDS, View
 
-__all__ = ['ViewsPanel']
+__all__ = ['ToolPropertiesPanel', 'ViewsPanel']
 
 TYPES = {kind.NAME: kind for kind in KINDS.values()}
 
@@ -105,3 +107,37 @@ class ViewsPanel(Panel):
         button = self.context.gui.add_button(view.name, hint=view.kind.NAME, color='gray')
         self.context.on_click(button, lambda: self._cameras.show(view.copy('Current View')))
         return button
+
+
+class ToolPropertiesPanel(Panel):
+    """The properties of the tools, each in a folder."""
+
+    CLASS = 'rviz_common/Tool Properties'
+    UNUSED = ('Expanded', 'Splitter Ratio')
+
+    def start(self) -> None:
+        """Add the widgets."""
+        self._editors = [
+            self._editor(tool) for tool in self.context.visualizer.tools.tools if tool.PROPERTIES
+        ]
+
+    def update(self) -> None:
+        """Apply the values that were entered."""
+        for editor in self._editors:
+            editor.update()
+
+    def _editor(self, tool: Tool) -> PropertyEditor:
+        with self.context.gui.add_folder(tool.NAME, expand_by_default=False):
+            return PropertyEditor(self.context, tool.values, _change(tool))
+
+
+def _change(tool: Tool) -> Callable[[str, Any], None]:
+    """Return a function that sets a property of a tool."""
+
+    def change(path: str, value: Any) -> None:
+        before = tool.values[path]
+        tool.values[path] = value
+        if tool.values[path] != before:
+            tool.on_change(path)
+
+    return change
