@@ -46,12 +46,12 @@ setup(
             'rviz_default_plugins/Marker = rviz_default_plugins.displays.marker:Marker',
             'rviz_default_plugins/MarkerArray = rviz_default_plugins.displays.marker:MarkerArray',
             'rviz_default_plugins/Odometry = rviz_default_plugins.displays.odometry:Odometry',
-            'rviz_default_plugins/Path = rviz_default_plugins.displays.path_and_polygon:Path',
+            'rviz_default_plugins/Path = rviz_default_plugins.displays.points_and_lines:Path',
             'rviz_default_plugins/PointCloud2 = rviz_default_plugins.displays.clouds:PointCloud2',
             'rviz_default_plugins/PointStamped = '
-            'rviz_default_plugins.displays.point_stamped:PointStamped',
+            'rviz_default_plugins.displays.points_and_lines:PointStamped',
             'rviz_default_plugins/Polygon = '
-            'rviz_default_plugins.displays.path_and_polygon:Polygon',
+            'rviz_default_plugins.displays.points_and_lines:Polygon',
             'rviz_default_plugins/Pose = rviz_default_plugins.displays.pose:Pose',
             'rviz_default_plugins/PoseArray = rviz_default_plugins.displays.pose_array:PoseArray',
             'rviz_default_plugins/PoseWithCovariance = '

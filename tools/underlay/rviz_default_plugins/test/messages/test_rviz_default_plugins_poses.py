@@ -19,8 +19,7 @@ import numpy as np
 import pytest
 from rviz_default_plugins.displays.imu import Imu
 from rviz_default_plugins.displays.odometry import Odometry
-from rviz_default_plugins.displays.path_and_polygon import Path, Polygon
-from rviz_default_plugins.displays.point_stamped import PointStamped
+from rviz_default_plugins.displays.points_and_lines import Path, PointStamped, Polygon
 from rviz_default_plugins.displays.pose import Pose, PoseWithCovariance
 from rviz_default_plugins.displays.pose_array import MOST, PoseArray
 from rviz_default_plugins.displays.range import Range

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The displays of lines: a path with the poses on it, and the outline of a polygon."""
+"""The displays of points and lines: spheres, a path and its poses, the outline of a polygon."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from geometry_msgs.msg import PointStamped as PointStampedMessage
 from geometry_msgs.msg import PolygonStamped
 from nav_msgs.msg import Path as PathMessage
 import numpy as np
@@ -14,12 +15,54 @@ from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties, Vector, Whole
 from rviz_common.status import Level
 from rviz_common.topic_display import MessageDisplay
-from rviz_default_plugins.bodies import add_copies, add_lines, arrow
-from rviz_default_plugins.decoding.geometry import finite_points_of, Points, rotations_of
+from rviz_default_plugins.bodies import add_copies, add_lines, arrow, opacity_of
+from rviz_default_plugins.decoding.geometry import (
+    finite_points_of,
+    Points,
+    position,
+    rotations_of,
+)
 
-__all__ = ['Path', 'Polygon']
+__all__ = ['Path', 'PointStamped', 'Polygon']
 
 MOST = 20000
+
+
+class PointStamped(HistoryDisplay):
+    """The last points of a topic."""
+
+    CLASS = 'rviz_default_plugins/PointStamped'
+    MESSAGE = PointStampedMessage
+    PROPERTIES = (
+        *topic_properties('geometry_msgs/msg/PointStamped', '/clicked_point'),
+        ColorOf('Color', (204, 41, 204), 'Colour of the spheres.'),
+        Number('Alpha', 1.0, '0 is transparent.', 0.0, 1.0),
+        Number('Radius', 0.2, 'Radius of the spheres, in metres.', 0.001),
+        Whole('History Length', 1, 'Number of points shown at once.', 1, 1000),
+    )
+
+    def keep(self) -> int:
+        """Return the number of points shown at once."""
+        return int(self.values['History Length'])
+
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
+        """
+        Draw the sphere.
+
+        Parameters
+        ----------
+        canvas, message, pose
+            As for `HistoryDisplay.draw`.
+
+        """
+        canvas.put(
+            'icosphere',
+            'point',
+            radius=self.values['Radius'],
+            color=self.values['Color'],
+            opacity=opacity_of(self.values['Alpha']),
+            position=position(message.point, 'point'),
+        )
 
 
 class Path(HistoryDisplay):
