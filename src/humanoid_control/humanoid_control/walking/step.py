@@ -6,6 +6,7 @@ from __future__ import annotations
 from humanoid_control.walking.footing import Foothold, SoleReading
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gait_context import GaitContext, GaitInput
+from humanoid_control.walking.landing import LandingPlan
 from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.pendulum import BalanceReference
 from humanoid_control.walking.planar import (
@@ -17,8 +18,7 @@ from humanoid_control.walking.planar import (
     smooth_turn,
     Turning,
 )
-from humanoid_control.walking.step_plan import LandingPlan, StepClock
-from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
+from humanoid_control.walking.swing_foot import Lift, SoleMotion, StepClock, Swing, SwingFoot
 
 _INSTANT_S = 1e-4
 """Until the foot has landed, the plan is evaluated no later than this before the step ends."""

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Swing foot trajectory."""
+"""How a foot swings: the clock of its step, and its trajectory."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 import math
 
+from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import GroundPlane, LEVEL, PlanarPose, Point
 from humanoid_description.rotations import wrap_angle
 import numpy as np
@@ -40,6 +41,91 @@ class Swing:
 
     side: int
     sole: SoleMotion
+
+
+class StepClock:
+    """
+    Clock of a step, which may run faster than real time to catch the robot.
+
+    Parameters
+    ----------
+    parameters : WalkParameters
+        Gait parameters.
+    shift_s
+        Duration of double support, in which the weight shifts to the support foot.
+
+    Attributes
+    ----------
+    elapsed_s, rate
+        Time on this clock, and its rate relative to real time.
+    passed_s
+        Real time for which the swing foot moves in this control period.
+
+    """
+
+    def __init__(self, parameters: WalkParameters, shift_s: float) -> None:
+        self._parameters = parameters
+        self.shift_s = shift_s
+        self.passed_s = 0.0
+        self._real_s = 0.0
+        self.elapsed_s = 0.0
+        self.rate = 1.0
+
+    @property
+    def end_s(self) -> float:
+        """Return the planned time of the landing, on this clock."""
+        return self.shift_s + self._parameters.timing.swing_s
+
+    @property
+    def adjustable_until_s(self) -> float:
+        """Return the time from which the landing no longer changes, on this clock."""
+        return self.end_s - self._parameters.step_adjustment.until_s
+
+    @property
+    def duration_s(self) -> float:
+        """Return the actual duration, with the weight shift counted at its regular duration."""
+        return self._real_s + self._parameters.timing.shift_s - self.shift_s
+
+    @property
+    def in_air_s(self) -> float:
+        """Return the time since the planned lift-off, on this clock; negative before it."""
+        return self.elapsed_s - self.shift_s
+
+    @property
+    def swing_phase(self) -> float:
+        """Return the phase of the swing: 0 in double support, 1 at its end, above 1 if late."""
+        return max(0.0, self.in_air_s) / self._parameters.timing.swing_s
+
+    @property
+    def arrival_s(self) -> float:
+        """Return the real time until the foot is above its landing."""
+        p = self._parameters
+        return (p.swing.early_arrival * p.timing.swing_s - self.in_air_s) / self.rate
+
+    @property
+    def is_late(self) -> bool:
+        """Whether the landing is overdue."""
+        return self.elapsed_s > self.end_s + self._parameters.swing.late_touchdown_s
+
+    def advance(self, passed_s: float, *, waits: bool) -> None:
+        """
+        Advance the clock by one control period.
+
+        Parameters
+        ----------
+        passed_s
+            Time since the last control period.
+        waits
+            Whether it waits for the swing foot after a gap in control.
+
+        """
+        before_s = self.elapsed_s
+        self.passed_s = min(passed_s, self._parameters.swing.longest_tick_s)
+        self._real_s += passed_s
+        self.elapsed_s += passed_s * self.rate
+        if waits:
+            in_air_s = before_s + self.passed_s * self.rate
+            self.elapsed_s = min(self.elapsed_s, max(self.shift_s, in_air_s))
 
 
 @dataclass
