@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from humanoid_control.backends import Array, JointTargets, Observation
-from humanoid_control.limits import JointLimits
+from humanoid_control.backends import Array, JointLimits, JointTargets, Observation
 from humanoid_description.drives import Drive
 import numpy as np
 

@@ -8,8 +8,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
-from humanoid_control.backends import JointTargets, Observation
-from humanoid_control.limits import JointLimits
+from humanoid_control.backends import JointLimits, JointTargets, Observation
 from humanoid_description.drives import Drive
 import numpy as np
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint

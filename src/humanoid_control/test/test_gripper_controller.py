@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.backends import JointTargets
+from humanoid_control.backends import JointLimits, JointTargets
 from humanoid_control.controllers import (
     CommandError,
     follow_mode,
@@ -16,7 +16,6 @@ from humanoid_control.controllers import (
 from humanoid_control.controllers.gripper_controller import gripper_controllers
 from humanoid_control.hosting.controller_services import controllers_of, Strictness, switch
 from humanoid_control.hosting.robot_control import RobotControl
-from humanoid_control.limits import JointLimits
 from humanoid_control.mock_backend import MockBackend
 from humanoid_description.drives import load_drives
 import pytest

@@ -8,7 +8,7 @@ import math
 import random
 from typing import Any
 
-from humanoid_control.backends import JointTargets
+from humanoid_control.backends import JointLimits, JointTargets
 from humanoid_control.controllers import (
     CommandError,
     ErrorCode,
@@ -21,7 +21,6 @@ from humanoid_control.controllers import (
 )
 from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
 from humanoid_control.hosting.robot_control import RobotControl
-from humanoid_control.limits import JointLimits
 from humanoid_control.mock_backend import MockBackend
 from humanoid_control.testing import PERIOD_S
 from humanoid_description.drives import Drive

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from humanoid_control.backends import JointLimits
 from humanoid_control.controllers.claims import JointClaims
 from humanoid_control.controllers.commands import CommandError, JointNames
 from humanoid_control.controllers.gripper_controller import Grip, GripperController
@@ -17,7 +18,6 @@ from humanoid_control.controllers.trajectory_goal import (
     TrajectoryGoal,
     TrajectoryRequest,
 )
-from humanoid_control.limits import JointLimits
 
 HELD = 'The robot must hold still; stop_state says why.'
 

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.backends import JointLimits, JointTargets, Observation
 from humanoid_control.controllers.commands import CommandError
 from humanoid_control.controllers.interface import GoalController
-from humanoid_control.limits import JointLimits
 
 TOLERANCE_M = 0.002
 """A gap this close to the commanded one counts as reached."""

@@ -8,12 +8,11 @@ from dataclasses import replace
 import math
 
 from humanoid_common.naming import did_you_mean
-from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_control.backends import Array, JointLimits, JointTargets, Observation
 from humanoid_control.controllers.claims import JointClaims, MODE, Owners
 from humanoid_control.controllers.commands import CommandError
 from humanoid_control.controllers.interface import ClaimingController, Mask
 from humanoid_control.controllers.modes import Mode
-from humanoid_control.limits import JointLimits
 import numpy as np
 
 BLEND_S = 0.5

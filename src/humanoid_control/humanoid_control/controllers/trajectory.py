@@ -6,14 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_control.backends import Array
+from humanoid_control.backends import Array, JointLimits
 from humanoid_control.controllers.commands import (
     checked_values,
     CommandError,
     Indices,
     JointNames,
 )
-from humanoid_control.limits import JointLimits
 import numpy as np
 from numpy.typing import NDArray
 

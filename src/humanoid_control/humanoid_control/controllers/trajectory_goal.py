@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import math
 
 from humanoid_common.naming import did_you_mean, shortened
-from humanoid_control.backends import Array
+from humanoid_control.backends import Array, JointLimits
 from humanoid_control.controllers.commands import CommandError, JointNames
 from humanoid_control.controllers.trajectory import checked_trajectory, Trajectory, TrajectoryPoint
-from humanoid_control.limits import JointLimits
 import numpy as np
 
 GOAL_TOLERANCE_RAD = 0.1

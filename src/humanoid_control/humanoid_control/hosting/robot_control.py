@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.backends import JointLimits, JointTargets, Observation
 from humanoid_control.controllers import (
     checked_trajectory,
     ClaimingController,
@@ -22,7 +22,6 @@ from humanoid_control.controllers.goal_controllers import GoalControllers, HELD
 from humanoid_control.controllers.gripper_controller import gripper_controllers
 from humanoid_control.controllers.joint_trajectory_controller import limb_controllers
 from humanoid_control.controllers.modes import Still
-from humanoid_control.limits import JointLimits
 from humanoid_control.walking.commands import BodyPose, STANDING, VelocityCommand
 
 WalkAt = Callable[[VelocityCommand], None]

@@ -6,12 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from humanoid_control.backends import ImuNoise, JointTargets, Observation
+from humanoid_control.backends import ImuNoise, JointLimits, JointTargets, Observation
 from humanoid_control.controllers import follow_mode, hold_mode
 from humanoid_control.controllers.command_controllers import Clock
 from humanoid_control.controllers.modes import Mode
 from humanoid_control.hosting.robot_control import RobotControl
-from humanoid_control.limits import JointLimits
 from humanoid_control.walking.commands import BodyPose, VelocityCommand
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.walker import Walker
