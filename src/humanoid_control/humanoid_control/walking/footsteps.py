@@ -27,7 +27,7 @@ class FootstepPlanner:
 
     parameters: WalkParameters
 
-    def next_foot(self, support: PlanarPose, side: int, command: VelocityCommand) -> PlanarPose:
+    def next_foot(self, support: PlanarPose, side: int, velocity: VelocityCommand) -> PlanarPose:
         """
         Plan the landing of the swing foot at a velocity.
 
@@ -37,7 +37,7 @@ class FootstepPlanner:
             Pose of the support foot, in the odom frame.
         side
             Side of the support foot.
-        command
+        velocity
             Velocity in the axes of the robot.
 
         Returns
@@ -47,7 +47,7 @@ class FootstepPlanner:
 
         """
         start = self.middle_beside(support, side)
-        return self.landing(support, side, self.next_middle(start, side, command))
+        return self.landing(support, side, self.next_middle(start, side, velocity))
 
     def middle_beside(self, support: PlanarPose, side: int) -> PlanarPose:
         """
@@ -73,7 +73,7 @@ class FootstepPlanner:
         self,
         middle: PlanarPose,
         side: int,
-        command: VelocityCommand,
+        velocity: VelocityCommand,
         time_s: float | None = None,
     ) -> PlanarPose:
         """
@@ -88,7 +88,7 @@ class FootstepPlanner:
             Middle between the feet before the step, in the odom frame.
         side
             Side of the support foot.
-        command
+        velocity
             Velocity in the axes of the robot.
         time_s
             Duration of the step; by default the planned one.
@@ -103,9 +103,9 @@ class FootstepPlanner:
         leads = outwards(other(side))
         left_m, turn_rad = (
             2 * speed * step_s if speed * leads > 0 else 0.0
-            for speed in (command.left_m_s, command.turn_rad_s)
+            for speed in (velocity.left_m_s, velocity.turn_rad_s)
         )
-        way_m = complex(command.forward_m_s * step_s, left_m)
+        way_m = complex(velocity.forward_m_s * step_s, left_m)
         heading = cmath.rect(1.0, middle.yaw_rad + turn_rad / 2)
         return PlanarPose(middle.position_m + way_m * heading, middle.yaw_rad + turn_rad)
 
@@ -160,7 +160,7 @@ class FootstepPlanner:
         return complex(length_m, inwards * width_m)
 
     def footsteps(
-        self, landing: PlanarPose, support: int, command: VelocityCommand
+        self, landing: PlanarPose, support: int, velocity: VelocityCommand
     ) -> Iterator[Footstep]:
         """
         Generate an endless sequence of footsteps that starts with the landing of the swing foot.
@@ -171,7 +171,7 @@ class FootstepPlanner:
             Pose at which the swing foot lands, in the odom frame.
         support
             Side of the foot that carries the robot until then.
-        command
+        velocity
             Velocity of all the steps that follow, in the axes of the robot.
 
         Yields
@@ -183,7 +183,7 @@ class FootstepPlanner:
         step = Footstep(other(support), landing)
         while True:
             yield step
-            step = Footstep(other(step.side), self.next_foot(step.pose, step.side, command))
+            step = Footstep(other(step.side), self.next_foot(step.pose, step.side, velocity))
 
     def is_parallel(self, support: PlanarPose, side: int, foot: PlanarPose) -> bool:
         """
@@ -266,7 +266,7 @@ class ReferencePath:
             middle.yaw_rad + p.footsteps.path_gain * turn_rad,
         )
 
-    def advance(self, support: int, command: VelocityCommand, time_s: float) -> None:
+    def advance(self, support: int, velocity: VelocityCommand, time_s: float) -> None:
         """
         Advance the reference path by one step; without effect before the path has started.
 
@@ -274,11 +274,11 @@ class ReferencePath:
         ----------
         support
             Side of the foot that carried the robot during the step.
-        command
+        velocity
             Velocity of the step, in the axes of the robot.
         time_s
             Actual duration of the step.
 
         """
         if self._middle is not None:
-            self._middle = self._planner.next_middle(self._middle, support, command, time_s)
+            self._middle = self._planner.next_middle(self._middle, support, velocity, time_s)
