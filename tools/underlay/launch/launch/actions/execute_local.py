@@ -17,8 +17,7 @@ from launch.utilities.arguments import list_like, of_type, typed
 if TYPE_CHECKING:
     import asyncio
 
-    from launch._supervision.process_options import ProcessOptions
-    from launch._supervision.program import PerformedOptions
+    from launch._supervision.program import PerformedOptions, ProcessOptions
     from launch._supervision.supervisor import Supervisor
     from launch.launch_context import LaunchContext
     from launch.launch_run import VisitObserver
@@ -101,7 +100,7 @@ class ExecuteLocal(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        from launch._supervision.process_options import (
+        from launch._supervision.program import (
             output_substitutions,
             timeout_substitutions,
         )
@@ -259,7 +258,7 @@ class ExecuteLocal(Action):
 
     def _options(self) -> ProcessOptions:
         """Return the current options: public code modifies some of them after construction."""
-        from launch._supervision.process_options import ProcessOptions
+        from launch._supervision.program import ProcessOptions
 
         return ProcessOptions(
             shell=self.__shell,
