@@ -12,7 +12,7 @@ from launch._context_state import ContextLocals, EnvironmentScopes
 if TYPE_CHECKING:
     import asyncio
 
-    from launch._checks.before_start import BeforeStart
+    from launch._before_start import BeforeStart
     from launch._supervision.member import Member
     from launch._supervision.program import Child, Program
     from launch.event import Event

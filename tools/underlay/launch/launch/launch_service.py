@@ -9,7 +9,7 @@ import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.before_start import BeforeStart
+from launch._before_start import BeforeStart
 from launch.event_handler import EventHandler
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext

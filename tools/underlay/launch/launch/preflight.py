@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.programs import explain_missing_program, is_there, ProgramNotFoundError
+from launch._before_start import explain_missing_program, is_there, ProgramNotFoundError
 from launch.failures import note_place
 from launch.substitution import Substitution
 

@@ -9,7 +9,7 @@ import logging
 import signal
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.programs import explain_spawn_failure
+from launch._before_start import explain_spawn_failure
 from launch._supervision.process_group import end_leftovers, Escalation
 from launch._supervision.process_output import ProcessReport
 from launch._supervision.program import execute, PerformedOptions, Program, ProgramOwner

@@ -279,7 +279,7 @@ class ExecuteLocal(Action):
         """Raise an error if the program does not exist and nothing has been started yet."""
         checks = context.run.before_start
         if checks is not None and checks.resolves_programs and not self.shell:
-            from launch._checks.programs import require_program
+            from launch._before_start import require_program
 
             require_program(self.description_of_process())
 

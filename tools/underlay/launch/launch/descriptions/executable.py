@@ -10,7 +10,7 @@ import re
 import shlex
 from typing import Any, Optional, TYPE_CHECKING
 
-from launch._checks.programs import find_program
+from launch._before_start import find_program
 from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import perform_substitutions
 from launch.utilities.arguments import list_like, mapping_like, optional_text_like, text_like

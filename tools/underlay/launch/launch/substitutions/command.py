@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+import os
 import shlex
 from typing import TYPE_CHECKING
 
@@ -78,7 +79,7 @@ class Command(Substitution):
         command = ''.join(parts)
         mode = perform_substitutions(context, self.__on_stderr)
         if context.run.before_start is not None:
-            from launch._checks.before_start import note_files_of_command
+            from launch._before_start import note_files_of_command
 
             note_files_of_command(context, command)
         if mode not in _MODES:
@@ -107,10 +108,7 @@ def _run(parts: Sequence[str], merge: bool) -> subprocess.CompletedProcess[str]:
             errors='replace',
         )
     except FileNotFoundError as error:
-        from launch._checks.programs import advice_on_program
-
-        advice = advice_on_program(parts)
-        raise SubstitutionFailure(f'file not found: {error}{advice}') from error
+        raise SubstitutionFailure(f'file not found: {error}{_advice_on_program(parts)}') from error
     except (OSError, ValueError) as error:
         raise SubstitutionFailure(
             f'executed command failed. Command: {command}\nIt cannot be run: {error}'
@@ -135,13 +133,11 @@ def _judge(parts: Sequence[str], mode: str, result: subprocess.CompletedProcess[
     """Raise an error or warn if the result is not acceptable in the mode."""
     command = ''.join(parts)
     if result.returncode != 0:
-        from launch._checks.programs import advice_on_failure
-
         said = result.stdout if mode == 'capture' else result.stderr
         raise SubstitutionFailure(
             f'executed command failed. Command: {command}'
             + _captured(said).rstrip()
-            + advice_on_failure(parts, said)
+            + _advice_on_failure(parts, said)
         )
     if result.stderr and mode == 'fail':
         raise SubstitutionFailure(
@@ -157,6 +153,48 @@ def _judge(parts: Sequence[str], mode: str, result: subprocess.CompletedProcess[
 
 def _captured(text: str) -> str:
     return f'\nCaptured stderr output: {text}' if text else ''
+
+
+def _advice_on_failure(parts: Sequence[str], said: str) -> str:
+    """Advise on a path that was split at a space, or one that does not exist; '' for neither."""
+    return _split_path(parts) or _missing_path(''.join(parts), said)
+
+
+def _advice_on_program(parts: Sequence[str]) -> str:
+    """Advise on a missing space after the name of a program; '' if that is not the reason."""
+    import shutil
+
+    first = parts[0].split()
+    if len(parts) < 2 or not first or parts[0][-1].isspace() or shutil.which(first[-1]) is None:
+        return ''
+    return (
+        f"\nIs a space missing after '{parts[0]}'? The parts of a command are joined as "
+        f"they are: Command(['{parts[0]} ', ...])"
+    )
+
+
+def _split_path(parts: Sequence[str]) -> str:
+    """Return advice on a path that was split into several words at a space."""
+    words = shlex.split(''.join(parts))
+    for part in parts[1:]:
+        is_path = os.path.isabs(part) and len(part.split()) > 1
+        if is_path and not any(part in word for word in words):
+            return (
+                f"\nThe path '{part}' contains a space, and was split into several words. "
+                f"Quote it: Command(['{parts[0].rstrip()} \"', path, '\"'])"
+            )
+    return ''
+
+
+def _missing_path(command: str, said: str) -> str:
+    """Return advice on the first path that does not exist."""
+    from ros_environment.missing_file import explain_missing_file
+
+    for word in shlex.split(command)[1:]:
+        if word.startswith('/') and not os.path.exists(word):
+            explanation = explain_missing_file('file', word)
+            return '' if explanation in said else f'\n{explanation}'
+    return ''
 
 
 class FileContent(Substitution):
@@ -254,7 +292,7 @@ class FindExecutable(Substitution):
             The program is not on the PATH.
 
         """
-        from launch._checks.programs import find_program
+        from launch._before_start import find_program
 
         name = perform_substitutions(context, self.__name)
         found = find_program(name)

@@ -1,13 +1,141 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that programs can be executed, and explain why one cannot, or why a command failed."""
+"""
+What is checked before the first process of a launch starts, and why a program cannot be started.
+
+Checks are added while the description is visited. The last one names installed files that are
+older than their source.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 import errno
 import os
-import shlex
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    import logging
+
+    from launch.launch_context import LaunchContext
+
+_SHARE = '/share/'
+SWITCH = 'LAUNCH_PREFLIGHT'
+
+_Check = TypeVar('_Check')
+
+
+class BeforeStart:
+    """Pre-start checks of a launch; if one raises an error, no process is started."""
+
+    def __init__(self) -> None:
+        """Create an empty set of checks; LAUNCH_PREFLIGHT=0 disables the check for programs."""
+        self.resolves_programs = os.environ.get(SWITCH, '1') != '0'
+        self.checks: list[Callable[[LaunchContext], None]] = []
+        self.hints: list[Callable[[LaunchContext], str]] = []
+        self.files: dict[str, None] = {}
+
+    def check_of_type(self, kind: Callable[[], _Check]) -> _Check:
+        """
+        Get the check of a class; create it on first use.
+
+        Parameters
+        ----------
+        kind
+            The class; its instances are called with the context and raise an error on failure.
+
+        """
+        for check in self.checks:
+            if isinstance(check, kind):  # type: ignore[arg-type]
+                return check  # type: ignore[return-value]
+        added: Any = kind()
+        self.checks.append(added)
+        return added  # type: ignore[no-any-return]
+
+    def run(self, context: LaunchContext, logger: logging.Logger) -> None:
+        """
+        Run the added checks, then warn about installed files that are older than their source.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, whose first description has been visited.
+        logger
+            The logger for the warnings.
+
+        Raises
+        ------
+        Exception
+            The error raised by a check.
+
+        """
+        for check in self.checks:
+            check(context)
+        installed = [path for path in self.files if _SHARE in path]
+        if installed:
+            warn_of_stale_files(installed, logger)
+
+    def explain_failure(self, context: LaunchContext) -> list[str]:
+        """
+        Collect hints on why a visit may have failed.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, passed to each hint.
+
+        Returns
+        -------
+        list of str
+            Lines for the log; empty hints are omitted.
+
+        """
+        return [text for text in (hint(context) for hint in self.hints) if text]
+
+
+def warn_of_stale_files(paths: Iterable[str], logger: logging.Logger) -> None:
+    """
+    Warn about installed files whose source is newer and differs.
+
+    Parameters
+    ----------
+    paths
+        The paths of the installed files.
+    logger
+        The logger for the warnings.
+
+    """
+    from ros_environment.source_tree import StaleFiles
+
+    files = StaleFiles()
+    for path in paths:
+        source = files.newer_source(path)
+        if source:
+            logger.warning(
+                "'%s' is newer than the installed '%s', which is used; run colcon build",
+                source,
+                path,
+            )
+
+
+def note_files_of_command(context: LaunchContext, command: str) -> None:
+    """
+    Record the installed files that a command line names, such as a model for xacro.
+
+    Parameters
+    ----------
+    context
+        The context that records them; nothing is recorded once the checks have run.
+    command
+        The command line, which is split as a shell does.
+
+    """
+    if context.run.before_start is None or _SHARE not in command:
+        return
+    import shlex
+
+    for word in shlex.split(command):
+        if _SHARE in word and os.path.isfile(word):
+            context.run.note_file(word)
 
 
 class ProgramNotFoundError(FileNotFoundError):
@@ -181,73 +309,3 @@ def _not_found(program: str) -> str:
         where = 'does not exist' if '/' in program else 'was not found on the PATH'
         return f"the program '{program}' {where}"
     return f"'{program}' exists, but the interpreter that its first line names does not"
-
-
-def advice_on_failure(parts: Sequence[str], said: str) -> str:
-    """
-    Advise on a failed command: a path split at a space, or one that does not exist.
-
-    Parameters
-    ----------
-    parts
-        The strings that were joined into the command line.
-    said
-        The error output of the command; advice that it already contains is not repeated.
-
-    Returns
-    -------
-    str
-        A line break and the advice, or '' if there is none.
-
-    """
-    return _split_path(parts) or _missing_path(''.join(parts), said)
-
-
-def advice_on_program(parts: Sequence[str]) -> str:
-    """
-    Advise on a program that was not found because of a missing space after its name.
-
-    Parameters
-    ----------
-    parts
-        The strings that were joined into the command line.
-
-    Returns
-    -------
-    str
-        A line break and the advice, or '' if there is none.
-
-    """
-    import shutil
-
-    first = parts[0].split()
-    if len(parts) < 2 or not first or parts[0][-1].isspace() or shutil.which(first[-1]) is None:
-        return ''
-    return (
-        f"\nIs a space missing after '{parts[0]}'? The parts of a command are joined as "
-        f"they are: Command(['{parts[0]} ', ...])"
-    )
-
-
-def _split_path(parts: Sequence[str]) -> str:
-    """Return advice on a path that was split into several words at a space."""
-    words = shlex.split(''.join(parts))
-    for part in parts[1:]:
-        is_path = os.path.isabs(part) and len(part.split()) > 1
-        if is_path and not any(part in word for word in words):
-            return (
-                f"\nThe path '{part}' contains a space, and was split into several words. "
-                f"Quote it: Command(['{parts[0].rstrip()} \"', path, '\"'])"
-            )
-    return ''
-
-
-def _missing_path(command: str, said: str) -> str:
-    """Return advice on the first path that does not exist."""
-    from ros_environment.missing_file import explain_missing_file
-
-    for word in shlex.split(command)[1:]:
-        if word.startswith('/') and not os.path.exists(word):
-            explanation = explain_missing_file('file', word)
-            return '' if explanation in said else f'\n{explanation}'
-    return ''
