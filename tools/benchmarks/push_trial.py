@@ -61,7 +61,7 @@ def stands_after(trial: PushTrial) -> bool:
     robot.drive(trial.speed_m_s)
     robot.wait(BEGIN_S)
     _wait_for_step(robot, trial.support)
-    step_s = robot.walking.walker.parameters.step_s
+    step_s = robot.walking.walker.parameters.timing.step_s
     robot.wait(trial.phase * step_s)
     robot.push(DIRECTIONS[trial.direction], trial.impulse_ns)
     return robot.wait(WATCH_S)
