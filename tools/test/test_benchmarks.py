@@ -44,6 +44,7 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['walking_soak', '--drop-outs', '7'], "'7' is no float from 0 to 1."),
         (['walking_soak', '--first-seed', 'x'], "'x' is no int at least 0."),
         (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
+        (['journeys', '--only', 'flight'], "invalid choice: 'flight'"),
     ],
 )
 def test_no_number_to_begin_with(words: list[str], sentence: str) -> None:
