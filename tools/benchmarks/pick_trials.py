@@ -114,7 +114,7 @@ def run(kitchen: Kitchen, options: argparse.Namespace) -> int:
         if number < options.first:
             continue
         end, took_s, tipped = kitchen.tell(trial)
-        ends[end] += 1
+        ends[end.partition(':')[0]] += 1
         knocked += len(tipped)
         told = end + (f'; moved {", ".join(tipped)}' if tipped else '')
         print(
@@ -244,7 +244,8 @@ class Kitchen:
         Returns
         -------
         str
-            `held`, `told wrongly` for a false report of success, `fell`, or one of `CODES`.
+            `held`, `told wrongly` for a false report of success, `fell`, or one of `CODES` with
+            the message of the action.
         float
             The duration, in s of simulated time.
         list of str
@@ -262,7 +263,7 @@ class Kitchen:
             if end.status == GoalStatus.STATUS_SUCCEEDED:
                 told = 'held' if held else 'told wrongly'
             else:
-                told = CODES[end.result.error_code]
+                told = f'{CODES[end.result.error_code]}: {end.result.error_msg}'
         except FellError:
             return 'fell', self.robot.topics.time_s - begin_s, []
         took_s = self.robot.topics.time_s - begin_s
