@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 from planner import apartment, KINDS, TESTS
 from voice_control.audio import chunks, duration_s, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer, THRESHOLD
+from voice_control.noise_suppression import NoiseSuppressor
 from voice_control.recognition import Listener, RecognizerError
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper
@@ -105,6 +106,7 @@ def main() -> int:
     parser.add_argument(
         '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
     )
+    parser.add_argument('--raw', action='store_true', help='without noise suppression')
     parser.add_argument('--list', action='store_true', help='print what was not understood')
     parser.add_argument(
         '--samples', type=Path, metavar='FOLDER',
@@ -126,7 +128,8 @@ def main() -> int:
     # Free text cannot be in a grammar.
     commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
     commands = commands[:: options.every]
-    grammar = GrammarRecognizer(options.threshold)
+    suppress = None if options.raw else NoiseSuppressor().suppress
+    grammar = GrammarRecognizer(options.threshold, suppress=suppress)
     try:
         whisper = FasterWhisper(options.whisper) if options.whisper else None
     except RecognizerError as error:

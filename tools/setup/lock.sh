@@ -6,7 +6,13 @@ cd "$(dirname "$0")/../.."
 platform="sys_platform == 'linux' and platform_machine == 'x86_64' and implementation_name == 'cpython'"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-printf '[tool.uv]\nenvironments = ["%s and python_version < '"'3.14'"'"]\n' "$platform" > "$folder/pyproject.toml"
+cat > "$folder/pyproject.toml" << EOF
+[tool.uv]
+environments = ["$platform and python_version < '3.14'"]
+[[tool.uv.dependency-metadata]]
+name = "pyrnnoise"
+requires-dist = []
+EOF
 cp tools/setup/requirements*.in "$folder"
 
 pins() { # of files in the folder, one a line

@@ -12,6 +12,7 @@ from voice_control.grammar_recognizer import (
     GrammarRecognizer,
     read_dictionary,
 )
+from voice_control.noise_suppression import NoiseSuppressor
 from voice_control.recognition import RecognizerError
 from voice_control.segmentation import UtteranceSegmenter
 
@@ -31,6 +32,14 @@ def utterances(sound: bytes, chunk_s: float = 0.03) -> list[bytes]:
         for utterance in segmenter.add(chunk)
     ]
     return [*found, *segmenter.finish()]
+
+
+def in_noise(path: Path, level: float) -> bytes:
+    """Return the utterance in a file, with white noise of a standard deviation."""
+    samples = np.frombuffer(bytes(16_000) + read_wav(path) + bytes(32_000), '<i2')
+    noise = np.random.default_rng(2).normal(0.0, level, samples.size)
+    [utterance] = UtteranceSegmenter().add((samples + noise).astype('<i2').tobytes())
+    return utterance
 
 
 def text_of(path: Path) -> str:
@@ -149,13 +158,45 @@ def test_a_dictionary_is_read() -> None:
 )
 def test_a_short_stop_is_heard_in_noise(path: Path, noise: float) -> None:
     """Also as the first thing that is heard, at a signal-to-noise ratio of some 20 dB."""
-    made = GrammarRecognizer()
+    made = GrammarRecognizer(suppress=NoiseSuppressor().suppress)
     made.set_grammar(GRAMMAR)
-    chance = np.random.default_rng(2)
-    samples = np.frombuffer(bytes(16_000) + read_wav(path) + bytes(32_000), '<i2')
-    noisy = (samples + chance.normal(0.0, noise, samples.size)).astype('<i2').tobytes()
-    heard = [made.recognize(each) for each in UtteranceSegmenter().add(noisy)]
-    assert [each.is_stop for each in heard] == [True], heard
+    recognition = made.recognize(in_noise(path, noise))
+    assert recognition.is_stop, recognition
+
+
+def test_a_command_in_noise_is_sought_without_it() -> None:
+    """At a signal-to-noise ratio of some 20 dB, at which it is not recognized otherwise."""
+    utterance = in_noise(SPEECH / 'go_to_the_kitchen.awb.wav', 200.0)
+    texts = []
+    for suppress in (None, NoiseSuppressor().suppress):
+        made = GrammarRecognizer(suppress=suppress)
+        made.set_grammar(GRAMMAR)
+        recognition = made.recognize(utterance)
+        texts.append(recognition.text if recognition.is_accepted else '')
+    assert texts == ['', 'go to the kitchen']
+
+
+@pytest.mark.parametrize(
+    ('name', 'noise', 'count'),
+    [
+        ('go_to_the_kitchen.rms', 0.0, 0),
+        ('stop.slt', 200.0, 0),
+        ('go_to_the_kitchen.awb', 200.0, 1),
+    ],
+)
+def test_what_is_clear_and_stop_need_no_suppression(name: str, noise: float, count: int) -> None:
+    """Suppression takes time, and may take a short word for noise."""
+    asked = []
+
+    def suppress(sound: bytes) -> bytes:
+        asked.append(sound)
+        return bytes(len(sound))
+
+    made = GrammarRecognizer(suppress=suppress)
+    made.set_grammar(GRAMMAR)
+    recognition = made.recognize(in_noise(SPEECH / f'{name}.wav', noise))
+    assert len(asked) == count
+    assert recognition.is_accepted == (count == 0)
 
 
 @pytest.mark.parametrize('chunk_s', [0.01, 0.037, 1.0])

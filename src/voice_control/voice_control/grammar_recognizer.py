@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 import math
 import re
@@ -21,6 +21,8 @@ STOP_THRESHOLD = -2.25
 """The minimum log-likelihood ratio per frame of a phrase that stops the robot."""
 STOP_MARGIN = 0.8
 """The margin by which such a phrase must fit better than the closest command."""
+_CLEAR = -2.0
+"""The ratio above which a command is not sought again after noise suppression."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
@@ -30,6 +32,7 @@ public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
 """Phrases that are recognized at all times, whatever the grammar of commands is."""
 
 _COMMANDS, _PHONES, _STOPS = 'commands', 'phones', 'stops'
+_ORIGINAL, _SUPPRESSED = 'original', 'suppressed'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
@@ -111,6 +114,10 @@ class GrammarRecognizer:
     below -3.5), as measured with synthetic voices. Stop words have a small grammar of their own in
     addition, since a short "stop" is easily confused with another of some hundred words.
 
+    With noise suppression, commands that do not fit well are sought again in the utterance
+    without its noise. Stop phrases are sought in the original one first, since suppression may
+    take a short word for noise.
+
     Parameters
     ----------
     threshold
@@ -118,11 +125,19 @@ class GrammarRecognizer:
         word is always accepted.
     dictionary
         Words with their phones, in addition to the 135,000 of CMUdict.
+    suppress
+        Removes the noise from an utterance (S16LE, 16 kHz, mono); None for no noise suppression.
 
     """
 
-    def __init__(self, threshold: float = THRESHOLD, dictionary: Mapping[str, str] = {}) -> None:
+    def __init__(
+        self,
+        threshold: float = THRESHOLD,
+        dictionary: Mapping[str, str] = {},
+        suppress: Callable[[bytes], bytes] | None = None,
+    ) -> None:
         self.threshold = threshold
+        self._suppress = suppress
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
         # A best-path search through the lattice could end anywhere in the grammar.
         self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_GRAMMAR_WEIGHT)
@@ -130,6 +145,7 @@ class GrammarRecognizer:
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
         self._mean = ''
+        self._means = dict.fromkeys((_ORIGINAL, _SUPPRESSED), '')
         self._add(_STOPS, compile_jsgf(STOP_GRAMMAR))
         self.set_grammar(STOP_GRAMMAR)
 
@@ -195,7 +211,17 @@ class GrammarRecognizer:
             log-likelihood ratio per frame.
 
         """
+        recognition = self._recognition(sound, _ORIGINAL)
+        is_clear = recognition.is_accepted and recognition.confidence >= _CLEAR
+        if self._suppress is None or recognition.is_stop or is_clear:
+            return recognition
+        return self._recognition(self._suppress(sound), _SUPPRESSED)
+
+    def _recognition(self, sound: bytes, kind: str) -> Recognition:
+        """Recognize a sound of a kind, each of which has a cepstral mean of its own."""
+        self._mean = self._means[kind]
         self._learn_mean(sound)
+        self._means[kind] = self._mean
         phones = self._decoded(_PHONES, sound)
         command = self._fit(_COMMANDS, sound, phones)
         stop = self._fit(_STOPS, sound, phones)

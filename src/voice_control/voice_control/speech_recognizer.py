@@ -28,6 +28,7 @@ from rclpy.node import Node
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
 from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary, THRESHOLD
+from voice_control.noise_suppression import NoiseSuppressionError, NoiseSuppressor
 from voice_control.recognition import (
     FreeRecognizer,
     Heard,
@@ -90,6 +91,11 @@ class RecognizerParameters:
         'The wake word that commands have to start with; empty to accept every command.',
         read_only=True,
     )
+    noise_suppression: bool = parameter(
+        True,
+        'Whether pocketsphinx hears commands again without steady noise, such as that of fans.',
+        read_only=True,
+    )
     vad_mode: int = parameter(
         0,
         'How aggressively sound that is not speech is filtered out.',
@@ -133,7 +139,13 @@ def make_listener(
         except (OSError, UnicodeDecodeError) as error:
             raise RecognizerError(f"'{told.dictionary_file}' cannot be read: {error}") from error
         dictionary = read_dictionary(text.splitlines())
-    grammar = GrammarRecognizer(told.threshold, dictionary)
+    suppress = None
+    if told.noise_suppression:
+        try:
+            suppress = NoiseSuppressor().suppress
+        except NoiseSuppressionError as error:
+            report(f'Noise is not suppressed. {error}')
+    grammar = GrammarRecognizer(told.threshold, dictionary, suppress)
     other: FreeRecognizer | None = None
     if told.backend == WHISPER:
         other = FasterWhisper(told.model_path, told.language, told.num_threads)
