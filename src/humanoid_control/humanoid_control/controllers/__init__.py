@@ -3,14 +3,13 @@
 
 from humanoid_control.controllers.command_controllers import Follower, TrajectoryRunner
 from humanoid_control.controllers.commands import CommandError, JointNames, PartialTargets
-from humanoid_control.controllers.goal_controllers import GoalController
 from humanoid_control.controllers.gripper_controller import (
     Grip,
     GripperController,
     GripResult,
     GripState,
 )
-from humanoid_control.controllers.interface import ClaimingController, Controller
+from humanoid_control.controllers.interface import ClaimingController, Controller, GoalController
 from humanoid_control.controllers.joint_trajectory_controller import (
     ErrorCode,
     GoalResult,

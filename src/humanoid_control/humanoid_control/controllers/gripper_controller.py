@@ -9,7 +9,7 @@ import math
 
 from humanoid_control.backends import JointLimits, JointTargets, Observation
 from humanoid_control.controllers.commands import CommandError
-from humanoid_control.controllers.goal_controllers import GoalController
+from humanoid_control.controllers.interface import GoalController
 
 TOLERANCE_M = 0.002
 """A gap this close to the commanded one counts as reached."""

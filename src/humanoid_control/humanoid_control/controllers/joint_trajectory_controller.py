@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from humanoid_control.backends import Array, JointTargets, Observation
-from humanoid_control.controllers.goal_controllers import GoalController
+from humanoid_control.controllers.interface import GoalController
 from humanoid_control.controllers.spline import Spline, spline_from
 from humanoid_control.controllers.trajectory_goal import TrajectoryGoal
 

@@ -18,7 +18,7 @@ from controller_manager_msgs.srv import (
 )
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_control.controllers import GoalController
-from humanoid_control.controllers.goal_controllers import DEACTIVATED
+from humanoid_control.controllers.interface import DEACTIVATED
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.hosting.topics.filling import topic
 from lifecycle_msgs.msg import State
