@@ -142,7 +142,7 @@ class ProgramNotFoundError(FileNotFoundError):
     """A program does not exist or is not executable."""
 
 
-def require_program(details: Mapping[str, Any]) -> None:
+def require_program(details: Mapping[str, Any], logger: logging.Logger) -> None:
     """
     Check that the program of a process exists and is executable.
 
@@ -153,6 +153,8 @@ def require_program(details: Mapping[str, Any]) -> None:
     ----------
     details
         `name`, `cmd`, `cwd` and `env`, as `ExecuteLocal.description_of_process` returns them.
+    logger
+        The logger for the warning.
 
     Raises
     ------
@@ -162,19 +164,15 @@ def require_program(details: Mapping[str, Any]) -> None:
     """
     program, folder = details['cmd'][0], details['cwd']
     if folder is not None and not os.path.isdir(folder):
-        _warn_of_folder(details['name'], folder)
+        logger.warning(
+            "the folder '%s', in which process[%s] is to be started, %s",
+            folder,
+            details['name'],
+            'is a file' if os.path.exists(folder) else 'does not exist',
+        )
         return
     if not is_there(program, folder, details['env']):
         raise ProgramNotFoundError(explain_missing_program(program, folder, details['env']))
-
-
-def _warn_of_folder(label: str, folder: str) -> None:
-    from launch.logging import get_logger
-
-    missing = 'is a file' if os.path.exists(folder) else 'does not exist'
-    get_logger('launch').warning(
-        "the folder '%s', in which process[%s] is to be started, %s", folder, label, missing
-    )
 
 
 def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str]]) -> bool:

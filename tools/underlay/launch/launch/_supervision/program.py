@@ -10,7 +10,6 @@ from typing import Any, IO, Optional, Protocol, TYPE_CHECKING
 
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch.utilities.arguments import text_like
 from launch.utilities.type_utils import perform_typed_substitution
 
 if TYPE_CHECKING:
@@ -222,46 +221,3 @@ def _timeout(
             f"the {keyword} of process[{label}] must be a number of seconds, but it is '{text}'"
         ) from None
     return text
-
-
-def timeout_substitutions(keyword: str, value: Any) -> list[Substitution]:
-    """
-    Normalise a timeout to substitutions.
-
-    Parameters
-    ----------
-    keyword
-        The name of the argument, for the error.
-    value
-        A number of seconds, or anything that `text_like` accepts.
-
-    Raises
-    ------
-    TypeError
-        The value is neither.
-
-    """
-    return text_like(keyword, str(value) if isinstance(value, (int, float)) else value)
-
-
-def output_substitutions(value: Any) -> Any:
-    """
-    Normalise the option `output` of a process.
-
-    Parameters
-    ----------
-    value
-        A dictionary by stream, which is returned as it is, or anything that `text_like` accepts.
-
-    Returns
-    -------
-    dict or list of Substitution
-        The dictionary, or the substitutions of the name of a preset.
-
-    Raises
-    ------
-    TypeError
-        The value is neither.
-
-    """
-    return value if isinstance(value, dict) else text_like('output', value)

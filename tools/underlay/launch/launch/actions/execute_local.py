@@ -12,7 +12,7 @@ from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.substitution import SomeSubstitutionsType
 from launch.substitutions.context_values import LaunchConfiguration
-from launch.utilities.arguments import list_like, of_type, typed
+from launch.utilities.arguments import list_like, of_type, output_like, seconds_like, typed
 
 if TYPE_CHECKING:
     import asyncio
@@ -100,21 +100,16 @@ class ExecuteLocal(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        from launch._supervision.program import (
-            output_substitutions,
-            timeout_substitutions,
-        )
-
         _check_plain_options(shell, respawn_delay, respawn_max_retries)
         self.__process_description = process_description
         self.__shell = shell
         self.__emulate_tty = typed('emulate_tty', emulate_tty, bool, 'a bool or a substitution')
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
-        self.__output = output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output)
+        self.__output = output_like(os.environ.get(_OVERRIDE_OUTPUT) or output)
         self.__output_format = output_format
-        self.__sigterm_timeout = timeout_substitutions('sigterm_timeout', sigterm_timeout)
-        self.__sigkill_timeout = timeout_substitutions('sigkill_timeout', sigkill_timeout)
+        self.__sigterm_timeout = seconds_like('sigterm_timeout', sigterm_timeout)
+        self.__sigkill_timeout = seconds_like('sigkill_timeout', sigkill_timeout)
         self.__respawn = typed('respawn', respawn, bool, 'a bool or a substitution')
         self.__detached = typed('detached', detached, bool, 'a bool or a substitution')
         self.__respawn_delay = respawn_delay
@@ -280,8 +275,9 @@ class ExecuteLocal(Action):
         checks = context.run.before_start
         if checks is not None and checks.resolves_programs and not self.shell:
             from launch._before_start import require_program
+            from launch.logging import get_logger
 
-            require_program(self.description_of_process())
+            require_program(self.description_of_process(), get_logger('launch'))
 
     def _tell(self, observer: VisitObserver) -> None:
         """Notify the observer of the process that would be started."""

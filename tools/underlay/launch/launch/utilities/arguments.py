@@ -156,6 +156,49 @@ def typed(keyword: str, value: Any, kind: Any, expected: str) -> Any:
         _refuse(keyword, expected, value)
 
 
+def seconds_like(keyword: str, value: Any) -> list[Substitution]:
+    """
+    Normalise a timeout to substitutions.
+
+    Parameters
+    ----------
+    keyword
+        The name of the argument, for the error.
+    value
+        A number of seconds, or anything that `text_like` accepts.
+
+    Raises
+    ------
+    TypeError
+        The value is neither.
+
+    """
+    return text_like(keyword, str(value) if isinstance(value, (int, float)) else value)
+
+
+def output_like(value: Any) -> Any:
+    """
+    Normalise the option `output` of a process.
+
+    Parameters
+    ----------
+    value
+        A dictionary by stream, which is returned as it is, or anything that `text_like` accepts.
+
+    Returns
+    -------
+    dict or list of Substitution
+        The dictionary, or the substitutions of the name of a preset.
+
+    Raises
+    ------
+    TypeError
+        The value is neither.
+
+    """
+    return value if isinstance(value, dict) else text_like('output', value)
+
+
 def _refuse(
     keyword: str,
     expected: str,
