@@ -14,8 +14,7 @@ from humanoid_common.running import run_node
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
 from temperature_monitor.heat_alarm import HeatAlarm
-
-_COLDEST = -273.15
+from temperature_monitor.thermometer import COLDEST_CELSIUS
 
 
 @dataclass(frozen=True)
@@ -23,7 +22,7 @@ class AnalyzerParameters:
     """When it is hot."""
 
     threshold_celsius: float = parameter(
-        25.0, 'Warn about readings above this.', at_least=_COLDEST, at_most=10000.0
+        25.0, 'Warn about readings above this.', at_least=COLDEST_CELSIUS, at_most=10000.0
     )
 
 

@@ -14,9 +14,7 @@ from humanoid_common.qos import STATE
 from humanoid_common.running import run_node
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
-from temperature_monitor.thermometer import generator_of, Thermometer
-
-_COLDEST = -273.15
+from temperature_monitor.thermometer import COLDEST_CELSIUS, generator_of, Thermometer
 
 
 @dataclass(frozen=True)
@@ -26,9 +24,11 @@ class PublisherParameters:
     rate_hz: float = parameter(
         1.0, 'Number of readings published per second.', at_least=0.01, at_most=1000.0
     )
-    min_celsius: float = parameter(20.0, 'The lowest reading.', at_least=_COLDEST, at_most=10000.0)
+    min_celsius: float = parameter(
+        20.0, 'The lowest reading.', at_least=COLDEST_CELSIUS, at_most=10000.0
+    )
     max_celsius: float = parameter(
-        30.0, 'The highest reading.', at_least=_COLDEST, at_most=10000.0
+        30.0, 'The highest reading.', at_least=COLDEST_CELSIUS, at_most=10000.0
     )
     frame_id: str = parameter('thermometer', 'Frame of the thermometer.')
     seed: int = parameter(

@@ -6,6 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 import random
 
+COLDEST_CELSIUS = -273.15
+"""Absolute zero, below which there is no reading."""
+
 
 @dataclass(frozen=True)
 class Thermometer:
