@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from planner import apartment, KINDS, TESTS
 from voice_control.audio import chunks, duration_s, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer, THRESHOLD
-from voice_control.noise_suppression import NoiseSuppressor
+from voice_control.noise_suppression import NoiseSuppressionError, NoiseSuppressor
 from voice_control.recognition import Listener, RecognizerError
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper
@@ -128,12 +128,12 @@ def main() -> int:
     # Free text cannot be in a grammar.
     commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
     commands = commands[:: options.every]
-    suppress = None if options.raw else NoiseSuppressor().suppress
-    grammar = GrammarRecognizer(options.threshold, suppress=suppress)
     try:
+        suppress = None if options.raw else NoiseSuppressor().suppress
         whisper = FasterWhisper(options.whisper) if options.whisper else None
-    except RecognizerError as error:
+    except (NoiseSuppressionError, RecognizerError) as error:
         parser.error(str(error))
+    grammar = GrammarRecognizer(options.threshold, suppress=suppress)
     listener = Listener(grammar, whisper)
     unknown = listener.set_grammar(planner.to_jsgf(world))
     print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')

@@ -19,10 +19,12 @@ import pytest
 from rclpy.node import Node
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
+from voice_control import speech_recognizer
 from voice_control.audio import chunks, read_wav
 from voice_control.audio_source import AudioSource
+from voice_control.noise_suppression import NoiseSuppressionError
 from voice_control.speaker import Speaker
-from voice_control.speech_recognizer import SpeechRecognizer
+from voice_control.speech_recognizer import make_listener, RecognizerParameters, SpeechRecognizer
 
 SPEECH = Path(__file__).parent / 'speech'
 GO_TO_THE_KITCHEN = SPEECH / 'go_to_the_kitchen.slt.wav'
@@ -106,6 +108,21 @@ def speak_until(ros: RosSandbox, ear: Ear, path: Path, text: str) -> None:
         if text in ear.transcripts:
             return
     pytest.fail(f'{text!r} is not in {ear.transcripts}; {[each.text for each in ear.results]}')
+
+
+def test_without_noise_suppression(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A missing library is reported, and speech is recognized all the same."""
+
+    def fail() -> None:
+        raise NoiseSuppressionError('There is no library.')
+
+    monkeypatch.setattr(speech_recognizer, 'NoiseSuppressor', fail)
+    told: list[str] = []
+    listener, _ = make_listener(RecognizerParameters(), told.append)
+    assert told == ['Noise is not suppressed. There is no library.']
+    assert listener.set_grammar(GRAMMAR) == ['xyzzyqux']
+    make_listener(RecognizerParameters(noise_suppression=False), told.append)
+    assert len(told) == 1
 
 
 def test_speech_becomes_a_command(ros: RosSandbox, ear: Ear, recognizer: SpeechRecognizer) -> None:

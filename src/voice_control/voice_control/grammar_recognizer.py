@@ -22,7 +22,7 @@ STOP_THRESHOLD = -2.25
 STOP_MARGIN = 0.8
 """The margin by which such a phrase must fit better than the closest command."""
 _CLEAR = -2.0
-"""The ratio above which a command is not sought again after noise suppression."""
+"""The ratio above which an utterance is not decoded again after noise suppression."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
@@ -114,9 +114,9 @@ class GrammarRecognizer:
     below -3.5), as measured with synthetic voices. Stop words have a small grammar of their own in
     addition, since a short "stop" is easily confused with another of some hundred words.
 
-    With noise suppression, commands that do not fit well are sought again in the utterance
-    without its noise. Stop phrases are sought in the original one first, since suppression may
-    take a short word for noise.
+    With noise suppression, an utterance that does not fit a command well is decoded again without
+    its noise. Stop phrases are always looked for in the original one, since suppression may take
+    a short word for noise.
 
     Parameters
     ----------
@@ -144,8 +144,8 @@ class GrammarRecognizer:
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
-        self._mean = ''
         self._means = dict.fromkeys((_ORIGINAL, _SUPPRESSED), '')
+        self._kind = _ORIGINAL
         self._add(_STOPS, compile_jsgf(STOP_GRAMMAR))
         self.set_grammar(STOP_GRAMMAR)
 
@@ -219,9 +219,8 @@ class GrammarRecognizer:
 
     def _recognition(self, sound: bytes, kind: str) -> Recognition:
         """Recognize a sound of a kind, each of which has a cepstral mean of its own."""
-        self._mean = self._means[kind]
+        self._kind = kind
         self._learn_mean(sound)
-        self._means[kind] = self._mean
         phones = self._decoded(_PHONES, sound)
         command = self._fit(_COMMANDS, sound, phones)
         stop = self._fit(_STOPS, sound, phones)
@@ -274,15 +273,15 @@ class GrammarRecognizer:
         pocketsphinx would update it after each search, so that successive searches would have
         different means.
         """
-        for _ in range(1 if self._mean else _FIRST_PASSES):
+        for _ in range(1 if self._means[self._kind] else _FIRST_PASSES):
             self._decoded(_STOPS, sound)  # the fastest search
-            self._mean = self._decoder.get_cmn()
+            self._means[self._kind] = self._decoder.get_cmn()
 
     def _decoded(self, search: str, sound: bytes) -> list[_Segment]:
         """Decode a sound into the words or phones of a search."""
         self._decoder.activate_search(search)
-        if self._mean:
-            self._decoder.set_cmn(self._mean)
+        if mean := self._means[self._kind]:
+            self._decoder.set_cmn(mean)
         self._decoder.start_utt()
         self._decoder.process_raw(sound)
         self._decoder.end_utt()

@@ -27,10 +27,11 @@ _KEPT = 0.1
 Share of the original sound in the output (-20 dB): after complete silence a recogniser hears
 worse.
 """
-_BEGIN = RATE_HZ // 5
-"""Number of samples at the beginning of a sound that the network hears in advance, ..."""
-_ADVANCE = RATE_HZ
-"""... backwards and forwards until there are as many as this, since it adapts within a second."""
+_BEGIN, _ADVANCE = RATE_HZ // 5, RATE_HZ
+"""
+Before a sound, the network hears that many samples of its beginning, backwards and forwards until
+there are as many as the second number: it takes a second to adapt to the noise.
+"""
 
 
 class NoiseSuppressionError(Exception):

@@ -93,7 +93,7 @@ class RecognizerParameters:
     )
     noise_suppression: bool = parameter(
         True,
-        'Whether pocketsphinx hears commands again without steady noise, such as that of fans.',
+        'Whether pocketsphinx decodes what fits no command well again without steady noise.',
         read_only=True,
     )
     vad_mode: int = parameter(
