@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of when recorded moments are due."""
 
+from unittest.mock import Mock
+
 import pytest
-from ros2bag.api.pacing import Pacing
+from ros2bag.api.pacing import ClockOutlet, Pacing
 
 
 class Clock:
@@ -68,3 +70,17 @@ def test_jump_goes_on_from_another_moment(clock: Clock) -> None:
     pacing.jump_to(9000)
     clock.now_ns += 10
     assert pacing.recorded_now_ns == 9010
+
+
+def test_published_time_does_not_pass_the_next_message(clock: Clock) -> None:
+    """A player that is late does not publish a time at which a message is still missing."""
+    pacing = Pacing(1000, 1.0, clock)
+    node = Mock()
+    outlet = ClockOutlet(node, '/clock', 1e9)
+    published = node.create_publisher.return_value.publish
+    times = []
+    for passed_ns in (100, 100, 500):
+        clock.now_ns += passed_ns
+        outlet.tick(pacing, next_ns=1250)
+        times.append(published.call_args.args[0].clock.nanosec)
+    assert times == [1100, 1200, 1250]

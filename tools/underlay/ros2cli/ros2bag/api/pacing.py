@@ -135,7 +135,7 @@ class ClockOutlet:
         self._period_ns = int(NS_PER_S / rate_hz)
         self._next_ns = 0
 
-    def tick(self, pacing: Pacing) -> int:
+    def tick(self, pacing: Pacing, next_ns: int) -> int:
         """
         Publish the recorded time if it is due.
 
@@ -143,6 +143,9 @@ class ClockOutlet:
         ----------
         pacing
             The mapping of wall time to recorded time.
+        next_ns
+            The recorded time of the message to play next, in ns since the epoch. The published
+            time does not pass it, however late the player is.
 
         Returns
         -------
@@ -152,7 +155,7 @@ class ClockOutlet:
         """
         now_ns = time.monotonic_ns()
         if now_ns >= self._next_ns:
-            self.publish(pacing.recorded_now_ns)
+            self.publish(min(pacing.recorded_now_ns, next_ns))
             self._next_ns = max(self._next_ns + self._period_ns, now_ns)
         return self._next_ns - now_ns
 

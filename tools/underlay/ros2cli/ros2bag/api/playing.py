@@ -202,7 +202,7 @@ class Player:
         while True:
             left_ns = min(pacing.wait_ns(recorded_ns), STEP_NS)
             if left_ns > 0 or self._switch.is_paused or self._is_service_due():
-                self._serve_others(pacing)
+                self._serve_others(recorded_ns, pacing)
             if self._switch.is_paused:
                 pacing.hold()
                 if self._take_next_wish():
@@ -214,12 +214,12 @@ class Player:
                 left_ns = min(pacing.wait_ns(recorded_ns), STEP_NS)
                 if left_ns <= 0:
                     return
-            self._idle(left_ns, pacing)
+            self._idle(left_ns, recorded_ns, pacing)
 
-    def _idle(self, left_ns: int, pacing: Pacing) -> None:
+    def _idle(self, left_ns: int, next_ns: int, pacing: Pacing) -> None:
         """Spin or sleep for the remaining time, at most until the clock is due."""
         if self._clock is not None:
-            left_ns = min(left_ns, self._clock.tick(pacing))
+            left_ns = min(left_ns, self._clock.tick(pacing, next_ns))
         if left_ns > EXACT_NS:
             self._node.spin_once((left_ns - EXACT_NS) / 1e9)
         elif left_ns > 0:
@@ -229,14 +229,14 @@ class Player:
         """Whether the keyboard and services are overdue because messages are dense."""
         return time.monotonic_ns() - self._served_ns > STEP_NS
 
-    def _serve_others(self, pacing: Pacing) -> None:
+    def _serve_others(self, next_ns: int, pacing: Pacing) -> None:
         now_ns = time.monotonic_ns()
         if now_ns - self._served_ns < STEP_NS / 2:
             return
         self._served_ns = now_ns
         self._node.spin_once(0.0)
         if self._clock is not None:
-            self._clock.tick(pacing)
+            self._clock.tick(pacing, next_ns)
         self._obey(self._keyboard.pressed(), pacing)
 
     def _obey(self, keys: str, pacing: Pacing) -> None:
