@@ -13,9 +13,11 @@ from typing import Any
 from geometry_msgs.msg import PointStamped
 import pytest
 from rclpy.action import ActionClient
+from rclpy.action.client import ClientGoalHandle
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 import tf2_geometry_msgs  # noqa: F401 - registers the messages
 from tf2_messages import at, numbers, stamped
 from tf2_msgs.action import LookupTransform
@@ -188,6 +190,29 @@ def test_nobody_spins(buffer: Buffer, make_node: NodeMaker) -> None:
     assert client.action_client.wait_for_server(30.0)
     with pytest.raises(TimeoutException, match='spin it in a thread other than'):
         client.lookup_transform('a', 'b', at(0))
+
+
+def test_lost_responses(
+    buffer: Buffer, client: BufferClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A goal and a request for its result are repeated until there is a response."""
+    buffer.set_transform(stamped('a', 'b', 1.0, (7, 0, 0)), 'test')
+    first = [Future()]
+    send = client.action_client.send_goal_async
+
+    def lossy_send(goal: LookupTransform.Goal) -> Future:
+        return first.pop() if first else send(goal)
+
+    first_result = [Future()]
+    get_result = ClientGoalHandle.get_result_async
+
+    def lossy_get(handle: ClientGoalHandle) -> Future:
+        return first_result.pop() if first_result else get_result(handle)
+
+    monkeypatch.setattr(client.action_client, 'send_goal_async', lossy_send)
+    monkeypatch.setattr(ClientGoalHandle, 'get_result_async', lossy_get)
+    assert numbers(client.lookup_transform('a', 'b', at(0)))[0] == 7.0
+    assert not first and not first_result
 
 
 def test_cancel(buffer: Buffer, make_node: NodeMaker, spin_until: Callable[..., None]) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import threading
 import time as wall_clock
 from typing import Any, TYPE_CHECKING
@@ -25,6 +26,8 @@ _SPIN = (
     'A node receives the answer only while it spins: spin it in a thread other than the one '
     'that calls'
 )
+_REPEAT_S = 1.0
+"""Time after which a request without a response is repeated."""
 
 
 class BufferClient(BufferInterface):
@@ -197,10 +200,11 @@ class BufferClient(BufferInterface):
         allowed_s = (nanoseconds(goal.timeout) + nanoseconds(self.timeout_padding)) / 1e9
         end_s = wall_clock.monotonic() + allowed_s
         self._wait_for_server(end_s, allowed_s)
-        accepted = self._wait(self.action_client.send_goal_async(goal), end_s, allowed_s)
-        answer = accepted.get_result_async()
+        accepted = self._response(
+            lambda: self.action_client.send_goal_async(goal), end_s, allowed_s
+        )
         try:
-            result = self._wait(answer, end_s, allowed_s).result
+            result = self._response(accepted.get_result_async, end_s, allowed_s).result
         except TimeoutException:
             accepted.cancel_goal_async()
             raise
@@ -216,16 +220,28 @@ class BufferClient(BufferInterface):
                 )
             wall_clock.sleep(1.0 / self.check_frequency)
 
-    def _wait(self, future: Future, end_s: float, allowed_s: float) -> Any:
-        """Wait for the result of a future that is completed by another thread."""
+    def _response(self, request: Callable[[], Future], end_s: float, allowed_s: float) -> Any:
+        """
+        Send a request, and wait for the response, which another thread receives.
+
+        The request is repeated at growing intervals: a response is lost if the server sends it
+        before it has discovered the client, and a lookup may safely be done twice.
+        """
         is_done = threading.Event()
-        future.add_done_callback(lambda _: is_done.set())
-        if not is_done.wait(max(0.0, end_s - wall_clock.monotonic())):
-            raise TimeoutException(
-                f"The server of the action '{self._ns}' has not answered within {allowed_s:g} s. "
-                + _SPIN
-            )
-        return future.result()
+        futures: list[Future] = []
+        interval_s = _REPEAT_S
+        while True:
+            futures.append(request())
+            futures[-1].add_done_callback(lambda _: is_done.set())
+            left_s = end_s - wall_clock.monotonic()
+            if is_done.wait(max(0.0, min(interval_s, left_s))):
+                return next(future for future in futures if future.done()).result()
+            if left_s <= interval_s:
+                raise TimeoutException(
+                    f"The server of the action '{self._ns}' has not answered within "
+                    f'{allowed_s:g} s. {_SPIN}'
+                )
+            interval_s *= 2.0
 
 
 def _goal(target: str, source: str, time: Time, timeout: Duration) -> LookupTransform.Goal:
