@@ -67,6 +67,7 @@ def _value(field: str, chance: Random, depth: int) -> Any:
         'float': lambda: max(-3e38, min(3e38, chance.choice(NUMBERS))),
         'double': lambda: chance.choice(NUMBERS),
         'string': lambda: chance.choice(TEXTS),
+        'wstring': lambda: chance.choice(TEXTS),
     }
     if field in simple:
         return simple[field]()

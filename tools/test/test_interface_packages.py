@@ -25,7 +25,13 @@ from rclpy.serialization import deserialize_message, serialize_message
 TABLES = sorted((Path(__file__).parent / 'interfaces').glob('*.txt'))
 UNDERLAY = Path(__file__).resolve().parents[1] / 'underlay'
 PARTS = {'msg': [''], 'srv': ['Request', 'Response'], 'action': ['Goal', 'Result', 'Feedback']}
-IN_PYTHON = {'bool': 'boolean', 'byte': 'octet', 'float32': 'float', 'float64': 'double'}
+IN_PYTHON = {
+    'bool': 'boolean',
+    'byte': 'octet',
+    'char': 'uint8',
+    'float32': 'float',
+    'float64': 'double',
+}
 FIELD = re.compile(r'(?P<kind>[\w/]+)(?P<many>\[(?P<size>\d*)\])? (?P<name>\w+)')
 
 
@@ -55,8 +61,9 @@ def in_python(fields: str, package: str) -> dict[str, str]:
 def test_every_interface_package_has_a_table() -> None:
     """The packages that ROS 2 Jazzy has and PyPI lacks, whole."""
     assert [table.stem for table in TABLES] == (
-        'audio_common_msgs control_msgs controller_manager_msgs geographic_msgs map_msgs '
-        'nav2_msgs simulation_interfaces vision_msgs'.split()
+        'action_tutorials_interfaces audio_common_msgs control_msgs controller_manager_msgs '
+        'example_interfaces geographic_msgs map_msgs nav2_msgs simulation_interfaces '
+        'vision_msgs'.split()
     )
 
 
