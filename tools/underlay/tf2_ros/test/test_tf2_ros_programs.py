@@ -24,6 +24,26 @@ from tf2_ros.tf2_monitor import main
 
 sys.exit(main())
 """
+WITH_TASK = """
+import sys
+from tf2_ros.executing import sleep
+from tf2_ros.program import run_node
+
+
+def make(_):
+    from rclpy.node import Node
+
+    return Node('worker')
+
+
+async def work(node):
+    await sleep(node, 0.01)
+    print('slept', flush=True)
+    {then}
+
+
+sys.exit(run_node(make, task=work))
+"""
 ARGUMENTS = ['--x', '1', '--yaw', '0.5', '--frame-id', 'map', '--child-frame-id', 'odom']
 
 
@@ -150,3 +170,32 @@ def test_impatience(start_program: Start, tmp_path: Path, monkeypatch: pytest.Mo
             monitor.send_signal(number)
         _, errors = monitor.communicate(timeout=TIMEOUT_S)
         assert (monitor.returncode, errors) == (0, '')
+
+
+@pytest.mark.parametrize(
+    ('then', 'number', 'status', 'text'),
+    [
+        ('pass', None, 0, ''),
+        ('await sleep(node, 1000.0)', signal.SIGINT, 0, ''),
+        ("raise OverflowError('too much')", None, 1, 'OverflowError: too much'),
+    ],
+)
+def test_task(
+    start_program: Start,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    then: str,
+    number: signal.Signals | None,
+    status: int,
+    text: str,
+) -> None:
+    """A program ends with its task, with a signal before that, or because the task has failed."""
+    (tmp_path / 'with_task.py').write_text(WITH_TASK.format(then=then))
+    monkeypatch.setenv('PYTHONPATH', str(tmp_path), prepend=os.pathsep)
+    program = start_program('with_task')
+    read_until(program.stdout, 'slept')
+    if number is not None:
+        program.send_signal(number)
+    _, errors = program.communicate(timeout=TIMEOUT_S)
+    assert program.returncode == status
+    assert text in errors and ('Traceback' in errors) == bool(text)

@@ -16,6 +16,7 @@ import inspect
 from typing import Any, cast, TYPE_CHECKING
 
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.task import Future
 
@@ -24,8 +25,9 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
     from rclpy.executors import Executor
+    from rclpy.node import Node
 
-__all__ = ['RESULT_MARGIN_S', 'make_executor', 'spin_until']
+__all__ = ['RESULT_MARGIN_S', 'make_executor', 'sleep', 'spin_until']
 
 RESULT_MARGIN_S = 1e-4
 """
@@ -135,3 +137,24 @@ def _wake_timers(executor: Executor) -> None:
             left_ns = None if timer.is_canceled() else timer.time_until_next_call()
             if left_ns is not None and left_ns > timer.timer_period_ns:
                 timer.reset()
+
+
+async def sleep(node: Node, duration_s: float) -> None:
+    """
+    Suspend a coroutine, while the executor of its node goes on.
+
+    Parameters
+    ----------
+    node
+        The node whose executor runs the coroutine.
+    duration_s
+        The time in s on a steady clock, even while simulated time is paused.
+
+    """
+    end: Future[None] = Future(executor=node.executor)
+    clock = Clock(clock_type=ClockType.STEADY_TIME)
+    timer = node.create_timer(duration_s, lambda: end.set_result(None), clock=clock)
+    try:
+        await end
+    finally:
+        node.destroy_timer(timer)

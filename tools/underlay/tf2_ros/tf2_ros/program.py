@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 import errno
+from functools import partial
 from math import nan
 import os
 import signal
 import sys
 import threading
 import time
-from typing import TYPE_CHECKING, TypeVar
+from typing import Any, TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ['number_in', 'run', 'run_node', 'spin', 'wait_for_signal']
 
 ArgumentsT = TypeVar('ArgumentsT')
+NodeT = TypeVar('NodeT', bound='Node')
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _LOOK_S = 1.0
 _END_S = 3.0
@@ -30,7 +32,9 @@ _CLOCK = '/clock'
 
 
 def run_node(
-    make_node: Callable[[list[str]], Node], arguments: Sequence[str] | None = None
+    make_node: Callable[[list[str]], NodeT],
+    arguments: Sequence[str] | None = None,
+    task: Callable[[NodeT], Coroutine[Any, Any, object]] | None = None,
 ) -> int:
     """
     Run a program that spins a single node.
@@ -44,6 +48,8 @@ def run_node(
         Creates the node from the command line without ROS arguments.
     arguments : Sequence[str] | None
         The command line including the program name; by default that of the process.
+    task
+        A coroutine function that gets the node; the program ends when it has returned.
 
     Returns
     -------
@@ -60,7 +66,7 @@ def run_node(
         except (ValueError, ParameterException) as error:
             sys.stderr.write(f'{error}\n')
             return 1
-        spin(node)
+        spin(node, task=partial(task, node) if task else None)
         node.destroy_node()
         return 0
 
@@ -163,9 +169,13 @@ def _status_of_lost_output(error: OSError) -> int:
     return 1
 
 
-def spin(node: Node, timeout_s: float | None = None) -> bool:
+def spin(
+    node: Node,
+    timeout_s: float | None = None,
+    task: Callable[[], Coroutine[Any, Any, object]] | None = None,
+) -> bool:
     """
-    Spin a node in its own thread until SIGINT, SIGTERM or a timeout.
+    Spin a node in its own thread until SIGINT, SIGTERM, a timeout or the end of a task.
 
     Its `companions`, if any (additional nodes that it created for itself), are spun as well. If a
     callback does not return within 3 s after the end, the process exits with status 1.
@@ -176,11 +186,13 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
         The node to spin; an error in one of its callbacks ends spinning and is raised here.
     timeout_s
         The maximum time to spin, in s; unlimited by default.
+    task
+        A coroutine function that the node's executor runs; spinning ends when it has returned.
 
     Returns
     -------
     bool
-        Whether a stop signal was received.
+        Whether it ended before the timeout, by a stop signal or with the task.
 
     """
     from rclpy.task import Future
@@ -188,7 +200,8 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
     _watch_clock(node)
     stop: Future[None] = Future()
     failures: list[Exception] = []
-    thread = threading.Thread(target=_work, args=(node, stop, failures), name='node', daemon=True)
+    work = partial(_work, node, stop, failures, task)
+    thread = threading.Thread(target=work, name='node', daemon=True)
     thread.start()
     is_stopped = wait_for_signal(timeout_s)
     stop.set_result(None)
@@ -236,7 +249,12 @@ def wait_for_signal(timeout_s: float | None) -> bool:
     return False
 
 
-def _work(node: Node, stop: Future[None], failures: list[Exception]) -> None:
+def _work(
+    node: Node,
+    stop: Future[None],
+    failures: list[Exception],
+    task: Callable[[], Coroutine[Any, Any, object]] | None,
+) -> None:
     """Spin a node and its companions; an error is stored for the main thread to raise."""
     from tf2_ros.executing import make_executor, spin_until
 
@@ -244,12 +262,19 @@ def _work(node: Node, stop: Future[None], failures: list[Exception]) -> None:
     for each in (node, *getattr(node, 'companions', ())):
         executor.add_node(each)
     try:
+        if task is not None:
+            executor.create_task(task).add_done_callback(_wake_main_thread)
         spin_until(executor, stop)
     except Exception as error:
         failures.append(error)
-        os.kill(os.getpid(), signal.SIGTERM)
+        _wake_main_thread()
     finally:
         executor.shutdown()
+
+
+def _wake_main_thread(_: object = None) -> None:
+    """End `wait_for_signal`."""
+    os.kill(os.getpid(), signal.SIGTERM)
 
 
 def _watch_clock(node: Node) -> None:
