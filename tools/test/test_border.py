@@ -16,13 +16,13 @@ FOREIGN = re.compile(r'\.venv|\btools/|\bunderlay\b|\bwheels?\b|\bPyPI\b|\bpip i
 TEXTS = {'.py', '.xml', '.cfg', '.md', '.yaml', '.xacro', '.urdf', '.rviz', '.txt'}
 # Packages of ROS 2 Jazzy that launch files and nodes of src/ may import.
 JAZZY = set(
-    'action_msgs ament_copyright ament_flake8 ament_index_python ament_pep257 audio_common_msgs '
-    'builtin_interfaces control_msgs controller_manager_msgs diagnostic_msgs domain_coordinator '
-    'geographic_msgs geometry_msgs launch launch_pytest launch_ros launch_testing '
-    'launch_testing_ros lifecycle_msgs map_msgs nav2_common nav2_msgs nav2_simple_commander '
-    'nav_msgs py_trees rcl_interfaces rclpy rosgraph_msgs sensor_msgs simulation_interfaces '
-    'slam_toolbox std_msgs std_srvs tf2_msgs tf2_ros trajectory_msgs unique_identifier_msgs '
-    'vision_msgs visualization_msgs xacro'.split()
+    'action_msgs action_tutorials_interfaces ament_copyright ament_flake8 ament_index_python '
+    'ament_pep257 audio_common_msgs builtin_interfaces control_msgs controller_manager_msgs '
+    'diagnostic_msgs domain_coordinator example_interfaces geographic_msgs geometry_msgs launch '
+    'launch_pytest launch_ros launch_testing launch_testing_ros lifecycle_msgs map_msgs '
+    'nav2_common nav2_msgs nav2_simple_commander nav_msgs py_trees rcl_interfaces rclpy '
+    'rosgraph_msgs sensor_msgs simulation_interfaces slam_toolbox std_msgs std_srvs tf2_msgs '
+    'tf2_ros trajectory_msgs unique_identifier_msgs vision_msgs visualization_msgs xacro'.split()
 )
 LIBRARIES = set(
     'OpenGL cv2 faster_whisper httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '

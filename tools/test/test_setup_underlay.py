@@ -237,6 +237,9 @@ def test_what_the_robot_needs_is_found_in_its_packages(root: Path) -> None:
     seeing = needed(underlay, read_packages(root / 'src'), 'perception:=true')
     assert {'vision_msgs', 'nav2_msgs'} <= seeing - names
     assert 'slam_toolbox' not in seeing
+    tutorial = needed(underlay, read_packages(root / 'src'), 'run demo_nodes_py talker')
+    demos = {'demo_nodes_cpp', 'demo_nodes_py', 'example_interfaces'}
+    assert tutorial - names == demos
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A talker whose quality of service is chosen on the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import sys
+
+from demo_nodes_py.topics.qos_program import Countdown, describe, parse_options
+from demo_nodes_py.topics.talker import Talker
+from rclpy.qos import QoSProfile
+from tf2_ros.program import run, spin
+
+__all__ = ['TalkerQos', 'main']
+
+
+class TalkerQos(Talker):
+    """
+    Publishes messages of the topic `chatter` with a given quality of service.
+
+    Parameters
+    ----------
+    qos_profile
+        The quality of service.
+    count
+        The number of messages that `countdown` counts.
+
+    """
+
+    def __init__(self, qos_profile: QoSProfile, count: int | None = None) -> None:
+        super().__init__('talker_qos', qos_profile)
+        self.countdown = Countdown(count)
+        self.get_logger().info(f'{describe(qos_profile)} talker')
+
+    def timer_callback(self) -> None:
+        """Publish the next message, and count it."""
+        super().timer_callback()
+        self.countdown.count()
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """
+    Run the node; return the exit status.
+
+    Parameters
+    ----------
+    argv : Sequence[str] | None
+        The command line including the program name; by default that of the process.
+
+    """
+
+    def parse(words: list[str]) -> tuple[QoSProfile, int]:
+        return parse_options(words, 'talker_qos', 'published')
+
+    return run(parse, _work, argv)
+
+
+def _work(options: tuple[QoSProfile, int]) -> None:
+    node = TalkerQos(*options)
+    spin(node, task=node.countdown.wait)
+    node.destroy_node()
+
+
+if __name__ == '__main__':
+    sys.exit(main())
