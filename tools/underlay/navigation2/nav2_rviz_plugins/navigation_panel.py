@@ -10,16 +10,17 @@ from nav2_rviz_plugins.goal_tool import GoalTool
 from nav2_rviz_plugins.interfaces import is_built, MISSING
 from nav2_rviz_plugins.managers import COMMANDS
 from nav2_rviz_plugins.session import NavigationSession, session_of
-from robot_console.live_panel import LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.namespaces import below
 from rviz_common.pace import Pace
+from rviz_common.page.channel import Viewer
 from rviz_common.status import Statuses
 from rviz_default_plugins.displays.marker import MarkerArray, MarkerScene
 from rviz_default_plugins.tools.publishing import SetInitialPose
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from robot_console.live_panel import Action
+    from rviz_common.page.channel import Action
     from rviz_common.tool import Tool
 
 __all__ = ['NavigationPanel']

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING
 
 from rclpy.parameter import Parameter
 from ros_environment.suggestions import did_you_mean
 from urdf import read_urdf_file
 
-__all__ = ['file_argument', 'parameters_from_file', 'unknown_parameters']
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['file_argument', 'parameters_from_file', 'unknown_overrides', 'unknown_parameters']
 
 OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
 
@@ -90,3 +94,17 @@ def unknown_parameters(
         for name in given
         if name not in known and not name.startswith((*OF_ROS, *prefixes))
     ]
+
+
+def unknown_overrides(node: Node) -> list[str]:
+    """
+    Format a warning for each parameter override that a node has not declared.
+
+    Parameters
+    ----------
+    node
+        The node, once it has declared all its parameters.
+
+    """
+    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public API for them
+    return unknown_parameters(given, node.get_parameters_by_prefix('').keys())

@@ -53,6 +53,7 @@ def test_keys_pause_step_and_change_the_rate(
 def test_no_keys_without_a_terminal() -> None:
     """Where stdin is no terminal, nothing is changed and nothing pressed."""
     with Keyboard(enabled=True) as keyboard:
+        assert not keyboard.is_reading
         assert keyboard.pressed() == ''
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 import sys
-from typing import Any, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
 from rviz_common.config import ConfigError, Configuration
 from tf2_ros.program import run, spin
@@ -14,7 +14,6 @@ from tf2_ros.program import run, spin
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rviz_common.page import Page
-    from rviz_common.page.address import PageSettings
 
 __all__ = ['main']
 
@@ -103,63 +102,17 @@ def _show(job: Job) -> int:
     from rclpy.exceptions import ParameterException
     from rviz_common.guarded_node import GuardedNode
     from rviz_common.page import Page, PortError
+    from rviz_common.page.address import declare_settings
 
     node = GuardedNode('rviz2')
     try:
-        page = Page('RViz', _page_settings(node))
+        page = Page('RViz', declare_settings(node))
     except (ValueError, ParameterException, PortError) as error:
         sys.stderr.write(f'{error}\n')
         return 1
     _visualize(node, page, *job)
     node.destroy_node()
     return 0
-
-
-def _page_settings(node: Node) -> PageSettings:
-    """
-    Declare the parameters `host`, `port` and `token`, and read the settings of the page from them.
-
-    Parameters
-    ----------
-    node
-        The node that declares them, read-only. A `port` of 0 stands for the first free one.
-
-    Raises
-    ------
-    ValueError
-        The host is not an IP address, the port is outside 1 to 65535, or the token is `none` on an
-        address that other machines reach.
-    rclpy.exceptions.ParameterException
-        A parameter has been overridden with a value of another type.
-
-    """
-    from rviz_common.page.address import PageSettings, PARAMETERS
-
-    values = {name: _declare(node, name, *about) for name, about in PARAMETERS.items()}
-    return PageSettings(values['host'], values['port'] or None, values['token'])
-
-
-def _unknown_parameters(node: Node) -> list[str]:
-    """
-    Format a warning for each parameter override that the node has not declared.
-
-    Parameters
-    ----------
-    node
-        The node, once it has declared all its parameters.
-
-    """
-    from robot_state_publisher.node_arguments import unknown_parameters
-
-    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public API for them
-    return unknown_parameters(given, node.get_parameters_by_prefix('').keys())
-
-
-def _declare(node: Node, name: str, default: str | int, text: str) -> Any:
-    from rcl_interfaces.msg import ParameterDescriptor
-
-    descriptor = ParameterDescriptor(description=text, read_only=True)
-    return node.declare_parameter(name, default, descriptor).value
 
 
 def _visualize(
@@ -169,6 +122,7 @@ def _visualize(
     configuration: Configuration,
     warning: str,
 ) -> None:
+    from robot_state_publisher.node_arguments import unknown_overrides
     from rviz_common.visualizer import Visualizer
     from rviz_common.visualizer.global_options import FIXED_FRAME
 
@@ -177,7 +131,7 @@ def _visualize(
     )
     if arguments.fixed_frame is not None:
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
-    for sentence in filter(None, [warning, *_unknown_parameters(node)]):
+    for sentence in filter(None, [warning, *unknown_overrides(node)]):
         node.get_logger().warning(sentence)
     node.get_logger().info(f'RViz is at {" and ".join(page.urls)}')
     spin(node)

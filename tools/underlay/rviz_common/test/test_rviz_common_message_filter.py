@@ -12,7 +12,8 @@ from typing import Any
 import msgspec
 import pytest
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.page.message_filter import decoded, LOGGER
+from rviz_common.page.connection_log import LOGGER
+from rviz_common.page.message_filter import decoded
 import viser
 from websockets.exceptions import ConnectionClosed, ConnectionClosedError, InvalidMessage
 from websockets.sync.client import ClientConnection, connect

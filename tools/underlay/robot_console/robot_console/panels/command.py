@@ -12,7 +12,7 @@ import json
 import time
 from typing import Any, TYPE_CHECKING
 
-from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.namespaces import NAMESPACE
 from robot_console.robot_link import LATCHED
 from rviz_common.properties import Topic
@@ -20,6 +20,7 @@ from std_msgs.msg import String
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+from rviz_common.page.channel import Action, Viewer
 
 __all__ = ['Command']
 

@@ -9,8 +9,9 @@ import time
 from typing import Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray
-from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.namespaces import NAMESPACE
+from rviz_common.page.channel import Action, Viewer
 from rviz_common.properties import Number, Topic
 
 __all__ = [

@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import Log as LogMessage
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.namespaces import NAMESPACE
+from rviz_common.page.channel import Action, Viewer
 from rviz_common.properties import Flag, Topic, Whole
 
 __all__ = ['Interruption', 'Interruptions', 'Log', 'LogBook', 'LogLine']

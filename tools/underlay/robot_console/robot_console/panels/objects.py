@@ -7,7 +7,7 @@ from importlib import import_module
 import math
 from typing import Any, TYPE_CHECKING
 
-from robot_console.live_panel import LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.namespaces import NAMESPACE
 from robot_console.robot_link import LATCHED
 from rviz_common.properties import Topic
@@ -15,6 +15,7 @@ from rviz_default_plugins.displays.detections import MISSING
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+from rviz_common.page.channel import Viewer
 
 __all__ = ['Objects']
 

@@ -9,10 +9,11 @@ from typing import Any
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterEvent, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 from rclpy.qos import qos_profile_parameter_events
-from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.parameter_values import described, parameter_value
 from robot_console.service_calls import ServiceCalls
 from ros2param.api import LIST_SERVICE
+from rviz_common.page.channel import Action, Viewer
 
 __all__ = ['Parameters', 'RemoteParameters']
 

@@ -7,12 +7,13 @@ from collections.abc import Mapping
 import time
 from typing import Any
 
-from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.namespaces import NAMESPACE
 from robot_console.service_calls import ServiceCalls
 from ros2cli.messages.lookup import get_passed_type
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.text import IDL_NAMES, Shortening, to_yaml
+from rviz_common.page.channel import Action, Viewer
 from rviz_common.properties import Number
 
 __all__ = ['Services', 'fields_text', 'filled', 'response_text', 'service_class', 'template']

@@ -8,13 +8,14 @@ import time
 from typing import Any, TYPE_CHECKING
 
 from rclpy.qos import qos_check_compatible, QoSCompatibility
-from robot_console.live_panel import Action, LivePanel, Viewer
+from robot_console.live_panel import LivePanel
 from robot_console.topic_rates import RateListener
 from robot_console.topic_watch import TopicWatch
 from rviz_common.topics import is_full_topic_name
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+from rviz_common.page.channel import Action, Viewer
 
 __all__ = ['Topics']
 

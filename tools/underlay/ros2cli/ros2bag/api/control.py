@@ -121,6 +121,11 @@ class Keyboard:
             termios.tcsetattr(sys.stdin, termios.TCSADRAIN, raw)
         return self
 
+    @property
+    def is_reading(self) -> bool:
+        """Whether keys are read."""
+        return self._before is not None
+
     def pressed(self) -> str:
         """Return the keys pressed since the last call; '' for none."""
         if self._before is None or not select.select([sys.stdin], [], [], 0)[0]:

@@ -8,10 +8,22 @@ import errno
 import ipaddress
 import os
 import socket
+from typing import Any, TYPE_CHECKING
 
 from ros2cli.graph.reach import read_interfaces
 
-__all__ = ['NO_TOKEN', 'PARAMETERS', 'PageSettings', 'PortError', 'listen', 'reachable']
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = [
+    'NO_TOKEN',
+    'PARAMETERS',
+    'PageSettings',
+    'PortError',
+    'declare_settings',
+    'listen',
+    'reachable',
+]
 
 FIRST_PORT = 8080
 NO_TOKEN = 'none'
@@ -61,6 +73,35 @@ class PageSettings:
     def is_local(self) -> bool:
         """Whether only this machine can reach the page."""
         return ipaddress.ip_address(self.host).is_loopback
+
+
+def declare_settings(node: Node) -> PageSettings:
+    """
+    Declare the parameters `host`, `port` and `token`, and read the settings of the page from them.
+
+    Parameters
+    ----------
+    node
+        The node that declares them, read-only. A `port` of 0 stands for the first free one.
+
+    Raises
+    ------
+    ValueError
+        The host is not an IP address, the port is outside 1 to 65535, or the token is `none` on an
+        address that other machines reach.
+    rclpy.exceptions.ParameterException
+        A parameter has been overridden with a value of another type.
+
+    """
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    def declare(name: str) -> Any:
+        default, text = PARAMETERS[name]
+        descriptor = ParameterDescriptor(description=text, read_only=True)
+        return node.declare_parameter(name, default, descriptor).value
+
+    values = {name: declare(name) for name in PARAMETERS}
+    return PageSettings(values['host'], values['port'] or None, values['token'])
 
 
 class PortError(RuntimeError):

@@ -13,28 +13,22 @@ rejected, or that was never announced, are dropped as they arrive.
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
-import logging
 import math
 from typing import Any, Optional
 
 import msgspec
-from rviz_common.pace import Pace
-from rviz_common.status import described_error
+from rviz_common.page.connection_log import complain
 from viser import _messages
 from viser._messages import FileTransferPart, FileTransferStartUpload
 from websockets.asyncio.server import ServerConnection
-from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 __all__ = [
     'LARGEST_UPLOAD_BYTES',
-    'LOGGER',
     'OptionsOf',
     'Strained',
     'Uploads',
-    'complain_about_task',
     'decoded',
 ]
 
@@ -54,10 +48,6 @@ FIELDS = {kind.__name__: {'type', *kind.__dataclass_fields__} for kind in SENT}
 LONGEST_NAME = 40
 OptionsOf = Callable[[str], Optional[Collection[str]]]
 """Accepts the id of a widget; returns its options, None if it is not a choice widget."""
-
-LOGGER = logging.getLogger('rviz_common.page')
-REPEAT_S = 10.0
-_PACE = Pace(REPEAT_S)
 
 LARGEST_UPLOAD_BYTES = 10_000_000
 """The maximum size of a file; a configuration has a few thousand bytes."""
@@ -104,7 +94,7 @@ class Strained:
             if not isinstance(message, str) and not self._is_offered(message):
                 continue
             if isinstance(message, str):
-                _complain(f'A browser sent an unexpected message: {message}')
+                complain(f'A browser sent an unexpected message: {message}')
             elif self._uploads.admits(message, self):
                 return received
 
@@ -154,54 +144,6 @@ def _is_finite(value: Any) -> bool:
     if isinstance(value, dict):
         return all(map(_is_finite, value.values()))
     return not isinstance(value, (list, tuple)) or all(map(_is_finite, value))
-
-
-def _complain(sentence: str) -> None:
-    """
-    Log a warning, unless one has been logged within the last 10 s.
-
-    Parameters
-    ----------
-    sentence
-        The message.
-
-    """
-    if _PACE.is_due():
-        LOGGER.warning(sentence)
-
-
-def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) -> None:
-    """
-    Log the failure of a task of the page; an exception handler for an asyncio event loop.
-
-    Parameters
-    ----------
-    loop
-        The event loop.
-    about
-        The context of the failure, with the keys `exception` and `message` of asyncio.
-
-    """
-    error = about.get('exception')
-    said = described_error(error) if isinstance(error, Exception) else about.get('message', '')
-    _complain(f'A message of a browser failed: {said}')
-
-
-def _shorten(record: logging.LogRecord) -> bool:
-    """
-    Filter log records, shortening an exception to one line.
-
-    The `websockets` library logs too much, such as clients that do not speak HTTP or disconnect.
-    """
-    error = record.exc_info[1] if record.exc_info else None
-    if isinstance(error, Exception):
-        record.msg = f'A connection has failed: {described_error(error)}'
-        record.args, record.exc_info = (), None
-        return not isinstance(error, (ConnectionClosed, InvalidHandshake))
-    return record.levelno >= logging.WARNING
-
-
-LOGGER.addFilter(_shorten)
 
 
 @dataclass

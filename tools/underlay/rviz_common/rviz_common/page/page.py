@@ -1,54 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A page in the browser, and the access control that its viser server lacks."""
+"""A page of viser, and the access control that its server lacks."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 import functools
 import gzip
 from html import escape
-from http import HTTPStatus
-import secrets
-import socket
-from types import TracebackType
 from typing import Any
-from urllib.parse import urlencode
 
 import rich
-from rviz_common.page.address import listen, NO_TOKEN, PageSettings, reachable
-from rviz_common.page.admission import Admission, Refusal, sign_in_page, without_token
-from rviz_common.page.message_filter import (
-    complain_about_task,
-    LOGGER,
-    OptionsOf,
-    Strained,
-    Uploads,
-)
-from rviz_common.page.routes import Route, Routes
+from rviz_common.page.address import PageSettings
+from rviz_common.page.connection_log import complain_about_task, LOGGER
+from rviz_common.page.gated_page import GatedPage, POLICY
+from rviz_common.page.message_filter import OptionsOf, Strained, Uploads
 import viser
 from viser._messages import FileTransferPartAck, FileTransferStartUpload, RemoveNotificationMessage
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
-from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 __all__ = ['Page']
 
 
-class Page:
+class Page(GatedPage):
     """
     A page with a scene and widgets of `viser`; it is served from the start.
 
     Parameters
     ----------
-    title
-        The title of the browser's tab.
-    settings
-        The host, the port and the token; by default it is served at 127.0.0.1. An empty token is
-        replaced by a generated one.
+    title, settings
+        As for `GatedPage`.
 
     Raises
     ------
@@ -59,10 +43,6 @@ class Page:
 
     Attributes
     ----------
-    port
-        The port at which it is served.
-    routes
-        Routes served in addition to the page itself.
     uploads
         Limits the files that browsers upload.
     viser
@@ -71,21 +51,12 @@ class Page:
     """
 
     def __init__(self, title: str, settings: PageSettings | None = None) -> None:
-
-        settings = settings or PageSettings()
-        if not settings.token:
-            settings = replace(settings, token=secrets.token_urlsafe(16))
+        super().__init__(title, settings)
         rich.get_console().quiet = True  # viser prints addresses, but not the token
-        bound = listen(settings)
-        self.settings = settings
-        self.port: int = bound.getsockname()[1]
-        self.routes = Routes()
         self.uploads = Uploads()
-        self._token = '' if settings.token == NO_TOKEN else settings.token
-        admission = Admission(self.port, self._token)
-        with _gated(bound, title, admission, self.routes, self.uploads, self._options_of):
+        with _gated(self, self._options_of):
             self.viser = viser.ViserServer(
-                host=settings.host, port=self.port, label=title, verbose=False
+                host=self.settings.host, port=self.port, label=title, verbose=False
             )
         self.viser.gui.configure_theme(
             control_width='large',
@@ -96,18 +67,6 @@ class Page:
         self.viser.gui.main_panel.dock_right()
         # Shadows halve the frame rate with software rendering.
         self.viser.scene.configure_default_lights(cast_shadow=False)
-
-    @property
-    def urls(self) -> list[str]:
-        """The URLs to open, with the token if there is one; the best one first."""
-        query = f'?{urlencode({"token": self._token})}' if self._token else ''
-        hosts = [f'[{each}]' if ':' in each else each for each in reachable(self.settings.host)]
-        return [f'http://{host}:{self.port}/{query}' for host in hosts]
-
-    @property
-    def url(self) -> str:
-        """The URL to open."""
-        return self.urls[0]
 
     def end_upload(self, start: FileTransferStartUpload) -> None:
         """
@@ -141,37 +100,14 @@ class Page:
         """Stop serving the page."""
         self.viser.stop()
 
-    def __enter__(self) -> Page:
-        """Return the page."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close the page."""
-        self.close()
-
 
 # Larger than the chunks of half a megabyte in which browsers send files.
 LARGEST_BYTES = 2_000_000
-# What a page may load and do: only from this origin, and not framed by other pages.
-POLICY = "frame-ancestors 'self'"
-
 OF_VISER = b'<title>Viser</title>'
 
 
 @contextmanager
-def _gated(
-    bound: socket.socket,
-    title: str,
-    admission: Admission,
-    routes: Routes,
-    uploads: Uploads,
-    options_of: OptionsOf,
-) -> Iterator[None]:
+def _gated(page: Page, options_of: OptionsOf) -> Iterator[None]:
     """
     Secure the viser server that is started in a `with` block.
 
@@ -180,16 +116,8 @@ def _gated(
 
     Parameters
     ----------
-    bound
-        The listening socket that the server is to use.
-    title
-        The title of the browser's tab.
-    admission
-        Decides who may use the page.
-    routes
-        Routes served in addition to the viser page.
-    uploads
-        Limits the files that browsers upload.
+    page
+        The page that the server serves.
     options_of
         Returns the options of a choice widget.
 
@@ -212,10 +140,10 @@ def _gated(
         if used:
             raise RuntimeError('The page has already been started.')
         used.append(True)
-        answer = _gate(options.pop('process_request'), title, admission, routes)
+        answer = _answering(page, options.pop('process_request'))
         options.update(process_request=answer, max_size=LARGEST_BYTES, logger=LOGGER)
         asyncio.get_running_loop().set_exception_handler(complain_about_task)
-        return serve(_routed(handler, routes, uploads, options_of), sock=bound, **options)
+        return serve(_routed(handler, page, options_of), sock=page.socket, **options)
 
     websockets.asyncio.server.serve = serve_gated  # type: ignore[assignment, misc]
     try:
@@ -226,83 +154,38 @@ def _gated(
         raise RuntimeError('The page is not protected: this version of viser starts differently.')
 
 
-def _routed(handler: Any, routes: Routes, uploads: Uploads, options_of: OptionsOf) -> Any:
-    """Wrap the connection handler, to dispatch connections to a route or to viser."""
-
-    async def talk(connection: ServerConnection) -> None:
-        request = connection.request
-        route = routes.find(request.path) if request else None
-        if route is None or route.connect is None:
-            strained = Strained(connection, uploads, options_of)
-            try:
-                await handler(strained)
-            finally:
-                uploads.leave(strained)
-        else:
-            await route.connect(connection)
-
-    return talk
-
-
-def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
-    """Wrap the request handler, to reject requests that are not admitted."""
+def _answering(page: Page, answer: Any) -> Any:
+    """Wrap the request handler of viser, for requests that are admitted and not for a route."""
 
     def process_request(connection: ServerConnection, request: Request) -> Response | None:
-        headers = request.headers
-        refusal = admission.refusal(
-            request.path,
-            ', '.join(headers.get_all('Host')),
-            ', '.join(headers.get_all('Origin')) if 'Origin' in headers else None,
-            '; '.join(headers.get_all('Cookie')),
-        )
-        if refusal is not None:
-            return _refused(refusal, headers, title)
-        if admission.brings_token(request.path) and 'Upgrade' not in headers:
-            return _with_cookie(request.path, admission)
-        route = routes.find(request.path)
-        if route is not None:
-            return None if 'Upgrade' in headers else _served(route)
-        response: Response | None = answer(connection, request)
-        if response is not None:
-            response.headers['Content-Security-Policy'] = POLICY
-            _entitle(response, title)
-        return response
+        def of_viser() -> Response | None:
+            response: Response | None = answer(connection, request)
+            if response is not None:
+                response.headers['Content-Security-Policy'] = POLICY
+                _entitle(response, page.title)
+            return response
+
+        return page.response_to(request, of_viser)
 
     return process_request
 
 
-def _refused(refusal: Refusal, headers: Headers, title: str) -> Response:
-    """Return the rejection of a request: a page for browsers, plain text for programs."""
-    if refusal.wants_token and 'text/html' in ', '.join(headers.get_all('Accept')):
-        heading = refusal.sentence.partition('. ')[0]
-        text = sign_in_page(title, ', '.join(headers.get_all('Host')), f'{heading}.')
-        response = _answer(refusal.status, text, 'text/html; charset=utf-8')
-        response.headers['Content-Security-Policy'] = POLICY
-        return response
-    return _answer(refusal.status, f'{refusal.sentence}\n', 'text/plain; charset=utf-8')
+def _routed(handler: Any, page: Page, options_of: OptionsOf) -> Any:
+    """Wrap the connection handler, to dispatch connections to a route or to viser."""
 
+    async def talk(connection: ServerConnection) -> None:
+        request = connection.request
+        route = page.routes.find(request.path) if request else None
+        if route is None or route.connect is None:
+            strained = Strained(connection, page.uploads, options_of)
+            try:
+                await handler(strained)
+            finally:
+                page.uploads.leave(strained)
+        else:
+            await route.connect(connection)
 
-def _served(route: Route) -> Response:
-    response = _answer(HTTPStatus.OK, route.content, route.kind)
-    response.headers['Content-Security-Policy'] = POLICY
-    return response
-
-
-def _answer(status: HTTPStatus, text: str, kind: str) -> Response:
-    body = text.encode()
-    headers = Headers({'Content-Type': kind, 'Content-Length': str(len(body))})
-    headers['Connection'] = 'close'
-    return Response(status, status.phrase, headers, body)
-
-
-def _with_cookie(path: str, admission: Admission) -> Response:
-    """Redirect the browser to the URL without the token, to keep it out of the history."""
-    place = without_token(path)
-    headers = Headers(
-        {'Location': place, 'Set-Cookie': admission.set_cookie, 'Content-Length': '0'}
-    )
-    headers['Connection'] = 'close'
-    return Response(HTTPStatus.SEE_OTHER, HTTPStatus.SEE_OTHER.phrase, headers)
+    return talk
 
 
 def _entitle(response: Response, title: str) -> None:

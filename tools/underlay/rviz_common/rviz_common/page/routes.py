@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Additional routes of a page: small pages embedded in it, with their own connections."""
+"""Routes of a page: what it serves at which path, such as small pages embedded in it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from urllib.parse import unquote, urlsplit
 
 from websockets.asyncio.server import ServerConnection
 
-__all__ = ['Route', 'Routes']
+__all__ = ['HTML', 'PLAIN', 'Route', 'Routes']
+
+HTML, PLAIN = 'text/html; charset=utf-8', 'text/plain; charset=utf-8'
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,7 @@ class Route:
 
     content: str
     connect: Callable[[ServerConnection], Awaitable[None]] | None = None
-    kind: str = 'text/html; charset=utf-8'
+    kind: str = HTML
 
 
 class Routes:
@@ -38,7 +40,7 @@ class Routes:
         Parameters
         ----------
         path
-            The path, such as `/drive`, without a trailing slash.
+            The path, such as `/drive`, without a trailing slash; '' is the root.
         route
             What to serve there.
 

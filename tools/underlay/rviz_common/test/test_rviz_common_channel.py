@@ -9,9 +9,9 @@ import time
 from typing import Any
 
 import pytest
-from robot_console.live_panel import Channel, Viewer
 from rviz_common.inputs import WorkQueue
-from rviz_common.page import NO_TOKEN, Page, PageSettings, Route
+from rviz_common.page import NO_TOKEN, PageSettings, PlainPage, Route
+from rviz_common.page.channel import Channel, Viewer
 from websockets.exceptions import ConnectionClosed, ConnectionClosedError
 from websockets.sync.client import ClientConnection, connect
 
@@ -19,7 +19,7 @@ from websockets.sync.client import ClientConnection, connect
 class Desk:
     """A channel at a page; what it asks for is done when a test lets time pass."""
 
-    def __init__(self, page: Page) -> None:
+    def __init__(self, page: PlainPage) -> None:
         """Serve the channel."""
         self.queue = WorkQueue()
         self.done: list[Any] = []
@@ -62,7 +62,7 @@ def heard(client: ClientConnection) -> Any:
 @pytest.fixture
 def desk() -> Iterator[Desk]:
     """Return a channel of a page."""
-    with Page('test', PageSettings(token=NO_TOKEN)) as page:
+    with PlainPage('test', {}, PageSettings(token=NO_TOKEN)) as page:
         yield Desk(page)
 
 
