@@ -102,7 +102,8 @@ def needed(
         if package.on_demand
         and not any(key in word for key in package.on_demand for word in words)
     }
-    names = {name for name, package in underlay.items() if not package.is_interface} - left_out
+    programs = (each for each in underlay.values() if not each.is_interface or each.on_demand)
+    names = {package.name for package in programs} - left_out
     used = [package for package in workspace.values() if not package.depends_on & left_out]
     reached = names.union(*(package.depends_on for package in used))
     todo = [name for name in reached if name in underlay]

@@ -240,6 +240,8 @@ def test_what_the_robot_needs_is_found_in_its_packages(root: Path) -> None:
     tutorial = needed(underlay, read_packages(root / 'src'), 'run demo_nodes_py talker')
     demos = {'demo_nodes_cpp', 'demo_nodes_py', 'example_interfaces'}
     assert tutorial - names == demos
+    drawing = needed(underlay, read_packages(root / 'src'), 'run turtlesim turtlesim_node')
+    assert drawing - names == {'turtlesim'}
 
 
 @pytest.mark.parametrize(
@@ -293,6 +295,14 @@ def test_what_is_built_on_demand(workspace: Locations, built: list[list[str]]) -
     for asked_for in ('route:=true', 'run pilot_tools start'):
         names = Underlay(workspace, 'wheels', asked_for).to_build(everything=False)
         assert set(names) == {*NEEDED, 'geo_msgs', 'other_msgs', 'pilot'}
+
+
+def test_interfaces_on_demand(workspace: Locations, built: list[list[str]]) -> None:
+    """A command that names a package gets it, also one that defines interfaces of its own."""
+    on_demand(workspace.underlay / 'other_msgs', 'other')
+    for asked_for, more in (('', []), ('run other_msgs start', ['other_msgs', 'geo_msgs'])):
+        names = Underlay(workspace, 'wheels', asked_for).to_build(everything=False)
+        assert names == sorted([*NEEDED, *more])
 
 
 def test_colcon_does_not_know_what_waits(
