@@ -73,12 +73,27 @@ LOOKING_ROUND = (
     '{position: {x: 4.2, y: 1.2, z: 0.73}, orientation: {z: 0.62, w: 0.78}}',
 )
 """In the kitchen, the living room and the bedroom."""
-ADDRESS = re.compile(r'(RViz is|The sliders are) at (http://\S+)')
+TURTLES = (
+    ('turtle1', '', 'r: 179, g: 184, b: 255, width: 3', (2.0, 1.5)),
+    ('lea', 'x: 1.5, y: 8.0, theta: 0.5', 'r: 255, g: 212, b: 59, width: 6', (1.2, -1.0)),
+    ('max', 'x: 9.5, y: 1.5, theta: 2.0', 'r: 255, g: 135, b: 135, width: 4', (1.2, 0.8)),
+    ('ida', 'x: 9.0, y: 9.0, theta: 3.8', 'r: 140, g: 233, b: 154, width: 8', (1.0, 1.0)),
+    ('tom', 'x: 1.5, y: 1.5, theta: 0.8', 'r: 255, g: 255, b: 255, width: 3', (1.2, 0.6)),
+)
+"""Their name, place, pen, and how they go round: speed and rate; the first is there already."""
+TURTLE_S = 3.0
+ADDRESS = re.compile(r'(RViz is|The sliders are|The turtles are) at (http://\S+)')
 
 
 def main() -> None:
     """Take all pictures, or some."""
-    tours = {'console': console, 'apartment': apartment, 'command': command, 'sliders': sliders}
+    tours = {
+        'console': console,
+        'apartment': apartment,
+        'command': command,
+        'sliders': sliders,
+        'turtlesim': turtlesim,
+    }
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('tours', nargs='*', help=f'only these of {", ".join(tours)}')
     chosen = parser.parse_args().tours or [*tours]
@@ -153,6 +168,20 @@ def sliders(browser: Any) -> None:
     with launched('humanoid_description', 'view.launch.py', 2) as addresses:
         picture_sliders(browser, addresses['The sliders are'])
         picture_frames(browser, addresses['RViz is'])
+
+
+def turtlesim(browser: Any) -> None:
+    """
+    Take the picture of turtles that draw.
+
+    Parameters
+    ----------
+    browser
+        The browser of Playwright.
+
+    """
+    with started(1, 'ros2', 'run', 'turtlesim', 'turtlesim_node') as addresses:
+        picture_turtles(browser, addresses['The turtles are'])
 
 
 def picture_console(browser: Any, address: str) -> None:
@@ -481,6 +510,32 @@ def picture_frames(browser: Any, address: str) -> None:
     tab.close()
 
 
+def picture_turtles(browser: Any, address: str) -> None:
+    """
+    Let turtles draw, and take the picture of their field.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    """
+    for name, place, pen, (speed, rate) in TURTLES:
+        if place:
+            ros2('service', 'call', '/spawn', 'turtlesim/srv/Spawn', f'{{{place}, name: {name}}}')
+        ros2('service', 'call', f'/{name}/set_pen', 'turtlesim/srv/SetPen', f'{{{pen}}}')
+        twist = f'{{linear: {{x: {speed}}}, angular: {{z: {rate}}}}}'
+        command = 'topic', 'pub', '-r', '2', '-t', str(round(2 * TURTLE_S)), '-w', '1'
+        ros2(*command, f'/{name}/cmd_vel', 'geometry_msgs/msg/Twist', twist)
+    tab = browser.new_page(viewport={'width': 900, 'height': 600})
+    tab.set_default_timeout(PATIENCE_MS)
+    tab.goto(address)
+    tab.locator('#turtles tr').nth(len(TURTLES) - 1).wait_for()
+    tab.wait_for_timeout(2000)
+    keep('turtlesim', tab.screenshot)
+    tab.close()
+
+
 @contextmanager
 def launched(package: str, file: str, count: int, *arguments: str) -> Iterator[dict[str, str]]:
     """
@@ -498,7 +553,34 @@ def launched(package: str, file: str, count: int, *arguments: str) -> Iterator[d
     Yields
     ------
     dict of str to str
-        The URLs, by `RViz is` and `The sliders are`.
+        The URLs, by the words before them, such as `RViz is`.
+
+    Raises
+    ------
+    SystemExit
+        It does not print so many addresses within `TIMEOUT_S`.
+
+    """
+    with started(count, 'ros2', 'launch', package, file, *arguments) as addresses:
+        yield addresses
+
+
+@contextmanager
+def started(count: int, *command: str) -> Iterator[dict[str, str]]:
+    """
+    Run a program for the time of a `with`.
+
+    Parameters
+    ----------
+    count
+        How many addresses it prints.
+    *command
+        The program and its arguments.
+
+    Yields
+    ------
+    dict of str to str
+        The URLs, by the words before them, such as `RViz is`.
 
     Raises
     ------
@@ -507,11 +589,7 @@ def launched(package: str, file: str, count: int, *arguments: str) -> Iterator[d
 
     """
     with tempfile.NamedTemporaryFile() as output:
-        process = subprocess.Popen(
-            ['ros2', 'launch', package, file, *arguments],
-            stdout=output,
-            stderr=subprocess.STDOUT,
-        )
+        process = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT)
         try:
             yield addresses_in(Path(output.name), count)
         finally:
@@ -521,7 +599,7 @@ def launched(package: str, file: str, count: int, *arguments: str) -> Iterator[d
 
 def addresses_in(output: Path, count: int) -> dict[str, str]:
     """
-    Wait until some addresses are in the output of a launch file.
+    Wait until some addresses are in the output of a program.
 
     Parameters
     ----------
@@ -533,7 +611,7 @@ def addresses_in(output: Path, count: int) -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        The URLs, by `RViz is` and `The sliders are`.
+        The URLs, by the words before them, such as `RViz is`.
 
     Raises
     ------
@@ -547,7 +625,7 @@ def addresses_in(output: Path, count: int) -> dict[str, str]:
         if len(found) == count:
             return found
         time.sleep(0.1)
-    raise SystemExit(f'The launch did not print {count} addresses:\n{output.read_text()}')
+    raise SystemExit(f'The program did not print {count} addresses:\n{output.read_text()}')
 
 
 def opened(browser: Any, address: str) -> Any:
