@@ -10,8 +10,9 @@ from typing import Any
 
 from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, PageSettings
+from turtlesim_py.turtle import Turtle
 from turtlesim_py.turtle_page import TurtlePage
-from turtlesim_py.world import Turtle, World
+from turtlesim_py.world import World
 
 __all__ = ['Stage', 'stage']
 

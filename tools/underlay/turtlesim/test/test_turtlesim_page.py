@@ -12,7 +12,8 @@ from urllib.request import urlopen
 from page_stage import Stage, stage
 import pytest
 from turtlesim_py.canvas import FIELD
-from turtlesim_py.world import CENTRE, Velocity
+from turtlesim_py.turtle import Velocity
+from turtlesim_py.world import CENTRE
 from websockets.sync.client import ClientConnection, connect
 
 MIDDLE = pytest.approx(CENTRE, abs=1e-3)

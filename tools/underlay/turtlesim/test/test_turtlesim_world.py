@@ -7,7 +7,8 @@ import math
 
 import pytest
 from turtlesim_py.canvas import FIELD, Pen
-from turtlesim_py.world import CENTRE, Turtle, TurtleError, Velocity, World
+from turtlesim_py.turtle import Turtle, Velocity
+from turtlesim_py.world import CENTRE, TurtleError, World
 
 RED = (255, 0, 0)
 

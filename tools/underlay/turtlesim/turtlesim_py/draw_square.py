@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import Twist
+import numpy as np
 from rclpy.node import Node
 from std_srvs.srv import Empty
 from turtlesim.msg import Pose
@@ -60,5 +61,5 @@ class DrawSquareNode(Node):
 
     def _report(self) -> None:
         if self._square is not None:
-            (x, y), heading = self._square.corner, self._square.heading
+            x, y, heading = np.array([*self._square.corner, self._square.heading], np.float32)
             self.get_logger().info(f'New goal [{x:f} {y:f}, {heading:f}]')

@@ -12,7 +12,7 @@ from rclpy.action.server import ServerGoalHandle
 from rclpy.task import Future
 from tf2_ros.executing import RESULT_MARGIN_S
 from turtlesim.action import RotateAbsolute
-from turtlesim_py.world import Turtle, wrapped
+from turtlesim_py.turtle import Turtle, wrapped
 
 if TYPE_CHECKING:
     from rclpy.node import Node

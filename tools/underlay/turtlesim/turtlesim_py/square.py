@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 
 from turtlesim_py.canvas import Point
-from turtlesim_py.world import CENTRE, Velocity, wrapped
+from turtlesim_py.turtle import Velocity, wrapped
+from turtlesim_py.world import CENTRE
 
 __all__ = ['Square']
 

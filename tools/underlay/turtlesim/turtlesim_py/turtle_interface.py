@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 import time
 from typing import Any, TYPE_CHECKING
 
@@ -13,7 +12,8 @@ from turtlesim.msg import Color, Pose
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 from turtlesim_py.canvas import Pen
 from turtlesim_py.rotation_server import RotationServer
-from turtlesim_py.world import Turtle, TurtleError, Velocity, World
+from turtlesim_py.turtle import Turtle, Velocity
+from turtlesim_py.world import TurtleError, World
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ['TurtleInterface']
 
 DEPTH = 10
+ERROR_PERIOD_S = 1.0
 
 
 class TurtleInterface:
@@ -99,8 +100,13 @@ class TurtleInterface:
 
     def _on_command(self, message: Twist) -> None:
         velocity = Velocity(message.linear.x, message.linear.y, message.angular.z)
-        with self._reported():
+        try:
             self._world.command(self.name, velocity, time.monotonic())
+        except TurtleError as error:
+            self._node.get_logger().error(
+                f'Ignored a command on {self._commands.topic_name}. {error}',
+                throttle_duration_sec=ERROR_PERIOD_S,
+            )
 
     def _set_pen(self, request: Any, response: Any) -> Any:
         colour = request.r, request.g, request.b
@@ -108,19 +114,21 @@ class TurtleInterface:
         return response
 
     def _teleport_absolute(self, request: Any, response: Any) -> Any:
-        with self._reported():
-            self._world.teleport(self._turtle, request.x, request.y, request.theta)
-        return response
+        return self._try(
+            lambda: self._world.teleport(self._turtle, request.x, request.y, request.theta),
+            response,
+        )
 
     def _teleport_relative(self, request: Any, response: Any) -> Any:
-        with self._reported():
-            self._world.teleport_by(self._turtle, request.linear, request.angular)
-        return response
+        return self._try(
+            lambda: self._world.teleport_by(self._turtle, request.linear, request.angular),
+            response,
+        )
 
-    @contextmanager
-    def _reported(self) -> Iterator[None]:
-        """Log why something is not possible."""
+    def _try(self, work: Callable[[], None], response: Any) -> Any:
+        """Do something, or log why it is not possible; return the response."""
         try:
-            yield
+            work()
         except TurtleError as error:
-            self._node.get_logger().error(str(error))
+            self._node.get_logger().error(f'Cannot teleport turtle [{self.name}]. {error}')
+        return response

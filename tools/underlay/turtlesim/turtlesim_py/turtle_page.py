@@ -13,7 +13,8 @@ from rviz_common.inputs import WorkQueue
 from rviz_common.page import PageSettings, PlainPage, Route
 from rviz_common.page.channel import Channel, Viewer
 from turtlesim_py.canvas import FIELD, Line, SIDE_PX
-from turtlesim_py.world import FIRST, Velocity, World
+from turtlesim_py.turtle import Velocity
+from turtlesim_py.world import FIRST, World
 
 __all__ = ['TurtlePage']
 

@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -16,9 +17,10 @@ from rviz_common.inputs import WorkQueue
 from rviz_common.page.address import declare_settings, PortError
 from std_srvs.srv import Empty
 from turtlesim.srv import Kill, Spawn
+from turtlesim_py.turtle import Turtle
 from turtlesim_py.turtle_interface import TurtleInterface
 from turtlesim_py.turtle_page import TurtlePage
-from turtlesim_py.world import Turtle, TurtleError, World
+from turtlesim_py.world import TurtleError, World
 
 __all__ = ['TurtlesimNode']
 
@@ -102,7 +104,8 @@ class TurtlesimNode(Node):
         """Let time pass, and tell everybody."""
         self._queue.run()
         self.world.advance(time.monotonic())
-        for x, y in self.world.take_hits():
+        for place in self.world.take_hits():
+            x, y = _in_single_precision(*place)
             self.get_logger().warning(
                 f'Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])',
                 throttle_duration_sec=WARNING_PERIOD_S,
@@ -117,7 +120,7 @@ class TurtlesimNode(Node):
 
     def _welcome(self, turtle: Turtle) -> None:
         """Offer the interface of a new turtle; that of a turtle that it replaces is kept."""
-        x, y, theta = np.array([turtle.x, turtle.y, turtle.theta], np.float32)
+        x, y, theta = _in_single_precision(turtle.x, turtle.y, turtle.theta)
         self.get_logger().info(
             f'Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]'
         )
@@ -173,3 +176,9 @@ class TurtlesimNode(Node):
         except TurtleError as error:
             self.get_logger().error(str(error))
         return response
+
+
+def _in_single_precision(*numbers: float) -> NDArray[np.float32]:
+    """Return numbers as messages have them, for the log."""
+    with np.errstate(over='ignore'):
+        return np.array(numbers, np.float32)

@@ -3,105 +3,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 import math
 
-from turtlesim_py.canvas import Canvas, Colour, FIELD, Pen, Point
+from turtlesim_py.canvas import Canvas, Colour, FIELD, Point
+from turtlesim_py.turtle import REST, Turtle, Velocity, wrapped
 
-__all__ = ['CENTRE', 'FIRST', 'Turtle', 'TurtleError', 'Velocity', 'World', 'wrapped']
+__all__ = ['CENTRE', 'FIRST', 'TurtleError', 'World']
 
 CENTRE = FIELD / 2.0
 FIRST = 'turtle1'
 COMMAND_S = 1.0
 """How long a turtle moves after a command."""
-ROTATION_RATE = 1.0
-"""The rate in rad/s at which a turtle turns to a heading."""
 STEP_S = 0.016
 
 
 class TurtleError(ValueError):
     """What was asked for is not possible, with the reason."""
-
-
-@dataclass(frozen=True)
-class Velocity:
-    """A velocity in the frame of a turtle, in units of length or rad per second."""
-
-    forward: float = 0.0
-    left: float = 0.0
-    turn: float = 0.0
-
-    @property
-    def linear(self) -> float:
-        """The forward velocity or, when it also moves sideways, the speed."""
-        return math.hypot(self.forward, self.left) if self.left else self.forward
-
-
-REST = Velocity()
-PEN = Pen()
-
-
-@dataclass
-class Turtle:
-    """
-    A turtle.
-
-    Attributes
-    ----------
-    name, number
-        Its name, and which one it is of all that have come since the last reset.
-    x, y, theta
-        Where it is, and its heading in rad, counterclockwise from the direction of x.
-    pen
-        What it draws with.
-    velocity
-        The velocity at which it moves.
-    until_s
-        When the command that it follows ends.
-    goal
-        The heading that it turns to; None if it does not.
-    under
-        The colour that it has come to, before it drew there itself.
-
-    """
-
-    name: str
-    number: int
-    x: float
-    y: float
-    theta: float
-    under: Colour
-    pen: Pen = PEN
-    velocity: Velocity = REST
-    until_s: float = -math.inf
-    goal: float | None = None
-
-    @property
-    def place(self) -> Point:
-        """Where it is."""
-        return self.x, self.y
-
-    @property
-    def remaining(self) -> float:
-        """The rotation in rad that is left to its goal."""
-        return 0.0 if self.goal is None else wrapped(self.goal - self.theta)
-
-    def turn_to(self, heading: float) -> None:
-        """
-        Turn to a heading, instead of what it does.
-
-        Parameters
-        ----------
-        heading
-            The heading in rad.
-
-        """
-        self.stop()
-        self.goal = heading
-
-    def stop(self) -> None:
-        """Stand still."""
-        self.velocity, self.until_s, self.goal = REST, -math.inf, None
 
 
 class World:
@@ -147,7 +65,7 @@ class World:
         """
         for turtle in self.turtles.values():
             if turtle.goal is not None:
-                self._rotate(turtle, now_s - self._now_s)
+                turtle.rotate(now_s - self._now_s)
             elif turtle.until_s > self._now_s:
                 self._drive(turtle, min(turtle.until_s, now_s) - self._now_s)
             else:
@@ -295,17 +213,6 @@ class World:
         hits, self._hits = list(self._hits.values()), {}
         return hits
 
-    def _rotate(self, turtle: Turtle, time_s: float) -> None:
-        """Turn a turtle towards its goal, exactly to it in the end."""
-        remaining = turtle.remaining
-        rate = math.copysign(ROTATION_RATE, remaining)
-        if abs(remaining) <= ROTATION_RATE * time_s:
-            turtle.theta = wrapped(turtle.theta + remaining)
-            turtle.stop()
-        else:
-            turtle.theta = wrapped(turtle.theta + rate * time_s)
-            turtle.velocity = Velocity(turn=rate)
-
     def _drive(self, turtle: Turtle, time_s: float) -> None:
         """Move a turtle at its velocity, in steps that are short enough for its curve."""
         velocity = turtle.velocity
@@ -334,19 +241,6 @@ class World:
 
     def _colour_under(self, turtle: Turtle) -> Colour:
         return self.canvas.colour_at(turtle.place, self.background)
-
-
-def wrapped(angle: float) -> float:
-    """
-    Return an angle that is the same direction, from -pi to pi.
-
-    Parameters
-    ----------
-    angle
-        The angle in rad.
-
-    """
-    return math.remainder(angle, math.tau)
 
 
 def _check_finite(*numbers: float) -> None:
