@@ -25,8 +25,8 @@ FENCE = re.compile(
 DOCS = Path(__file__).resolve().parents[2] / 'docs'
 PAGES = [*sorted(DOCS.glob('tutorial/*.md')), *sorted(DOCS.glob('how-to/*.md'))]
 LONG = (
-    *('apartment', 'bags', 'look_inside', 'navigate', 'objects', 'simulation'),
-    *('take_things', 'tell_the_robot'),
+    *('apartment', 'bags', 'first_ten_minutes', 'look_inside', 'navigate', 'objects'),
+    *('simulation', 'take_things', 'tell_the_robot'),
 )
 """Pages that take half a minute or more: `story_docs.py` does them."""
 
