@@ -16,7 +16,7 @@ SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup prepare build bringup demo run test check fix bench soak trials stories docs pictures lock clean distclean
+.PHONY: help setup prepare build bringup demo run test check fix bench soak trials stories docs site pictures lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -86,14 +86,17 @@ stories: build ## Run the stories that take too long for make test
 docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py
 
+site: ## Build the documentation as a site: open site/index.html
+	@$(SETUP) site
+
 pictures: build ## Take docs/pictures anew from running robots (needs Chromium; some: ARGS=apartment)
 	@$(SETUP) tests
 	@$(RUN) python3 tools/pictures/take.py $(ARGS)
 
-lock: ## Pin the versions of tools/setup/requirements.in anew (needs uv)
+lock: ## Pin the versions of tools/setup/requirements*.in anew (needs uv)
 	@tools/setup/lock.sh $(ARGS)
 
-clean: ## Delete what was built from src/
+clean: ## Delete what was built from src/, and the site
 	@$(SETUP) clean
 
 distclean: ## Delete the environment too

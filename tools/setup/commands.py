@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands of the set-up: setup, build, prepare, tests, clean, distclean."""
+"""The commands of the set-up: setup, build, prepare, tests, site, clean, distclean."""
 
 from __future__ import annotations
 
@@ -26,10 +26,11 @@ from underlay import Underlay
 import wheels
 
 ROOT = Path(__file__).resolve().parents[2]
-BUILT = ('build', 'install', 'log')
+BUILT = ('build', 'install', 'log', 'site')
 REQUIREMENTS = ROOT / 'requirements.txt'
 PART_REQUIREMENTS = ROOT / 'requirements-parts.txt'
 TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
+SITE_REQUIREMENTS = ROOT / 'requirements-site.txt'
 
 
 def main(argv: list[str]) -> int:
@@ -80,7 +81,7 @@ def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
 
     """
     parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
-    commands = ['setup', 'build', 'prepare', 'tests', 'clean', 'distclean']
+    commands = ['setup', 'build', 'prepare', 'tests', 'site', 'clean', 'distclean']
     parser.add_argument('command', nargs='?', default='setup', choices=commands)
     parser.add_argument('--venv', default=os.environ.get('VENV'), help='the environment to use')
     options, rest = parser.parse_known_args(argv)
@@ -96,7 +97,7 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
     Parameters
     ----------
     command
-        One of `setup`, `build`, `prepare`, `tests`, `clean` and `distclean`.
+        One of `setup`, `build`, `prepare`, `tests`, `site`, `clean` and `distclean`.
     locations
         The workspace and its environment.
     arguments : list[str]
@@ -116,6 +117,8 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
         return set_up(locations, quiet=True, everything=False) or build(locations, [])
     if command == 'tests':
         return set_up(locations, quiet=True) or set_up_tests(locations)
+    if command == 'site':
+        return build_site(locations)
     if command == 'distclean':
         refuse_what_belongs_to_others(locations)
         forget_environment(locations)
@@ -249,6 +252,52 @@ def set_up_tests(locations: Locations) -> int:
         stamp.write(current)
         steps.end()
     return 0
+
+
+def build_site(locations: Locations) -> int:
+    """
+    Build the documentation as a site, in an environment of its own, which needs no compiler.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment, which need not exist yet: that of the site is in it.
+
+    Returns
+    -------
+    int
+        The exit status of the build.
+
+    Raises
+    ------
+    SetupError
+        A wheel could not be installed, or another workspace owns the environment.
+
+    """
+    home = Home(locations)
+    home.require_same()
+    folder = locations.environment / 'site'
+    own = Locations(locations.root, folder, folder)
+    current = digest([SITE_REQUIREMENTS])
+    stamp = Stamp(folder / 'stamp')
+    if not stamp.matches(current):
+        steps = Steps(1)
+        steps.begin('Sphinx and its theme from PyPI, as requirements-site.txt pins them')
+        stamp.clear()
+        folder.mkdir(parents=True, exist_ok=True)
+        home.write()
+        link_environment(locations)
+        if not wheels.has_pip(own):
+            wheels.make_environment(own, sys.executable)
+        wheels.fetch_wheels(own, steps, SITE_REQUIREMENTS)
+        stamp.write(current)
+        steps.end()
+    print('Building the site: about a minute', flush=True)
+    return processes.run(
+        [own.python, ROOT / 'tools' / 'site' / 'build.py'],
+        cwd=locations.root,
+        variables=processes.without_inherited(),
+    )
 
 
 def wheels_digest(*requirements: Path) -> str:

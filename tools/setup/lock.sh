@@ -19,7 +19,7 @@ pins() { # of files in the folder, one a line
   (cd "$folder" && uv pip compile --quiet --universal --no-annotate --no-header --python-version 3.10 "$@") |
     sed -e "s/ and implementation_name == 'cpython'//; s/ and platform_machine == 'x86_64'//" \
       -e "s/ and sys_platform == 'linux'//; s/ and platform_python_implementation != 'PyPy'//" \
-      -e "s/ and python_full_version < '3.14'//; s/ ; python_full_version < '3.14'\$//"
+      -e "s/ and python_full_version < '3.14'//; s/ ; python_full_version < '3.14'\( \\\\\)\{0,1\}\$/\\1/"
 }
 
 parts() { # each with its line in requirements-parts.in, and what it takes beyond requirements.txt
@@ -46,3 +46,7 @@ pins requirements-test.in --constraint every "$@" > "$folder/all"
   echo '# Made by `make lock` from tools/setup/requirements-test.in: what tests need besides.'
   grep -vxFf "$folder/every" "$folder/all"
 } > requirements-test.txt
+{
+  echo '# Made by `make lock` from tools/setup/requirements-site.in, which says what each is for.'
+  pins requirements-site.in --generate-hashes "$@"
+} > requirements-site.txt

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheels of requirements.txt, and those of tests: installation, repair and patches."""
+"""The wheels that requirements files pin: installation, repair and patches."""
 
 from __future__ import annotations
 
@@ -104,16 +104,37 @@ def install_wheels(locations: Locations, steps: Steps, include: str, requirement
         A wheel lacks a file that was to be mended.
 
     """
+    fetch_wheels(locations, steps, requirements)
+    mend_wheels(locations.environment, include, site_packages(locations))
+    mend_fast_dds(locations.environment)
+
+
+def fetch_wheels(locations: Locations, steps: Steps, requirements: Path) -> None:
+    """
+    Install the wheels that a file pins, and repair incomplete ones.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    steps
+        Shows the progress.
+    requirements
+        The file that pins them.
+
+    Raises
+    ------
+    SetupError
+        pip failed.
+
+    """
     count = len(pinned_names(requirements.read_text(encoding='utf-8')))
     _pip(locations, steps, count, '--no-deps', '--requirement', str(requirements))
-    packages = site_packages(locations)
-    broken = sorted(incomplete_distributions(packages, locations.environment))
+    broken = sorted(incomplete_distributions(site_packages(locations), locations.environment))
     if broken:
         steps.note(f'repairing {len(broken)} wheels that an interruption left incomplete')
         arguments = ['--no-deps', '--ignore-installed', *broken]
         _pip(locations, steps, len(broken), *arguments)
-    mend_wheels(locations.environment, include, packages)
-    mend_fast_dds(locations.environment)
 
 
 def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> None:

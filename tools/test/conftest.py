@@ -11,7 +11,7 @@ from domain_coordinator import domain_id
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / 'tools' / name) for name in ('setup', 'test', 'reference')]
+sys.path[:0] = [str(ROOT / 'tools' / name) for name in ('setup', 'test', 'reference', 'site')]
 
 from programs import Program  # noqa: E402
 

@@ -20,7 +20,7 @@ FOLDERS = sorted(
         ),
         *(
             ROOT / 'tools' / name
-            for name in ('benchmarks', 'pictures', 'reference', 'setup', 'training')
+            for name in ('benchmarks', 'pictures', 'reference', 'setup', 'site', 'training')
         ),
     )
 )

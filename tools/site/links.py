@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the site shows a file of the workspace, and links of pages rewritten for that."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import posixpath
+import re
+
+__all__ = ['linked_files', 'rewrite_page', 'site_path']
+
+_PLACES = {
+    'README.md': 'index.md',
+    'docs/README.md': 'all_pages.md',
+    'CHANGELOG.md': 'changelog.md',
+    'CONTRIBUTING.md': 'contributing.md',
+}
+_PACKAGE = re.compile(r'(?:src|tools/underlay)/(\w+)/README\.md')
+_CODE = re.compile(
+    r'^(?P<fence>`{3,}).*?^(?P=fence)$|(?P<ticks>`+)[^`]+(?P=ticks)(?!`)',
+    flags=re.MULTILINE | re.DOTALL,
+)
+_LINK = re.compile(
+    r'(?:(?P<start>!?\[)(?P<label>[^\[\]]*))?\]'
+    r'\((?P<target>[^()\s#:]+)(?P<anchor>#[^()\s]*)?\)'
+)
+_WRITTEN_FILE = re.compile(r'^```(\w+) file=(\S+)$', flags=re.MULTILINE)
+
+
+def site_path(path: str) -> str:
+    """
+    Return where the site keeps a file of the workspace.
+
+    Parameters
+    ----------
+    path
+        The file, relative to the workspace, as in `docs/how-to/bags.md`.
+
+    Returns
+    -------
+    str
+        The page or picture, relative to the site's sources. Pages of `docs` keep their place, and
+        the README of a package is in `packages`. Any other file gets a page with its text.
+
+    """
+    if path in _PLACES:
+        return _PLACES[path]
+    if package := _PACKAGE.fullmatch(path):
+        return f'packages/{package[1]}.md'
+    if path.startswith('docs/'):
+        return path.removeprefix('docs/')
+    return f'source/{path}.md'
+
+
+def linked_files(text: str, page: str) -> Iterator[str]:
+    """
+    Find the files and folders of the workspace that a page links to.
+
+    Parameters
+    ----------
+    text
+        The page in Markdown.
+    page
+        Where it is, relative to the workspace.
+
+    Yields
+    ------
+    str
+        Each path, relative to the workspace; one that starts with `..` leaves it.
+
+    """
+    for prose, _ in _split(text):
+        for match in _LINK.finditer(prose):
+            yield _resolve(match['target'], page)
+
+
+def rewrite_page(text: str, page: str, file_of: Callable[[str], str]) -> str:
+    """
+    Rewrite a page for the site: its links, and the blocks that the reader writes to a file.
+
+    Line numbers stay, so that warnings about the result are true of the page. A link whose text is
+    the file name of another page gets the title of that page instead.
+
+    Parameters
+    ----------
+    text
+        The page in Markdown.
+    page
+        Where it is, relative to the workspace.
+    file_of
+        Returns the file that stands for a linked path, such as the README of a folder. Both are
+        relative to the workspace.
+
+    Returns
+    -------
+    str
+        The page for the site.
+
+    """
+    folder = posixpath.dirname(site_path(page)) or '.'
+
+    def link(match: re.Match[str]) -> str:
+        target = file_of(_resolve(match['target'], page))
+        place = posixpath.relpath(site_path(target), folder) + (match['anchor'] or '')
+        start, label = match['start'] or '', match['label'] or ''
+        if start == '[' and label.endswith('.md') and target.endswith(label):
+            return f'*[]({place})*'
+        if start == '[' and label == posixpath.basename(target).removesuffix('.md'):
+            return f'[]({place})'
+        return f'{start}{label}]({place})'
+
+    text = ''.join(_LINK.sub(link, prose) + code for prose, code in _split(text))
+    return _WRITTEN_FILE.sub(r'```{written-file} \1 \2', text)
+
+
+def _split(text: str) -> list[tuple[str, str]]:
+    """Split a page into pairs of prose and the code that follows it."""
+    pairs = []
+    end = 0
+    for code in _CODE.finditer(text):
+        pairs.append((text[end : code.start()], code.group()))
+        end = code.end()
+    return [*pairs, (text[end:], '')]
+
+
+def _resolve(target: str, page: str) -> str:
+    """Return the path of a link's target, relative to the workspace."""
+    return posixpath.normpath(posixpath.join(posixpath.dirname(page), target))
