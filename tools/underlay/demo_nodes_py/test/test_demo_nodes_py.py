@@ -7,8 +7,10 @@ from importlib import import_module
 from pathlib import Path
 import re
 import signal
+from unittest.mock import call, Mock
 
 from demo_nodes_py.parameters.set_parameters_callback import SetParametersCallback
+from demo_nodes_py.services import waiting
 from demo_nodes_py.services.add_two_ints_server import AddTwoIntsServer
 from demo_nodes_py.topics.qos_program import parse_options
 from example_interfaces.srv import AddTwoInts
@@ -16,6 +18,7 @@ from publisher_probe import Probe, Program, Programs, TIMEOUT_S
 import pytest
 from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_sensor_data, ReliabilityPolicy
+from rclpy.task import Future
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
 
@@ -146,6 +149,23 @@ def test_service_and_clients(probe: Probe, programs: Programs) -> None:
     assert logged(client)[-1] == '[add_two_ints_client]: Result of add_two_ints: 5'
     says(probe, server, '[add_two_ints_server]: Incoming request\na: 2 b: 3\n')
     ends(server, signal.SIGTERM)
+
+
+def test_lost_response(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A request is repeated until there is a response."""
+
+    async def no_time(*_: object) -> None:
+        pass
+
+    answered: Future[str] = Future()
+    answered.set_result('5')
+    client = Mock()
+    client.call_async.side_effect = [Future(), answered]
+    monkeypatch.setattr(waiting, 'sleep', no_time)
+    with pytest.raises(StopIteration) as end:
+        waiting.response_of(Mock(), client, 'add').send(None)
+    assert end.value.value == '5'
+    assert client.call_async.call_args_list == [call('add'), call('add')]
 
 
 def test_sum_that_is_too_large(probe: Probe) -> None:

@@ -16,6 +16,7 @@ __all__ = ['DrawSquareNode']
 
 DEPTH = 1
 PERIOD_S = 0.5
+REPEAT_PERIOD_S = 2.0
 WAITING_PERIOD_S = 5.0
 
 
@@ -32,9 +33,10 @@ class DrawSquareNode(Node):
         self._ask()
 
     def _ask(self) -> None:
-        """Ask for a reset as soon as somebody offers it."""
+        """Ask for a reset as soon as somebody offers it, repeatedly if the response is lost."""
         if self._reset.service_is_ready():
-            self._timer.cancel()
+            self._timer.timer_period_ns = int(REPEAT_PERIOD_S * 1e9)
+            self._timer.reset()
             self._reset.call_async(Empty.Request()).add_done_callback(self._begin)
         else:
             self.get_logger().info(
@@ -43,6 +45,7 @@ class DrawSquareNode(Node):
             )
 
     def _begin(self, _: Any) -> None:
+        self._timer.cancel()
         self._square = Square()
         self._report()
 

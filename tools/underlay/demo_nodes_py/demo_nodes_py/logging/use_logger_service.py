@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
-from demo_nodes_py.services.waiting import wait_for_service
+from demo_nodes_py.services.waiting import response_of, wait_for_service
 from rcl_interfaces.msg import LoggerLevel
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 from rclpy.logging import LoggingSeverity
@@ -81,7 +81,7 @@ class TestNode(Node):
         """Ask for the level; 0 if none has been set."""
         await wait_for_service(self, self._getter.service_is_ready)
         request = GetLoggerLevels.Request(names=[self._remote_node_name])
-        response = await self._getter.call_async(request)
+        response = await response_of(self, self._getter, request)
         return int(response.levels[0].level)
 
     async def set_logger_level_on_remote_node(self, logger_level: LoggingSeverity) -> bool:
@@ -101,7 +101,8 @@ class TestNode(Node):
         """
         await wait_for_service(self, self._setter.service_is_ready)
         level = LoggerLevel(name=self._remote_node_name, level=int(logger_level))
-        response = await self._setter.call_async(SetLoggerLevels.Request(levels=[level]))
+        request = SetLoggerLevels.Request(levels=[level])
+        response = await response_of(self, self._setter, request)
         result = response.results[0]
         if not result.successful:
             self.get_logger().error(f'The logger level was not set: {result.reason}')

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
-from demo_nodes_py.services.waiting import wait_for_service
+from demo_nodes_py.services.waiting import response_of, wait_for_service
 from example_interfaces.srv import AddTwoInts
 from rclpy.node import Node
 from tf2_ros.program import run_node
@@ -33,7 +33,7 @@ class AddTwoIntsClient(Node):
     async def add(self) -> None:
         """Call the service once it is available, and log the sum."""
         await wait_for_service(self, self._client.service_is_ready)
-        response = await self._client.call_async(AddTwoInts.Request(a=2, b=3))
+        response = await response_of(self, self._client, AddTwoInts.Request(a=2, b=3))
         self.get_logger().info(f'Result of add_two_ints: {response.sum}')
 
 

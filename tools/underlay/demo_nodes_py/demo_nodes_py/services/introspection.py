@@ -33,6 +33,7 @@ STATES = {
     'contents': ServiceIntrospectionState.CONTENTS,
 }
 _PERIOD_S = 0.5
+_PERIODS_UNTIL_REPEAT = 4
 
 
 def check_parameter(parameter_list: list[Parameter], parameter_name: str) -> SetParametersResult:
@@ -121,11 +122,17 @@ class IntrospectionClientNode(Node):
         self._client = self.create_client(AddTwoInts, 'add_two_ints')
         configure_introspection(self, 'client_configure_introspection', self._client)
         self._answer: Future[AddTwoInts.Response] | None = None
+        self._periods_waited = 0
         self.create_timer(_PERIOD_S, self.timer_callback)
 
     def timer_callback(self) -> None:
-        """Call the service, unless it is not available or has not answered yet."""
-        if self._client.service_is_ready() and (self._answer is None or self._answer.done()):
+        """Call the service if it is available; wait for a response for two seconds at most."""
+        self._periods_waited += 1
+        is_waiting = self._answer is not None and not self._answer.done()
+        if is_waiting and self._periods_waited < _PERIODS_UNTIL_REPEAT:
+            return
+        if self._client.service_is_ready():
+            self._periods_waited = 0
             self._answer = self._client.call_async(AddTwoInts.Request(a=2, b=3))
             self._answer.add_done_callback(self._log)
 
