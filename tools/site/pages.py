@@ -32,6 +32,15 @@ _ADDED = {
     'Reference': [f'/{site_path(_PYTHON)}', f'/{site_path(_PACKAGES)}'],
 }
 """Entries of the navigation besides the pages that docs/README.md lists, by their group."""
+_ABOUT_MODULES = """\
+The public modules of the robot's packages. Those of the underlay have the interfaces of ROS 2
+Jazzy: [the names of launch files](../reference/launch_names.md) and
+[the packages for transforms](../reference/transforms.md) say what exists here.
+"""
+_ABOUT_PACKAGES = """\
+What each package contains: nodes, topics, parameters, commands. First come the packages of the
+robot (`src`), then those of the ROS 2 installation that comes with it (`tools/underlay`).
+"""
 _PROJECT = Group('Project', ('CONTRIBUTING.md', 'CHANGELOG.md'))
 
 
@@ -99,8 +108,8 @@ def _pages(root: Path) -> dict[str, str]:
     return {
         **pages,
         **described,
-        _PYTHON: _index('Python modules', 'What programs can import.', described),
-        _PACKAGES: _index('Packages', 'What each package contains.', names[-len(readmes) :]),
+        _PYTHON: _index('Python modules', _ABOUT_MODULES, described),
+        _PACKAGES: _index('Packages', _ABOUT_PACKAGES, names[-len(readmes) :]),
     }
 
 
