@@ -16,7 +16,7 @@ from python_reference import python_page
 
 __all__ = ['write_pages']
 
-_PICTURES = ('.png', '.webp')
+_PICTURES = ('.gif', '.jpg', '.png', '.svg', '.webp')
 _LANGUAGES = {
     '.html': 'html',
     '.py': 'python',
@@ -138,15 +138,14 @@ def _tree(entries: Iterable[str], *options: str) -> str:
 
 def _find(root: Path, page: str, path: str) -> str:
     """Return the file that a path names in a link of a page: of a folder, its README."""
-    place = root / path
-    if place.is_dir() and (place / 'README.md').is_file():
-        return posixpath.join(path, 'README.md')
-    if path.startswith('..') or not place.is_file():
-        raise SiteError(
-            f'{page} links to {path}, which is no file of the workspace and no folder with a '
-            'README.md: correct the link'
-        )
-    return path
+    readme = posixpath.normpath(posixpath.join(path, 'README.md'))
+    for each in (path, readme):
+        if not each.startswith('..') and (root / each).is_file():
+            return each
+    raise SiteError(
+        f'{page} links to {path}, which is no file of the workspace and no folder with a '
+        'README.md: correct the link'
+    )
 
 
 def _listing(path: str, text: str) -> str:
