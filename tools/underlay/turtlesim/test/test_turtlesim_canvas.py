@@ -77,7 +77,7 @@ def test_changes(canvas: Canvas) -> None:
     canvas.draw(1, Pen(RED, 6), (3.0, 1.0), (4.0, 1.0))
     was_cleared, lines = canvas.take_changes()
     assert not was_cleared
-    assert [(line.width_px, len(line.points)) for line in lines] == [
+    assert [(line.pen.width_px, len(line.points)) for line in lines] == [
         (10, 3),
         (10, 2),
         (12, 2),

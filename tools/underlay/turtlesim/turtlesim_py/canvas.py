@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from io import BytesIO
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ __all__ = ['FIELD', 'SIDE_PX', 'Canvas', 'Colour', 'Line', 'Pen', 'Point']
 Colour = tuple[int, int, int]
 """Red, green and blue, each from 0 to 255."""
 Point = tuple[float, float]
+Floats = NDArray[np.floating[Any]]
 
 FIELD = 499.0 / 45.0
 """The side of the square field: the window of turtlesim has 500 pixels, 45 to a unit of length."""
@@ -45,8 +47,7 @@ class Pen:
 class Line:
     """A line of one pen through some points, in pixels of the image."""
 
-    colour: Colour
-    width_px: int
+    pen: Pen
     points: list[Point]
 
 
@@ -92,10 +93,8 @@ class Canvas:
         self.is_blank = False
         first, last = _in_pixels(start), _in_pixels(end)
         line = self._newest.get(who)
-        if line is None or line.points[-1] != first or line.colour != pen.colour or (
-            line.width_px != pen.width_px
-        ):  # fmt: skip
-            line = self._newest[who] = Line(pen.colour, pen.width_px, [first])
+        if line is None or line.pen != pen or line.points[-1] != first:
+            line = self._newest[who] = Line(pen, [first])
             self._new.append(line)
         line.points.append(last)
         pieces = max(1, math.ceil(math.dist(first, last) / PIECE_PX))
@@ -148,15 +147,14 @@ class Canvas:
         rows = slice(max(int(top - margin), 0), max(math.ceil(bottom + margin), 0))
         part = self._image[rows, columns]
         height, width = part.shape[:2]
-        x = np.arange(columns.start, columns.start + width) + 0.5 - start[0]
-        y = (np.arange(rows.start, rows.start + height) + 0.5 - start[1])[:, None]
-        cover = np.clip(radius + 0.5 - _distance(x, y, end[0] - start[0], end[1] - start[1]), 0, 1)
-        below = part[..., 3] / 255.0 * (1.0 - cover)
-        opacity = cover + below
-        share = (cover / np.maximum(opacity, 1e-9))[..., None]
-        colours = np.array(pen.colour) * share + part[..., :3] * (1.0 - share)
-        part[..., :3] = np.where(opacity[..., None] > 0.0, np.rint(colours), part[..., :3])
-        part[..., 3] = np.rint(opacity * 255.0)
+        x = np.arange(columns.start, columns.start + width, dtype=np.float32) + 0.5 - start[0]
+        y = np.arange(rows.start, rows.start + height, dtype=np.float32) + 0.5 - start[1]
+        distance_2 = _squared_distance(x, y[:, None], end[0] - start[0], end[1] - start[1])
+        is_inside = distance_2 <= (radius - 0.5) ** 2
+        is_edge = (distance_2 < (radius + 0.5) ** 2) & ~is_inside
+        part[is_inside] = (*pen.colour, 255)
+        cover = radius + 0.5 - np.sqrt(distance_2[is_edge])
+        part[is_edge] = _blended(pen.colour, cover, part[is_edge])
 
 
 def _in_pixels(place: Point) -> Point:
@@ -164,11 +162,18 @@ def _in_pixels(place: Point) -> Point:
     return place[0] * PX_PER_UNIT, (FIELD - place[1]) * PX_PER_UNIT
 
 
-def _distance(
-    x: NDArray[np.float64], y: NDArray[np.float64], to_x: float, to_y: float
-) -> NDArray[np.float64]:
-    """Return the distance of points from the line between the origin and another point."""
+def _squared_distance(x: Floats, y: Floats, to_x: float, to_y: float) -> Floats:
+    """Return how far points are from the line between the origin and another point, squared."""
     length_2 = to_x**2 + to_y**2
-    way = np.clip((x * to_x + y * to_y) / length_2, 0.0, 1.0) if length_2 else 0.0
-    distance: NDArray[np.float64] = np.hypot(x - way * to_x, y - way * to_y)
-    return distance
+    way = np.clip((x * to_x + y * to_y) / length_2, 0.0, 1.0) if length_2 else np.float32(0.0)
+    distance_2: Floats = (x - way * to_x) ** 2 + (y - way * to_y) ** 2
+    return distance_2
+
+
+def _blended(colour: Colour, cover: Floats, below: NDArray[np.uint8]) -> Floats:
+    """Return pixels (number, 4) that a colour covers in part."""
+    opacity = cover + below[:, 3] / 255.0 * (1.0 - cover)
+    share = (cover / opacity)[:, None]
+    colours = np.array(colour) * share + below[:, :3] * (1.0 - share)
+    pixels: Floats = np.rint(np.column_stack([colours, opacity * 255.0]))
+    return pixels

@@ -113,7 +113,7 @@ def _routes(channel: Channel) -> dict[str, Route]:
 def _described(line: Line) -> list[Any]:
     """Return a line for the browser: colour, width, and the coordinates of its points."""
     numbers = [round(number, 1) for point in line.points for number in point]
-    return [line.colour, line.width_px, numbers]
+    return [line.pen.colour, line.pen.width_px, numbers]
 
 
 def _share(value: Any) -> float:
