@@ -19,6 +19,7 @@ import pytest
 from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_sensor_data, ReliabilityPolicy
 from rclpy.task import Future
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
 
@@ -83,9 +84,10 @@ def logged(program: Program) -> list[str]:
 
 
 def ends(program: Program, number: signal.Signals) -> None:
-    """Stop a program, which ends in order and silently."""
+    """Stop a program, which ends in order; nothing has gone wrong in it."""
     assert program.end(number) == 0
-    assert all(line.startswith(('[INFO]', 'a:')) for line in program.output.splitlines())
+    # rmw_fastrtps itself warns in other words if a client is not discovered in time.
+    assert not re.search(r'Traceback|\[(WARN|ERROR|FATAL)\]', program.output), program.output
 
 
 def test_executables() -> None:
@@ -113,9 +115,14 @@ def test_talker_and_listeners(probe: Probe, programs: Programs) -> None:
 def test_quality_of_service(probe: Probe, programs: Programs) -> None:
     """Both programs end after the number of messages, and are as reliable as they are told."""
     talker = programs.start('demo_nodes_py.topics.talker_qos', '--reliable', '-n', '1')
-    probe.until(lambda: probe.node.get_publishers_info_by_topic('/chatter'), 'no talker')
-    (found,) = probe.node.get_publishers_info_by_topic('/chatter')
-    assert found.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+    found: list[TopicEndpointInfo] = []
+
+    def is_found() -> bool:
+        found.extend(probe.node.get_publishers_info_by_topic('/chatter'))
+        return bool(found)
+
+    probe.until(is_found, 'no talker')
+    assert found[0].qos_profile.reliability == ReliabilityPolicy.RELIABLE
     published = '[talker_qos]: Publishing: "Hello World: 0"'
     assert logged(talker) == ['[talker_qos]: Reliable talker', published]
     listener = programs.start('demo_nodes_py.topics.listener_qos', '-n', '1')

@@ -35,7 +35,7 @@ class ListenerQos(Listener):
 
     def chatter_callback(self, msg: String) -> None:
         """
-        Log a message, and count it.
+        Log a message, and count it, unless it comes after the last one.
 
         Parameters
         ----------
@@ -43,8 +43,9 @@ class ListenerQos(Listener):
             The message.
 
         """
-        super().chatter_callback(msg)
-        self.countdown.count()
+        if not self.countdown.is_over:
+            super().chatter_callback(msg)
+            self.countdown.count()
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -29,6 +29,11 @@ class Countdown:
         self._left = count
         self._end: Future[None] = Future()
 
+    @property
+    def is_over(self) -> bool:
+        """Whether the last message has been counted."""
+        return self._left == 0
+
     def count(self) -> None:
         """Count a message."""
         if self._left is not None:
