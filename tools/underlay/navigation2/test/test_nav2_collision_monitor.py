@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 from geometry_msgs.msg import (
     Point32,
@@ -316,16 +317,35 @@ class Bench:
     def drive(self, x, yaw=0.0, y=0.0):
         """Send one command; return the velocity that comes out of it."""
         count = len(self.velocities)
-        message = Twist()
-        message.linear.x, message.linear.y, message.angular.z = x, y, yaw
-        self.commands.publish(message)
+        self.command(x, yaw, y)
         self.ros.wait_until(lambda: len(self.velocities) > count, what='a velocity')
         out = self.velocities[-1]
         return out.linear.x, out.angular.z
 
+    def command(self, x, yaw=0.0, y=0.0):
+        """Send one command."""
+        message = Twist()
+        message.linear.x, message.linear.y, message.angular.z = x, y, yaw
+        self.commands.publish(message)
+
     def settles(self, x, expected, yaw=0.0, what='the velocity'):
-        """Send commands until the velocity along x is as expected."""
-        self.ros.wait_until(lambda: self.drive(x, yaw)[0] == pytest.approx(expected), 10.0, what)
+        """
+        Send commands until the velocity along x is as expected.
+
+        While the robot is stopped for long (`stop_pub_timeout`), none comes out of a command.
+        """
+
+        def is_settled():
+            count = len(self.velocities)
+            self.command(x, yaw)
+            end_s = time.monotonic() + 0.2
+            while len(self.velocities) == count and time.monotonic() < end_s:
+                self.ros.executor.spin_once(timeout_sec=0.01)
+            return self.velocities[count:] and self.velocities[-1].linear.x == pytest.approx(
+                expected
+            )
+
+        self.ros.wait_until(is_settled, 10.0, what)
 
 
 def _now():
