@@ -203,6 +203,8 @@ def test_turtles_come_and_go(zoo: Zoo) -> None:
     zoo.says('A turtle named [turtle1] already exists')
     assert zoo.call(Spawn, '/spawn', name='two words').name == ''
     zoo.says('[two words] cannot be the name of a turtle')
+    assert zoo.call(Spawn, '/spawn', name='t' * 250).name == ''
+    zoo.says('at most 100 characters')
     zoo.call(Kill, '/kill', name='turtle2')
     zoo.probe.until(lambda: not zoo.probe.node.count_publishers('/turtle2/pose'), 'it lives')
     zoo.call(Kill, '/kill', name='turtle2')

@@ -29,6 +29,8 @@ TICKS_OF_FRAME = 2
 """The browser gets every second pose: 31 a second."""
 WARNING_PERIOD_S = 0.5
 NAME = re.compile(r'[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*')
+LONGEST_NAME = 100
+"""With the namespace; topics, whose names are longer than that of their turtle, may have 247."""
 CHANNELS = {'red': 'background_r', 'green': 'background_g', 'blue': 'background_b'}
 
 
@@ -165,17 +167,27 @@ class TurtlesimNode(Node):
 
     def _spawn(self, request: Any, response: Any) -> Any:
         try:
-            if request.name and not NAME.fullmatch(request.name):
-                raise TurtleError(
-                    f'[{request.name}] cannot be the name of a turtle, as it is part of the names '
-                    'of topics: use letters, digits and underscores'
-                )
+            if request.name:
+                self._check_name(request.name)
             turtle = self.world.spawn(request.x, request.y, request.theta, request.name)
             self._welcome(turtle)
             response.name = turtle.name
         except TurtleError as error:
             self.get_logger().error(str(error))
         return response
+
+    def _check_name(self, name: str) -> None:
+        """Raise TurtleError if there can be no topics with the name of a turtle."""
+        if not NAME.fullmatch(name):
+            raise TurtleError(
+                f'[{name}] cannot be the name of a turtle, as it is part of the names of topics: '
+                'use letters, digits and underscores'
+            )
+        if len(self.get_namespace()) + len(name) > LONGEST_NAME:
+            raise TurtleError(
+                f'[{name}] cannot be the name of a turtle: with the namespace, it may have at '
+                f'most {LONGEST_NAME} characters'
+            )
 
 
 def _in_single_precision(*numbers: float) -> NDArray[np.float32]:
