@@ -41,6 +41,7 @@ class RotationServer:
         self._name = name
         self._turtle = turtle
         self._start = turtle.theta
+        self._is_closed = False
         self._current: ServerGoalHandle | None = None
         self._ends: dict[bytes, Future] = {}
         self._server = ActionServer(
@@ -93,11 +94,18 @@ class RotationServer:
             self._turtle.stop()
             self._end(ServerGoalHandle.abort)
 
+    def close(self) -> None:
+        """Abort the goal, and reject others; the results are still sent."""
+        self._is_closed = True
+        self.abort()
+
     def destroy(self) -> None:
         """Destroy the action server; clients receive no results that were not sent yet."""
         self._server.destroy()
 
     def _consider(self, goal: Any) -> GoalResponse:
+        if self._is_closed:
+            return GoalResponse.REJECT
         if math.isfinite(goal.theta):
             return GoalResponse.ACCEPT
         self._node.get_logger().error(

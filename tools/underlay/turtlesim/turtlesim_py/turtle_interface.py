@@ -91,7 +91,7 @@ class TurtleInterface:
 
     def close(self) -> None:
         """Stop listening and offering; the action is left until `rotation` is no longer busy."""
-        self.rotation.abort()
+        self.rotation.close()
         self._node.destroy_subscription(self._commands)
         for publisher in (self._poses, self._colours):
             self._node.destroy_publisher(publisher)
