@@ -114,7 +114,7 @@ def test_talker_and_listeners(probe: Probe, programs: Programs) -> None:
 
 def test_quality_of_service(probe: Probe, programs: Programs) -> None:
     """Both programs end after the number of messages, and are as reliable as they are told."""
-    talker = programs.start('demo_nodes_py.topics.talker_qos', '--reliable', '-n', '1')
+    talker = programs.start('demo_nodes_py.topics.talker_qos', '--reliable', '-n', '1000')
     found: list[TopicEndpointInfo] = []
 
     def is_found() -> bool:
@@ -123,7 +123,9 @@ def test_quality_of_service(probe: Probe, programs: Programs) -> None:
 
     probe.until(is_found, 'no talker')
     assert found[0].qos_profile.reliability == ReliabilityPolicy.RELIABLE
+    ends(talker, signal.SIGINT)
     published = '[talker_qos]: Publishing: "Hello World: 0"'
+    talker = programs.start('demo_nodes_py.topics.talker_qos', '--reliable', '-n', '1')
     assert logged(talker) == ['[talker_qos]: Reliable talker', published]
     listener = programs.start('demo_nodes_py.topics.listener_qos', '-n', '1')
     sender = probe.sender(String, '/chatter', qos_profile_sensor_data)
