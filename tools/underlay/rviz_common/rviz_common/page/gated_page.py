@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ['POLICY', 'GatedPage', 'text_response']
 
 POLICY = "frame-ancestors 'self'"
-"""What a page may load and do: only from this origin, and not framed by other pages."""
+"""Pages of other origins may not show this one in a frame."""
 
 
 class GatedPage(ABC):
