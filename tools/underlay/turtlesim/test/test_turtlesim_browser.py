@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+import socket
 from typing import Any
-from urllib.parse import urlsplit
 
 from browser import chromium
 from page_stage import Stage, stage
@@ -119,8 +119,9 @@ def test_keys(open_tab: Callable[[str], Any]) -> None:
 
 def test_the_page_comes_back(open_tab: Callable[[str], Any]) -> None:
     """After a new start at the same address it goes on; at another, it says so."""
-    with stage(TOKEN) as zoo:
-        port = urlsplit(zoo.url).port
+    with socket.create_server(('127.0.0.1', 0)) as free:
+        port = free.getsockname()[1]
+    with stage(TOKEN, port) as zoo:
         tab = open_tab(zoo.url)
         zoo.until(lambda: tab.locator('#turtles tr').count() == 1, 'no turtle')
     tab.locator('#lost', has_text='Connecting again').wait_for()
