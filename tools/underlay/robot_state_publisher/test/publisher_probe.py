@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+import math
 from pathlib import Path
 import signal
 import subprocess
@@ -20,6 +21,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 
 TIMEOUT_S = 100.0
+REPEAT_S = 2.0
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -115,11 +117,26 @@ class Probe:
         """Set parameters of a node; return the results."""
         client = AsyncParameterClient(self.node, node)
         self.until(client.services_are_ready, f'{node} has no parameters')
-        future = client.set_parameters(
-            [Parameter(name, value=value) for name, value in values.items()]
+        parameters = [Parameter(name, value=value) for name, value in values.items()]
+        answer = self.answer_to(
+            lambda: client.set_parameters(parameters), f'{node} did not answer'
         )
-        self.until(future.done, f'{node} did not answer')
-        return list(future.result().results)
+        return list(answer.results)
+
+    def answer_to(self, ask: Callable[[], Any], message: str) -> Any:
+        """Ask, again after two seconds without an answer; return the answer, or fail."""
+        futures: list[Any] = []
+        asked_s = -math.inf
+
+        def is_answered() -> bool:
+            nonlocal asked_s
+            if time.monotonic() - asked_s > REPEAT_S:
+                futures.append(ask())
+                asked_s = time.monotonic()
+            return any(future.done() for future in futures)
+
+        self.until(is_answered, message)
+        return next(future.result() for future in futures if future.done())
 
     def until(self, is_so: Callable[[], Any], message: str) -> None:
         """Work until something is so, or fail with the message."""
