@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import os
 from pathlib import Path
 import re
+import signal
 import subprocess
 from typing import Any
 
@@ -83,17 +84,21 @@ class Reader:
 
     def _run(self, script: str) -> None:
         keep = f'{{ declare -px; echo "cd \\"$PWD\\""; }} > "{self._state}"'
-        done = subprocess.run(
+        with subprocess.Popen(
             ['bash', '-c', f'set -e; source "{self._state}"; {script}\n{keep}'],
             env=self._variables,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             encoding='utf-8',
-            timeout=170,
-            check=False,
-        )
-        self._printed = done.stdout
-        assert done.returncode == 0, f'{script}\n{done.stdout}'
+            start_new_session=True,
+        ) as process:
+            try:
+                self._printed, _ = process.communicate(timeout=170)
+            except BaseException:
+                # A command that is left would disturb the tests that get its DDS domain next.
+                os.killpg(process.pid, signal.SIGKILL)
+                raise
+        assert process.returncode == 0, f'{script}\n{self._printed}'
 
     def _expect(self, text: str) -> None:
         for line in text.splitlines():

@@ -112,15 +112,15 @@ def test_command_is_more_precise_than_argument() -> None:
         ('ros2 topic pu', ['pub ']),
         ('ros2 topic echo --qos-rel', ['--qos-reliability ']),
         ('ros2 topic echo --qos-durability tr', ['transient_local ']),
-        ('ros2 run demo_', ['demo_pkg ']),
+        ('ros2 run demo_p', ['demo_pkg ']),
         ('ros2 run demo_pkg ', ['talk ']),
-        ('ros2 launch demo_', ['demo_pkg ']),
+        ('ros2 launch demo_p', ['demo_pkg ']),
         ('ros2 launch demo_pkg d', ['demo.launch.py ']),
         ('ros2 launch demo_pkg demo.launch.py ', ['rate_hz:=', 'robot:=', 'use_rviz:=']),
         ('ros2 launch demo_pkg demo.launch.py robot:=nao r', ['rate_hz:=']),
         ('ros2 launch demo_pkg demo.launch.py robot:=w', ['wolfgang ']),
         ('ros2 launch demo_pkg demo.launch.py use_rviz:=', ['true', 'false']),
-        ('ros2 pkg prefix demo_', ['demo_pkg ']),
+        ('ros2 pkg prefix demo_p', ['demo_pkg ']),
         ('ros2 topic find sensor_msgs/msg/JointS', ['sensor_msgs/msg/JointState ']),
         ('ros2 topic find sensor_m', None),
         ('ros2 pkg create --license Ap', ['Apache-2.0 ']),
@@ -152,7 +152,7 @@ def test_file_instead_of_package(complete: Complete, prefix: Path) -> None:
 
 def test_cursor_inside_the_line(complete: Complete) -> None:
     """Only what is before the cursor counts."""
-    assert complete('ros2 launch demo_ -n', len('ros2 launch demo_')) == ['demo_pkg ']
+    assert complete('ros2 launch demo_ -n', len('ros2 launch demo_p')) == ['demo_pkg ']
 
 
 def test_launch_file_that_takes_its_time(complete: Complete, prefix: Path) -> None:
