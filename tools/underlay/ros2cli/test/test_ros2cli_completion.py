@@ -152,7 +152,7 @@ def test_file_instead_of_package(complete: Complete, prefix: Path) -> None:
 
 def test_cursor_inside_the_line(complete: Complete) -> None:
     """Only what is before the cursor counts."""
-    assert complete('ros2 launch demo_ -n', len('ros2 launch demo_p')) == ['demo_pkg ']
+    assert complete('ros2 launch demo_p -n', len('ros2 launch demo_p')) == ['demo_pkg ']
 
 
 def test_launch_file_that_takes_its_time(complete: Complete, prefix: Path) -> None:
