@@ -23,17 +23,22 @@ from turtlesim_py.teleop import HEADINGS, keys_of
 
 
 @pytest.mark.parametrize(
-    ('text', 'keys'),
+    ('text', 'keys', 'rest'),
     [
-        ('', []),
-        ('gQ', ['g', 'q']),
-        ('\x1b[A\x1bODx', ['\x1b[A', '\x1b[D', 'x']),
-        ('\x1b[Z\x1b', ['\x1b', '[', 'z', '\x1b']),
+        ('', [], ''),
+        ('gQ', ['g', 'q'], ''),
+        ('\x1b[A\x1bODx', ['\x1b[A', '\x1b[D', 'x'], ''),
+        ('\x1bOQ\x1b[1;5Cq', ['\x1b[Q', '\x1b[1;5C', 'q'], ''),
+        ('\x1b[24~', ['\x1b[24~'], ''),
+        ('\x1bg', ['\x1b', 'g'], ''),
+        ('g\x1b', ['g'], '\x1b'),
+        ('g\x1b[1;', ['g'], '\x1b[1;'),
+        ('\x1bO', [], '\x1bO'),
     ],
 )
-def test_keys_of_a_terminal(text: str, keys: list[str]) -> None:
-    """Arrows are one key each, in both modes of a terminal; letters may be capital."""
-    assert keys_of(text) == keys
+def test_keys_of_a_terminal(text: str, keys: list[str], rest: str) -> None:
+    """An escape sequence is one key, in both modes of a terminal; letters may be capital."""
+    assert keys_of(text) == (keys, rest)
 
 
 def test_headings_are_where_keys_are() -> None:

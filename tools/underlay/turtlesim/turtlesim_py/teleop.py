@@ -27,7 +27,8 @@ AROUND_F = 'gtredcvb'
 """The keys around F, counterclockwise from the one to its right: 45 degrees apart."""
 HEADINGS = {key: math.remainder(i * math.pi / 4, math.tau) for i, key in enumerate(AROUND_F)}
 CANCEL, QUIT = 'f', 'q'
-KEY = re.compile(r'\x1b[\[O][A-D]|.', re.DOTALL)
+KEY = re.compile(r'\x1b\[[0-9;]*[@-~]|\x1bO.|.', re.DOTALL)
+UNFINISHED = re.compile(r'\x1b(\[[0-9;]*|O)?\Z')
 POLL_S = 0.02
 HELP = """\
 Reading from keyboard
@@ -39,17 +40,25 @@ Use G|B|V|C|D|E|R|T keys to rotate to absolute orientations. 'F' to cancel a rot
 DEPTH = 10
 
 
-def keys_of(text: str) -> list[str]:
+def keys_of(text: str) -> tuple[list[str], str]:
     """
-    Split what a terminal sends into keys: letters in lower case, arrows as escape sequences.
+    Split what a terminal sends into keys: letters in lower case, others as escape sequences.
 
     Parameters
     ----------
     text
         What the terminal has sent. In its application mode, arrows begin with ESC O.
 
+    Returns
+    -------
+    tuple[list[str], str]
+        The keys, and the beginning of an escape sequence whose remainder has not come yet.
+
     """
-    return [key.replace('\x1bO', '\x1b[') if key[1:] else key.lower() for key in KEY.findall(text)]
+    unfinished = UNFINISHED.search(text)
+    rest = unfinished.group() if unfinished else ''
+    keys = KEY.findall(text.removesuffix(rest))
+    return [key.replace('\x1bO', '\x1b[') if key[1:] else key.lower() for key in keys], rest
 
 
 class TeleopNode(Node):
@@ -142,9 +151,10 @@ def teleoperate(make_node: Callable[[], TeleopNode]) -> int:
         executor = make_executor()
         executor.add_node(node)
         print(HELP, flush=True)
+        rest = ''
         while not wait_for_signal(0.0):
             executor.spin_once(timeout_sec=POLL_S)
-            keys = keys_of(keyboard.pressed())
+            keys, rest = keys_of(rest + keyboard.pressed())
             for key in keys:
                 node.press(key)
             if QUIT in keys:
