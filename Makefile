@@ -10,13 +10,17 @@ VENV ?=
 # Any ros2 command: make run ARGS='topic list'
 ARGS ?=
 COLCON_ARGS ?=
-export VENV
+# A folder of wheels to use instead of PyPI: make setup WHEELS=/media/stick/wheels; `make mirror` fills it
+WHEELS ?=
+# Versions of Python for make mirror: PYTHONS='3.12 3.13'; all without it
+PYTHONS ?=
+export VENV WHEELS PYTHONS
 
 SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup prepare build bringup demo run test check fix bench soak trials stories docs site pictures lock clean distclean
+.PHONY: help setup mirror prepare build bringup demo run test check fix bench soak trials stories docs site pictures lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -24,6 +28,9 @@ help: ## Show this list
 
 setup: ## Make the environment in .venv (VENV=/other/place keeps it elsewhere)
 	@$(SETUP) setup
+
+mirror: ## Download all wheels into a folder for machines without internet (WHEELS=/path PYTHONS='3.12')
+	@$(SETUP) mirror
 
 prepare: export ASKED_FOR = $(ARGS)
 prepare: # what bringup and run need: other messages, and what ARGS does not name, wait for setup

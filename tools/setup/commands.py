@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands of the set-up: setup, build, prepare, tests, site, clean, distclean."""
+"""The commands of the set-up: setup, mirror, build, prepare, tests, site, clean, distclean."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ import sysconfig
 import colcon
 from console import SetupError, Steps
 from locations import find_locations, link_environment, Locations
+import mirror
 from ownership import Home, python_version
 from parts import Parts
 import prerequisites
@@ -53,7 +54,11 @@ def main(argv: list[str]) -> int:
         signal.signal(number, signal.default_int_handler)
     try:
         locations = find_locations(ROOT, options.venv)
+        if options.wheels and options.command != 'mirror':
+            mirror.use_mirror(options.wheels)
         with only_one_at_a_time(ROOT):
+            if options.command == 'mirror':
+                return make_mirror(locations, options.wheels or str(ROOT / 'wheels'))
             return run(options.command, locations, rest)
     except SetupError as error:
         print(f'\n{error}', file=sys.stderr)
@@ -77,13 +82,16 @@ def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
     Returns
     -------
     Namespace, list of str
-        The options `command` and `venv`, and the arguments for `colcon build`.
+        The options `command`, `venv` and `wheels`, and the arguments for `colcon build`.
 
     """
     parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
-    commands = ['setup', 'build', 'prepare', 'tests', 'site', 'clean', 'distclean']
+    commands = ['setup', 'mirror', 'build', 'prepare', 'tests', 'site', 'clean', 'distclean']
     parser.add_argument('command', nargs='?', default='setup', choices=commands)
     parser.add_argument('--venv', default=os.environ.get('VENV'), help='the environment to use')
+    parser.add_argument(
+        '--wheels', default=os.environ.get('WHEELS'), help='a folder of wheels, instead of PyPI'
+    )
     options, rest = parser.parse_known_args(argv)
     if rest and options.command != 'build':
         parser.error(f'unrecognized arguments: {" ".join(rest)}')
@@ -222,6 +230,39 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
     underlay.describe_others()
     steps.end()
     print('The environment is complete.' + ('' if quiet else ' Next: make bringup'))
+    return 0
+
+
+def make_mirror(locations: Locations, folder: str) -> int:
+    """
+    Download the wheels of all requirements for other machines, and say how to use them.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+    folder
+        Where to put them.
+
+    Returns
+    -------
+    int
+        The exit status, 0.
+
+    Raises
+    ------
+    SetupError
+        A version of Python has no wheels, there is no environment yet, or pip failed.
+
+    """
+    versions = mirror.versions_of(os.environ.get('PYTHONS', ''))
+    place = Path(folder).expanduser().resolve()
+    requirements = [REQUIREMENTS, PART_REQUIREMENTS, TEST_REQUIREMENTS]
+    mirror.make_mirror(locations, place, requirements, versions)
+    print(
+        f'The wheels for Python {", ".join(versions)} are in {place}. On each machine without '
+        'internet: make setup WHEELS=FOLDER'
+    )
     return 0
 
 
