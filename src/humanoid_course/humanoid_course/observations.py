@@ -49,7 +49,8 @@ class Run:
 
     status: exit status if it ended by itself before; output: its beginning and its end;
     publishers, subscriptions: by topic; nodes: full names, one for each node; values: numbers or
-    texts received, by topic; counts: messages received, by topic; left: the commands of what was
+    texts received, by topic; counts: messages received, by topic; parameters: those that are
+    texts, by `NAME of NODE`; left: the commands of what was
     still running when it should have ended, and had to be killed; last_words: its output after
     the interrupt.
     """

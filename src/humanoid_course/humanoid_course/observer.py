@@ -168,7 +168,7 @@ class Observer:
         Returns
         -------
         dict of str to str
-            The text of each, by `NODE NAME`; nodes that do not answer are left out.
+            The text of each, by `NAME of NODE`; nodes that do not answer are left out.
 
         """
         found = {}

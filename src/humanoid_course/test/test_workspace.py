@@ -26,8 +26,6 @@ def test_upwards(workspace: Path, here: str) -> None:
 def test_sourced_workspace(workspace: Path, tmp_path: Path) -> None:
     """Elsewhere it is the one that is sourced."""
     sourced = {'COLCON_PREFIX_PATH': f'/opt/ros/jazzy:{workspace}/install'}
-    folder, _ = find_workspace(None, ['robot_control'], tmp_path, sourced)
-    assert folder in (workspace, tmp_path)
     other = tmp_path / 'other'
     other.mkdir()
     assert find_workspace(None, ['robot_control'], other, sourced)[0] == workspace
