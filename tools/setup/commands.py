@@ -32,6 +32,9 @@ REQUIREMENTS = ROOT / 'requirements.txt'
 PART_REQUIREMENTS = ROOT / 'requirements-parts.txt'
 TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
 SITE_REQUIREMENTS = ROOT / 'requirements-site.txt'
+MIRRORED = (REQUIREMENTS, PART_REQUIREMENTS, TEST_REQUIREMENTS)
+"""What `make mirror` collects: everything but the generator of the site."""
+_USE_MIRROR = ('setup', 'build', 'prepare', 'tests')
 
 
 def main(argv: list[str]) -> int:
@@ -54,7 +57,7 @@ def main(argv: list[str]) -> int:
         signal.signal(number, signal.default_int_handler)
     try:
         locations = find_locations(ROOT, options.venv)
-        if options.wheels and options.command != 'mirror':
+        if options.wheels and options.command in _USE_MIRROR:
             mirror.use_mirror(options.wheels)
         with only_one_at_a_time(ROOT):
             if options.command == 'mirror':
@@ -257,8 +260,7 @@ def make_mirror(locations: Locations, folder: str) -> int:
     """
     versions = mirror.versions_of(os.environ.get('PYTHONS', ''))
     place = Path(folder).expanduser().resolve()
-    requirements = [REQUIREMENTS, PART_REQUIREMENTS, TEST_REQUIREMENTS]
-    mirror.make_mirror(locations, place, requirements, versions)
+    mirror.make_mirror(locations, place, MIRRORED, versions)
     print(
         f'The wheels for Python {", ".join(versions)} are in {place}. On each machine without '
         'internet: make setup WHEELS=FOLDER'

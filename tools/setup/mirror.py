@@ -123,14 +123,24 @@ def make_mirror(
     texts = [path.read_text(encoding='utf-8') for path in requirements]
     steps = Steps(len(versions) + 1)
     for version in versions:
-        pins = pins_for('\n'.join(texts), version)
+        pins = [
+            pin
+            for pin in pins_for('\n'.join(texts), version)
+            if not any(folder.glob(f'{_stem(pin)}-py3-none-any.whl'))
+        ]
         steps.begin(f'{len(pins)} wheels for Python {version}')
         _download(locations, folder, pins, version)
     steps.begin('Wheels of what PyPI has as source only')
-    for archive in sorted(folder.glob('*.tar.gz')):
+    for archive in sorted([*folder.glob('*.tar.gz'), *folder.glob('*.zip')]):
         _pip(locations, ['wheel', '--no-deps', '--wheel-dir', str(folder), str(archive)])
         archive.unlink()
     steps.end()
+
+
+def _stem(pin: str) -> str:
+    """Return how the name of a wheel begins: for `Types-PyYAML==6.0`, `types_pyyaml-6.0`."""
+    name, _, version = pin.partition('==')
+    return f'{re.sub(r"[-_.]+", "_", name).lower()}-{version}'
 
 
 def _download(locations: Locations, folder: Path, pins: Iterable[str], version: str) -> None:

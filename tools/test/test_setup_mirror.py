@@ -33,9 +33,9 @@ def test_pins_of_a_version(version: str, numpy: str) -> None:
 
 
 @pytest.mark.parametrize('version', mirror.VERSIONS)
-def test_conditions_mean_what_pip_takes_them_for(root: Path, version: str) -> None:
+def test_conditions_mean_what_pip_takes_them_for(version: str) -> None:
     """Of the real files, the same lines are selected as by the library that pip uses."""
-    text = ''.join(path.read_text() for path in sorted(root.glob('requirements*.txt')))
+    text = ''.join(path.read_text() for path in commands.MIRRORED)
     lines = [line for line in text.splitlines() if line and not line.startswith('#')]
     chosen = [
         line.partition(' ;')[0]
@@ -85,6 +85,9 @@ def test_download(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert asked[1] == ['3.12', 'numpy==2.5.5', 'wheel==1.0']
     assert asked[2][-1] == str(folder / 'empy-3.tar.gz') and 'wheel' in asked[2]
     assert sorted(path.name for path in folder.iterdir()) == ['COLCON_IGNORE']
+    (folder / 'wheel-1.0-py3-none-any.whl').touch()
+    mirror.make_mirror(place, folder, [pinned], ['3.12'])
+    assert asked[3] == ['3.12', 'numpy==2.5.5'], 'a wheel that is there is asked for again'
 
 
 def test_no_environment(tmp_path: Path) -> None:
