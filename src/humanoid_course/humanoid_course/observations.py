@@ -9,8 +9,8 @@ from typing import Protocol
 
 from humanoid_course.workspace import Package
 
-INTERRUPT_TIMEOUT_S = 10.0
-"""How long a program may take to end after Ctrl-C; a launch kills its nodes within it."""
+INTERRUPT_TIMEOUT_S = 13.0
+"""How long a program may take to end after Ctrl-C; a launch kills its nodes after 5 + 5 s."""
 FIRST_MESSAGES = 5
 """Messages of a topic that show whether it is published steadily, and whether it is random."""
 MODEL_MARK = '_renamed_by_the_check'
