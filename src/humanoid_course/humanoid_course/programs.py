@@ -39,6 +39,21 @@ class _Output:
             gap = f'\n[{self._left_out} bytes left out]\n'.encode() if self._left_out else b''
             return (self._head + gap + self._tail).decode(errors='replace')
 
+    def mark(self) -> int:
+        """Return how many bytes there were so far."""
+        with self._lock:
+            return len(self._head) + self._left_out + len(self._tail)
+
+    def since(self, mark: int) -> str:
+        """Return what is kept of the output after a mark; of a gap, no part of a line."""
+        with self._lock:
+            tail_start = len(self._head) + self._left_out
+            head, tail = self._head[mark:], self._tail[max(0, mark - tail_start) :]
+            if self._left_out and mark < tail_start:
+                head = head[: head.rfind(b'\n') + 1]
+                tail = tail[tail.find(b'\n') + 1 :]
+            return (head + tail).decode(errors='replace')
+
     def join(self, timeout_s: float) -> None:
         """Wait for the end of the stream, which a descendant may keep open."""
         self._thread.join(timeout_s)
@@ -99,6 +114,22 @@ class Program:
     def output(self) -> str:
         """Return what the program has written so far: its beginning and its end."""
         return self._output.text() if self._output else ''
+
+    def mark(self) -> int:
+        """Return a mark at the end of what the program has written so far, for `since`."""
+        return self._output.mark() if self._output else 0
+
+    def since(self, mark: int) -> str:
+        """
+        Return what the program has written after a mark, as far as it is kept.
+
+        Parameters
+        ----------
+        mark
+            The mark.
+
+        """
+        return self._output.since(mark) if self._output else ''
 
     @property
     def status(self) -> int | None:

@@ -94,9 +94,9 @@ def _has_changed(before: Run, now: Run) -> bool:
 
 
 def _interrupt(program: Program, run: Run) -> Run:
-    before = len(run.output)
+    before = program.mark()
     left = program.interrupt(INTERRUPT_TIMEOUT_S) if run.ran else ()
-    return replace(run, left=left, last_words=program.output[before:])
+    return replace(run, left=left, last_words=program.since(before))
 
 
 def stimulate(program: Program, command: str, topic: str) -> Stimulus:
@@ -128,18 +128,18 @@ def stimulate(program: Program, command: str, topic: str) -> Stimulus:
 
 def _send_both(program: Program, observer: Observer, topic: str, kind: str) -> Stimulus:
     """Send cold readings, then hot ones until there is something new in the output."""
-    start = len(program.output)
+    start = program.mark()
     observer.send(topic, kind, [COLD] * 5, 0.1)
     observer.spin(1.0)
-    cold = program.output[start:]
-    middle = len(program.output)
+    cold = program.since(start)
+    middle = program.mark()
     end_s = time.monotonic() + _QUIET_S
     while time.monotonic() < end_s and program.status is None:
         observer.send(topic, kind, [HOT], 0.3)
-        hot = program.output[middle:]
+        hot = program.since(middle)
         if set(_patterns(hot)) - set(_patterns(cold)):
             break
-    hot = program.output[middle:]
+    hot = program.since(middle)
     return Stimulus(Run(''), kind, COLD, HOT, _lines(cold), _lines(hot))
 
 

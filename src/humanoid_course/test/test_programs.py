@@ -63,6 +63,21 @@ def test_much_output(tmp_path: Path) -> None:
     assert 'bytes left out' in output
 
 
+def test_what_a_flood_ends_with(tmp_path: Path) -> None:
+    """After megabytes, new output is still told from what was before it, in whole lines."""
+    flood = 'for n in range(100_000): print("flood of numbers", n)\n'
+    wait = 'try:\n print("before", flush=True)\n time.sleep(600)\n'
+    script = f'import time\n{flood}{wait}except KeyboardInterrupt:\n print("bye", flush=True)\n'
+    with running(python(script), os.environ, tmp_path) as program:
+        start = program.mark()
+        wait_until(lambda: program.output.endswith('before\n'))
+        assert all(line[:5] in ('flood', 'befor') for line in program.since(0).splitlines())
+        middle = program.mark()
+        assert program.since(middle) == '' and middle > 1_000_000 > start
+        assert program.interrupt(60.0) == ()
+        assert program.since(middle) == 'bye\n'
+
+
 def test_clean_end(tmp_path: Path) -> None:
     """A program that heeds the interrupt leaves nothing."""
     script = 'import time; print("up", flush=True); time.sleep(600)'
