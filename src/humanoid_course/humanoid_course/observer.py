@@ -28,6 +28,8 @@ _UNKNOWN = '_NODE_NAME_UNKNOWN_'  # of a node whose name has not arrived yet
 _MOST_VALUES = 200
 _SLICE_S = 0.02
 _ANSWER_TIMEOUT_S = 3.0
+_REPEAT_S = 1.0
+"""A request is repeated so often: a server that does not know the client yet cannot answer."""
 _NUMBER_FIELDS = ('temperature', 'data')
 _NUMBER_TYPES = ('double', 'float', *(f'{u}int{n}' for u in ('', 'u') for n in (8, 16, 32, 64)))
 _EVERYTHING = QoSProfile(
@@ -156,7 +158,7 @@ class Observer:
             publisher.publish(message(**{name: float(value) if is_float else round(value)}))
             self.spin(period_s)
 
-    def parameters(self, nodes: tuple[str, ...]) -> dict[str, str]:
+    def parameters(self, nodes: tuple[str, ...]) -> tuple[dict[str, str], bool]:
         """
         Read the parameters of nodes that are texts.
 
@@ -167,28 +169,45 @@ class Observer:
 
         Returns
         -------
-        dict of str to str
-            The text of each, by `NAME of NODE`; nodes that do not answer are left out.
+        tuple of dict and bool
+            The text of each, by `NAME of NODE`; whether all nodes that have the services answered.
 
         """
-        found = {}
+        found: dict[str, str] = {}
+        are_complete = True
         for node in dict.fromkeys(nodes):
+            existing = set(self._node.clients)
             client = AsyncParameterClient(self._node, node)
-            if not client.services_are_ready():
+            try:
                 self.spin(_ANSWER_TIMEOUT_S, client.services_are_ready)
-            if not client.services_are_ready():
-                continue
-            listed = self._answer(client.list_parameters([], 10))
-            names = list(listed.result.names) if listed else []
-            values = self._answer(client.get_parameters(names)) if names else None
-            for name, value in zip(names, values.values if values else ()):
-                if value.type == Parameter.Type.STRING.value:
-                    found[f'{name} of {node}'] = value.string_value
-        return found
+                if client.services_are_ready():
+                    are_complete &= self._read_texts(client, node, found)
+            finally:
+                for each in set(self._node.clients) - existing:
+                    self._node.destroy_client(each)
+        return found, are_complete
 
-    def _answer(self, future: Any) -> Any:
-        self.spin(_ANSWER_TIMEOUT_S, future.done)
-        return future.result() if future.done() else None
+    def _read_texts(self, client: AsyncParameterClient, node: str, found: dict[str, str]) -> bool:
+        """Add the parameters of a node that are texts; return whether it answered."""
+        listed = self._answer(lambda: client.list_parameters([], 10))
+        names = list(listed.result.names) if listed else []
+        values = self._answer(lambda: client.get_parameters(names)) if names else None
+        for name, value in zip(names, values.values if values else ()):
+            if value.type == Parameter.Type.STRING.value:
+                found[f'{name} of {node}'] = value.string_value
+        return bool(listed) and (not names or bool(values))
+
+    def _answer(self, request: Callable[[], Any]) -> Any:
+        """Repeat a request until one is answered; None if none is."""
+        futures: list[Any] = []
+        end_s = time.monotonic() + _ANSWER_TIMEOUT_S
+        while time.monotonic() < end_s:
+            futures.append(request())
+            self.spin(_REPEAT_S, lambda: any(each.done() for each in futures))
+            for each in futures:
+                if each.done():
+                    return each.result()
+        return None
 
     def close(self) -> None:
         """Leave the domain."""

@@ -77,7 +77,8 @@ def _observe(
         if _has_changed(last, run):
             changed_s = now_s
         elif run.nodes != asked and now_s - changed_s > _SETTLED_S:
-            asked, parameters = run.nodes, observer.parameters(run.nodes)
+            parameters, are_complete = observer.parameters(run.nodes)
+            asked = run.nodes if are_complete else ()
         last = run
         patience_s = _QUIET_S if run.nodes else _START_TIMEOUT_S
         if now_s - changed_s > patience_s or now_s - begin_s > _LONGEST_S:
