@@ -11,7 +11,7 @@ from humanoid_common.naming import did_you_mean
 from humanoid_course import common_checks as common
 from humanoid_course.common_checks import Check
 from humanoid_course.grading import Exercise, failed, Outcome, passed, unchecked, Verdict
-from humanoid_course.observations import Endpoint, FIRST_MESSAGES, Run, Submission
+from humanoid_course.observations import Endpoint, FIRST_MESSAGES, line_pattern, Run, Submission
 from humanoid_course.report import quoted
 
 TOPIC = '/temperature'
@@ -160,9 +160,10 @@ def check_alarm(submission: Submission) -> Verdict:
             f'the type of {TOPIC} has no number to send', 'Use sensor_msgs/msg/Temperature.'
         )
     cold, hot = (
-        {_pattern(line) for line in lines} for lines in (seen.lines_when_cold, seen.lines_when_hot)
+        {line_pattern(line) for line in lines}
+        for lines in (seen.lines_when_cold, seen.lines_when_hot)
     )
-    new = [line for line in seen.lines_when_hot if _pattern(line) not in cold]
+    new = [line for line in seen.lines_when_hot if line_pattern(line) not in cold]
     logged = [line for line in new if _is_log(line)]
     expected = f'a log message for readings above {THRESHOLD:g} °C only'
     if logged:
@@ -268,11 +269,6 @@ def _both_run(run: Run) -> bool:
     """Whether the topic is published and received, by different nodes."""
     publishers, subscribers = _names(run.publishers), _names(run.subscriptions)
     return bool(publishers and subscribers) and len({*publishers, *subscribers}) > 1
-
-
-def _pattern(line: str) -> str:
-    """Return what two lines have in common that differ in their numbers."""
-    return re.sub(r'[-+]?\d+(?:\.\d+)?', '#', line).strip()
 
 
 def _is_log(line: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+import re
 from typing import Protocol
 
 from humanoid_course.workspace import Package
@@ -83,6 +84,19 @@ class Stimulus:
     hot: float = 0.0
     lines_when_cold: tuple[str, ...] = ()
     lines_when_hot: tuple[str, ...] = ()
+
+
+def line_pattern(line: str) -> str:
+    """
+    Return what two lines have in common that differ in their numbers.
+
+    Parameters
+    ----------
+    line
+        A line of output.
+
+    """
+    return re.sub(r'[-+]?\d+(?:\.\d+)?', '#', line).strip()
 
 
 class Submission(Protocol):

@@ -5,10 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-import re
 import time
 
-from humanoid_course.observations import FIRST_MESSAGES, INTERRUPT_TIMEOUT_S, Run, Stimulus
+from humanoid_course.observations import (
+    FIRST_MESSAGES,
+    INTERRUPT_TIMEOUT_S,
+    line_pattern,
+    Run,
+    Stimulus,
+)
 from humanoid_course.observer import number_field_of, Observer
 from humanoid_course.programs import Program
 
@@ -138,7 +143,7 @@ def _send_both(program: Program, observer: Observer, topic: str, kind: str) -> S
     while time.monotonic() < end_s and program.status is None:
         observer.send(topic, kind, [HOT], 0.3)
         hot = program.since(middle)
-        if set(_patterns(hot)) - set(_patterns(cold)):
+        if _patterns(hot) - _patterns(cold):
             break
     hot = program.since(middle)
     return Stimulus(Run(''), kind, COLD, HOT, _lines(cold), _lines(hot))
@@ -148,5 +153,5 @@ def _lines(text: str) -> tuple[str, ...]:
     return tuple(line for line in text.splitlines() if line.strip())
 
 
-def _patterns(text: str) -> list[str]:
-    return [re.sub(r'\d', '#', line) for line in _lines(text)]
+def _patterns(text: str) -> set[str]:
+    return {line_pattern(line) for line in _lines(text)}
