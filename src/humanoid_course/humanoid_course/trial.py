@@ -8,8 +8,8 @@ from contextlib import contextmanager
 import os
 from pathlib import Path
 import re
+import shlex
 import shutil
-import subprocess
 from tempfile import TemporaryDirectory
 
 from humanoid_course.common_checks import is_launch_file, last_line
@@ -19,6 +19,7 @@ from humanoid_course.watching import stimulate, watch
 from humanoid_course.workspace import Package, read_manifest
 
 _BUILD_TIMEOUT_S = 300.0
+_SOURCE_TIMEOUT_S = 60.0
 _MOST_LAUNCH_FILES = 4
 _ROBOT = re.compile(r'(<robot\b[^>]*?\bname\s*=\s*["\'])([^"\']+)')
 
@@ -110,21 +111,23 @@ class Trial:
     def _source(self) -> str:
         """Read the variables of the built workspace, by a shell that sources it."""
         setup = self._scratch / 'install' / 'local_setup.bash'
-        script = 'source "$0" > /dev/null && exec env -0'
-        done = subprocess.run(
-            ['bash', '-c', script, str(setup)],
-            env=self._variables,
-            capture_output=True,
-            stdin=subprocess.DEVNULL,
-        )
-        pairs = [each.partition('=') for each in done.stdout.decode(errors='replace').split('\0')]
+        listed = self._scratch / 'variables'
+        script = f'source "$0" > /dev/null && exec env -0 > {shlex.quote(str(listed))}'
+        command = ['bash', '-c', script, str(setup)]
+        with running(command, self._variables, self._scratch) as program:
+            if not program.wait(_SOURCE_TIMEOUT_S):
+                return f'{setup.name} did not end within {_SOURCE_TIMEOUT_S:g} s'
+            if program.status != 0:
+                return f'{setup.name} of the built workspace failed'
+        text = listed.read_bytes().decode(errors='replace')
+        pairs = [each.partition('=') for each in text.split('\0')]
         self._variables = {
             **{name: value for name, equals, value in pairs if equals},
             'ROS_LOG_DIR': str(self._scratch / 'ros_log'),
             'RCUTILS_COLORIZED_OUTPUT': '0',
             'RCUTILS_CONSOLE_OUTPUT_FORMAT': '[{severity}] [{name}]: {message}',
         }
-        return '' if done.returncode == 0 else f'{setup.name} of the built workspace failed'
+        return ''
 
     def _prefix(self, name: str) -> Path:
         return self._scratch / 'install' / name
