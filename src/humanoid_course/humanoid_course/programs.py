@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 import os
 from pathlib import Path
+import resource
 import signal
 import subprocess
 import threading
@@ -17,6 +18,8 @@ import uuid
 MARK = 'HUMANOID_COURSE_PROGRAM'
 """Environment variable by which descendants in sessions of their own are recognized."""
 _KEPT_BYTES = 40_000
+_LARGEST_FILE_BYTES = 100_000_000
+"""A program that never stops writing does not fill the disk."""
 _KILL_TIMEOUT_S = 10.0
 _POLL_S = 0.02
 
@@ -107,6 +110,9 @@ class Program:
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
+        with suppress(OSError):  # it may have ended already
+            limits = (_LARGEST_FILE_BYTES, _LARGEST_FILE_BYTES)
+            resource.prlimit(self._process.pid, resource.RLIMIT_FSIZE, limits)
         if self._process.stdout is not None:
             self._output = _Output(self._process.stdout)
 

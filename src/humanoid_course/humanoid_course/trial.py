@@ -21,6 +21,8 @@ from humanoid_course.workspace import Package, read_manifest
 _BUILD_TIMEOUT_S = 300.0
 _SOURCE_TIMEOUT_S = 60.0
 _MOST_LAUNCH_FILES = 4
+_READ_BYTES = 100_000
+"""So much is read of the end of a log."""
 _ROBOT = re.compile(r'(<robot\b[^>]*?\bname\s*=\s*["\'])([^"\']+)')
 
 
@@ -102,7 +104,7 @@ class Trial:
     def _reason(self, program: Program) -> str:
         """Quote the error of the package whose build failed."""
         for log in sorted(self._scratch.glob('log/latest_build/*/stderr.log')):
-            text = log.read_text(errors='replace')
+            text = _end_of(log)
             errors = [line for line in text.splitlines() if re.search(r'\w*(Error|error):', line)]
             if errors:
                 return f'{log.parent.name}: {errors[-1].strip()}'
@@ -241,6 +243,12 @@ class Trial:
         command = ['ros2', verb, self.packages[0].name, what]
         with running(command, self._variables, self._scratch) as program:
             yield program, ' '.join(command)
+
+
+def _end_of(log: Path) -> str:
+    with log.open('rb') as stream:
+        stream.seek(max(0, log.stat().st_size - _READ_BYTES))
+        return stream.read(_READ_BYTES).decode(errors='replace')
 
 
 def without_prefixes(variables: Mapping[str, str], prefixes: Sequence[str]) -> dict[str, str]:

@@ -78,6 +78,15 @@ def test_what_a_flood_ends_with(tmp_path: Path) -> None:
         assert program.since(middle) == 'bye\n'
 
 
+def test_no_file_becomes_too_large(tmp_path: Path) -> None:
+    """What a program writes into a file does not fill the disk."""
+    script = 'import time; time.sleep(1.0); open("large", "wb").truncate(200_000_000)'
+    with running(python(script), os.environ, tmp_path) as program:
+        assert program.wait(60.0) and program.status == 1
+        assert 'File too large' in program.output
+    assert (tmp_path / 'large').stat().st_size == 0
+
+
 def test_clean_end(tmp_path: Path) -> None:
     """A program that heeds the interrupt leaves nothing."""
     script = 'import time; print("up", flush=True); time.sleep(600)'
