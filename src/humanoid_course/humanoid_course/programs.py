@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a student's program: in a process group of its own, with bounded output, ended for sure."""
+"""
+Run a student's program in a process group of its own, with bounded output, and end it.
+
+Descendants that leave the group are found by a mark in their environment. One that leaves the
+group and clears its environment, too, is not found and goes on.
+"""
 
 from __future__ import annotations
 
@@ -227,7 +232,7 @@ def running(
     command: Sequence[str], variables: Mapping[str, str], folder: Path
 ) -> Iterator[Program]:
     """
-    Run a program for the length of a `with` block; nothing of it is left afterwards.
+    Run a program for the length of a `with` block; what it started is killed afterwards.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that whatever a student's program does, its end is certain and its output bounded."""
+"""Check that a student's program is ended even if it resists, and that its output is bounded."""
 
 from __future__ import annotations
 
