@@ -256,13 +256,23 @@ def running(
 
 @contextmanager
 def _signals_held() -> Iterator[None]:
-    """Hold signals back that would interrupt the end of the programs; they are handled after."""
-    stops = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, stops)
+    """
+    Hold signals back that would interrupt the end of the programs; they are handled after.
+
+    Blocking them is not enough: another thread may receive them, and Python handles them here.
+    """
+    received: list[int] = []
+    before = {}
     try:
+        if threading.current_thread() is threading.main_thread():
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                before[number] = signal.signal(number, lambda each, _: received.append(each))
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for each in dict.fromkeys(received):
+            signal.raise_signal(each)
 
 
 def _is_running(pid: int) -> bool:

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+import signal
 import sys
+import time
 
 from humanoid_common.testing.processes import is_alive
 from humanoid_common.testing.waiting import wait_until
@@ -51,6 +53,24 @@ def test_an_exception_ends_the_program(kind: type[BaseException], tmp_path: Path
             pids += pids_of(program)
             raise kind
     assert pids and not any(map(is_alive, pids))
+
+
+def test_ctrl_c_during_the_end(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A second Ctrl-C waits until everything is ended, whichever thread receives it."""
+    close = Program.close
+
+    def interrupted_close(program: Program) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.1)
+        close(program)
+
+    monkeypatch.setattr(Program, 'close', interrupted_close)
+    pids: list[int] = []
+    with pytest.raises(KeyboardInterrupt):
+        with running(python(STUBBORN), os.environ, tmp_path) as program:
+            pids += pids_of(program)
+    assert pids and not any(map(is_alive, pids))
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_much_output(tmp_path: Path) -> None:
