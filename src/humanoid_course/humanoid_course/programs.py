@@ -56,10 +56,12 @@ class _Output:
         """Return what is kept of the output after a mark; of a gap, no part of a line."""
         with self._lock:
             tail_start = len(self._head) + self._left_out
-            head, tail = self._head[mark:], self._tail[max(0, mark - tail_start) :]
+            skipped = max(0, mark - tail_start)
+            head, tail = self._head[mark:], self._tail[skipped:]
             if self._left_out and mark < tail_start:
                 head = head[: head.rfind(b'\n') + 1]
-                tail = tail[tail.find(b'\n') + 1 :]
+                line_start = tail.find(b'\n') + 1
+                tail = tail[line_start:]
             return (head + tail).decode(errors='replace')
 
     def join(self, timeout_s: float) -> None:
