@@ -11,7 +11,7 @@ from action_msgs.msg import GoalStatus
 from action_tutorials_interfaces.action import Fibonacci
 from rclpy.action import ActionClient
 from rclpy.node import Node
-from tf2_ros.executing import sleep
+from tf2_ros.executing import response_of, sleep
 from tf2_ros.program import run_node
 
 __all__ = ['FibonacciActionClient', 'main']
@@ -49,14 +49,15 @@ class FibonacciActionClient(Node):
         while not self._client.server_is_ready():
             await sleep(self, _LOOK_S)
         logger.info('Sending goal request...')
-        goal = await self._client.send_goal_async(
-            Fibonacci.Goal(order=order), feedback_callback=self.feedback_callback
+        request = Fibonacci.Goal(order=order)
+        goal = await response_of(
+            self, lambda: self._client.send_goal_async(request, self.feedback_callback)
         )
         if not goal.accepted:
             logger.info('Goal rejected :(')
             return
         logger.info('Goal accepted :)')
-        response = await goal.get_result_async()
+        response = await response_of(self, goal.get_result_async)
         if response.status == GoalStatus.STATUS_SUCCEEDED:
             logger.info(f'Goal succeeded! Result: {response.result.sequence}')
         else:

@@ -10,7 +10,6 @@ import signal
 from unittest.mock import call, Mock
 
 from demo_nodes_py.parameters.set_parameters_callback import SetParametersCallback
-from demo_nodes_py.services import waiting
 from demo_nodes_py.services.add_two_ints_server import AddTwoIntsServer
 from demo_nodes_py.topics.qos_program import parse_options
 from example_interfaces.srv import AddTwoInts
@@ -22,6 +21,7 @@ from rclpy.task import Future
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
+from tf2_ros import executing
 
 EXECUTABLES = (
     'talker listener talker_qos listener_qos listener_serialized add_two_ints_server '
@@ -170,9 +170,9 @@ def test_lost_response(monkeypatch: pytest.MonkeyPatch) -> None:
     answered.set_result('5')
     client = Mock()
     client.call_async.side_effect = [Future(), answered]
-    monkeypatch.setattr(waiting, 'sleep', no_time)
+    monkeypatch.setattr(executing, 'sleep', no_time)
     with pytest.raises(StopIteration) as end:
-        waiting.response_of(Mock(), client, 'add').send(None)
+        executing.response_of(Mock(), lambda: client.call_async('add')).send(None)
     assert end.value.value == '5'
     assert client.call_async.call_args_list == [call('add'), call('add')]
 

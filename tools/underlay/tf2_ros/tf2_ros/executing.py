@@ -21,13 +21,13 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.task import Future
 
 if TYPE_CHECKING:
-    from collections.abc import Coroutine
+    from collections.abc import Callable, Coroutine
 
     from rclpy.context import Context
     from rclpy.executors import Executor
     from rclpy.node import Node
 
-__all__ = ['RESULT_MARGIN_S', 'make_executor', 'sleep', 'spin_until']
+__all__ = ['RESULT_MARGIN_S', 'make_executor', 'response_of', 'sleep', 'spin_until']
 
 RESULT_MARGIN_S = 1e-4
 """
@@ -38,6 +38,8 @@ remaining 0 s. Until the next step of the clock that timer is due again and agai
 executor dispatches it and all other timers of the clock thousands of times.
 """
 _WAIT_S = 0.5
+_LOOK_S = 0.1
+_LOOKS_UNTIL_REPEAT = 20
 
 
 class _NoNode:
@@ -158,3 +160,28 @@ async def sleep(node: Node, duration_s: float) -> None:
         await end
     finally:
         node.destroy_timer(timer)
+
+
+async def response_of(node: Node, ask: Callable[[], Future[Any]]) -> Any:
+    """
+    Send a request to a server that is available, and return its response.
+
+    The request is repeated every two seconds, since a response is lost if the server sends it
+    before it has discovered the client; so the server must tolerate a second request.
+
+    Parameters
+    ----------
+    node
+        The node of the client.
+    ask
+        Sends the request, and returns the future of the response.
+
+    """
+    answers: list[Future[Any]] = []
+    looks = 0
+    while not any(answer.done() for answer in answers):
+        if looks % _LOOKS_UNTIL_REPEAT == 0:
+            answers.append(ask())
+        looks += 1
+        await sleep(node, _LOOK_S)
+    return next(answer.result() for answer in answers if answer.done())

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
-from demo_nodes_py.services.waiting import response_of, wait_for_service
+from demo_nodes_py.services.waiting import wait_for_service
 from rcl_interfaces.msg import LoggerLevel
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 from rclpy.logging import LoggingSeverity
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
-from tf2_ros.executing import sleep
+from tf2_ros.executing import response_of, sleep
 from tf2_ros.program import run_node
 
 __all__ = ['LoggerServiceNode', 'TestNode', 'main']
@@ -81,7 +81,7 @@ class TestNode(Node):
         """Ask for the level; 0 if none has been set."""
         await wait_for_service(self, self._getter.service_is_ready)
         request = GetLoggerLevels.Request(names=[self._remote_node_name])
-        response = await response_of(self, self._getter, request)
+        response = await response_of(self, lambda: self._getter.call_async(request))
         return int(response.levels[0].level)
 
     async def set_logger_level_on_remote_node(self, logger_level: LoggingSeverity) -> bool:
@@ -102,7 +102,7 @@ class TestNode(Node):
         await wait_for_service(self, self._setter.service_is_ready)
         level = LoggerLevel(name=self._remote_node_name, level=int(logger_level))
         request = SetLoggerLevels.Request(levels=[level])
-        response = await response_of(self, self._setter, request)
+        response = await response_of(self, lambda: self._setter.call_async(request))
         result = response.results[0]
         if not result.successful:
             self.get_logger().error(f'The logger level was not set: {result.reason}')

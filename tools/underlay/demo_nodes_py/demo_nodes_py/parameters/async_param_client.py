@@ -12,6 +12,7 @@ from demo_nodes_py.services.waiting import wait_for_service
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file, parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
+from tf2_ros.executing import response_of
 from tf2_ros.program import run_node
 
 __all__ = ['AsyncParamClient', 'main']
@@ -47,29 +48,28 @@ class AsyncParamClient(Node):
 
     async def _set(self) -> None:
         self._log('Setting parameters:')
-        response = await self._client.set_parameters(
-            [Parameter(name, value=value) for name, value in PARAMETERS.items()]
-        )
+        parameters = [Parameter(name, value=value) for name, value in PARAMETERS.items()]
+        response = await response_of(self, lambda: self._client.set_parameters(parameters))
         for name, result in zip(PARAMETERS, response.results):
             self._log(f'    {name}:')
             self._log(f'        successful: {result.successful}')
 
     async def _list(self) -> None:
         self._log('Listing Parameters:')
-        response = await self._client.list_parameters([*PARAMETERS], 10)
+        response = await response_of(self, lambda: self._client.list_parameters([*PARAMETERS], 10))
         for name in sorted(response.result.names):
             self._log(f'    - {name}')
 
     async def _get(self) -> None:
         self._log('Getting parameters:')
-        response = await self._client.get_parameters([*PARAMETERS])
+        response = await response_of(self, lambda: self._client.get_parameters([*PARAMETERS]))
         for name, value in zip(PARAMETERS, response.values):
             self._log(f'    - {name}: {parameter_value_to_python(value)}')
 
     async def _load(self) -> None:
         self._log('Loading parameters:')
         loaded = parameter_dict_from_yaml_file(str(FILE))
-        response = await self._client.load_parameter_file(str(FILE))
+        response = await response_of(self, lambda: self._client.load_parameter_file(str(FILE)))
         for message, result in zip(loaded.values(), response.results):
             self._log(f'    {message.name}:')
             self._log(f'        successful: {result.successful}')
@@ -77,7 +77,7 @@ class AsyncParamClient(Node):
 
     async def _delete(self) -> None:
         self._log('Deleting parameters:')
-        response = await self._client.delete_parameters(DELETED)
+        response = await response_of(self, lambda: self._client.delete_parameters(DELETED))
         for name, result in zip(DELETED, response.results):
             self._log(f'    {name}:')
             self._log(f'        successful: {result.successful}')

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
-from demo_nodes_py.services.waiting import response_of, wait_for_service
+from demo_nodes_py.services.waiting import wait_for_service
 from example_interfaces.srv import AddTwoInts
 from rclpy.node import Node
+from tf2_ros.executing import response_of
 from tf2_ros.program import run_node
 
 __all__ = ['AddTwoIntsClient', 'main']
@@ -33,7 +34,8 @@ class AddTwoIntsClient(Node):
     async def add(self) -> None:
         """Call the service once it is available, and log the sum."""
         await wait_for_service(self, self._client.service_is_ready)
-        response = await response_of(self, self._client, AddTwoInts.Request(a=2, b=3))
+        request = AddTwoInts.Request(a=2, b=3)
+        response = await response_of(self, lambda: self._client.call_async(request))
         self.get_logger().info(f'Result of add_two_ints: {response.sum}')
 
 
