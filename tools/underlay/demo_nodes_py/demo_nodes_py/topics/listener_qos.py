@@ -7,10 +7,9 @@ from collections.abc import Sequence
 import sys
 
 from demo_nodes_py.topics.listener import Listener
-from demo_nodes_py.topics.qos_program import Countdown, describe, parse_options
+from demo_nodes_py.topics.qos_program import Countdown, describe, run_until_counted
 from rclpy.qos import QoSProfile
 from std_msgs.msg import String
-from tf2_ros.program import run, spin
 
 __all__ = ['ListenerQos', 'main']
 
@@ -58,17 +57,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         The command line including the program name; by default that of the process.
 
     """
-
-    def parse(words: list[str]) -> tuple[QoSProfile, int]:
-        return parse_options(words, 'listener_qos', 'received')
-
-    return run(parse, _work, argv)
-
-
-def _work(options: tuple[QoSProfile, int]) -> None:
-    node = ListenerQos(*options)
-    spin(node, task=node.countdown.wait)
-    node.destroy_node()
+    return run_until_counted(ListenerQos, 'listener_qos', 'received', argv)
 
 
 if __name__ == '__main__':

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.task import Future
+from tf2_ros.program import run, spin
 
-__all__ = ['Countdown', 'describe', 'parse_options']
+__all__ = ['Countdown', 'describe', 'parse_options', 'run_until_counted']
 
 RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 BEST_EFFORT = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -95,6 +98,34 @@ def parse_options(words: list[str], program: str, done: str) -> tuple[QoSProfile
     )
     found = parser.parse_args(words)
     return (RELIABLE if found.reliable else BEST_EFFORT), found.number_of_cycles
+
+
+def run_until_counted(
+    make_node: Callable[[QoSProfile, int], Any],
+    program: str,
+    done: str,
+    argv: Sequence[str] | None,
+) -> int:
+    """
+    Run a node until it has counted its messages; return the exit status.
+
+    Parameters
+    ----------
+    make_node
+        Creates the node from the quality of service and the number of messages.
+    program, done
+        As for `parse_options`.
+    argv : Sequence[str] | None
+        The command line including the program name; by default that of the process.
+
+    """
+
+    def work(options: tuple[QoSProfile, int]) -> None:
+        node = make_node(*options)
+        spin(node, task=node.countdown.wait)
+        node.destroy_node()
+
+    return run(lambda words: parse_options(words, program, done), work, argv)
 
 
 def _count(text: str) -> int:

@@ -6,10 +6,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 import sys
 
-from demo_nodes_py.topics.qos_program import Countdown, describe, parse_options
+from demo_nodes_py.topics.qos_program import Countdown, describe, run_until_counted
 from demo_nodes_py.topics.talker import Talker
 from rclpy.qos import QoSProfile
-from tf2_ros.program import run, spin
 
 __all__ = ['TalkerQos', 'main']
 
@@ -48,17 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         The command line including the program name; by default that of the process.
 
     """
-
-    def parse(words: list[str]) -> tuple[QoSProfile, int]:
-        return parse_options(words, 'talker_qos', 'published')
-
-    return run(parse, _work, argv)
-
-
-def _work(options: tuple[QoSProfile, int]) -> None:
-    node = TalkerQos(*options)
-    spin(node, task=node.countdown.wait)
-    node.destroy_node()
+    return run_until_counted(TalkerQos, 'talker_qos', 'published', argv)
 
 
 if __name__ == '__main__':
