@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a launch says of the robot: its page, once it has started, and how it has ended."""
+"""What a launch says of the robot: that it has started, with its page, and how it has ended."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import re
 from typing import Optional
 
+from humanoid_bringup.start_box import is_shared, qr_code, start_box, Terminal
 from launch import Action, LaunchContext
-from launch.actions import LogInfo, Shutdown, TimerAction
+from launch.actions import LogInfo, OpaqueFunction, Shutdown, TimerAction
 from launch.event_handlers import OnProcessExit, OnProcessIO
 from launch.events.process import ProcessExited, ProcessIO
 from launch.substitutions import LaunchConfiguration
@@ -21,13 +23,25 @@ SETTLE_S = 2.0
 """Delay after which other nodes have logged their startup messages."""
 _LONGEST = 4096
 
+BRING = 'bring me the red mug from the kitchen'
+TURN = 'turn around'
+_NEEDED_TO_BRING = ('navigation', 'perception', 'hands', 'manipulation')
+
 
 class Startup:
-    """Detects in the output of processes that the robot and its page have started."""
+    """
+    Detects in the output of processes that the robot and its page have started.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    has_page
+        Whether there is a page to wait for.
+
+    """
+
+    def __init__(self, has_page: bool = True) -> None:
         self._written: dict[str, str] = {}
-        self._url: str | None = None
+        self._url: str | None = None if has_page else ''
         self._has_robot = self._is_over = False
 
     def hear(self, process: str, text: str) -> Optional[str]:
@@ -44,7 +58,8 @@ class Startup:
         Returns
         -------
         Optional[str]
-            The address of the page, once, when the robot has started as well; otherwise None.
+            The address of the page, once, when the robot has started as well; '' without a page.
+            Otherwise None.
 
         """
         if self._is_over:
@@ -57,32 +72,62 @@ class Startup:
         return self._url if self._is_over else None
 
 
-def announce_page() -> OnProcessIO:
-    """Build the event handler that logs the page address once robot and page have started."""
-    startup = Startup()
+def announce_start(has_page: bool) -> OnProcessIO:
+    """
+    Build the event handler that logs the start box once the robot and its page have started.
+
+    Parameters
+    ----------
+    has_page
+        Whether the launch starts a page; without one, the box has no address.
+
+    """
+    startup = Startup(has_page)
 
     def hear(event: ProcessIO) -> Optional[list[Action]]:
         url = startup.hear(event.process_name, event.text.decode(errors='replace'))
         if url is None:
             return None
-        return [TimerAction(period=SETTLE_S, actions=[LogInfo(msg=announcement(url))])]
+        return [TimerAction(period=SETTLE_S, actions=[OpaqueFunction(function=_log, args=[url])])]
 
     return OnProcessIO(on_stdout=hear, on_stderr=hear)
 
 
-def announcement(url: str) -> str:
+def _log(context: LaunchContext, url: str) -> list[Action]:
+    """Return the action that logs the start box."""
+    arguments = context.launch_configurations
+    return [LogInfo(msg=announcement(url, arguments, Terminal.of_output()))]
+
+
+def announcement(url: str, arguments: Mapping[str, str], terminal: Terminal) -> str:
     """
-    Format the lines that show the address of the page.
+    Format the lines that are shown once the robot has started.
 
     Parameters
     ----------
     url
-        The address of the page.
+        The address of the page; '' without a page.
+    arguments
+        The launch arguments by name. `planner` and what else the full system starts decide what
+        the robot can be told, and `qr_code` whether a QR code of the address is shown, if other
+        machines can reach it.
+    terminal
+        Where they are shown.
 
     """
-    sentence = f'Open {url} to see and drive the robot.'
-    line = '-' * len(sentence)
-    return f'\n{line}\n{sentence}\n{line}'
+    asked = arguments.get('qr_code', 'auto')
+    wants_code = asked == 'true' or (asked == 'auto' and terminal.has_colors)
+    code = qr_code(url, terminal) if wants_code and is_shared(url) else ''
+    box = start_box(url, _example(arguments), bool(code), terminal)
+    return '\n'.join(['', box, *filter(None, [code])])
+
+
+def _example(arguments: Mapping[str, str]) -> str:
+    """Return what the robot can be told to do; '' without a planner."""
+    if arguments.get('planner') != 'true':
+        return ''
+    can_bring = all(arguments.get(name) == 'true' for name in _NEEDED_TO_BRING)
+    return BRING if can_bring and arguments.get('scene') == 'apartment' else TURN
 
 
 def watch_robot(argument: str) -> OnProcessExit:

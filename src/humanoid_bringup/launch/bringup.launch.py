@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_bringup.launch_arguments import is_simulated, robot_time
-from humanoid_bringup.robot_watch import announce_page, watch_robot
+from humanoid_bringup.robot_watch import announce_start, watch_robot
 from launch import LaunchDescription, Substitution
 from launch.actions import (
     DeclareLaunchArgument,
@@ -12,7 +12,7 @@ from launch.actions import (
     IncludeLaunchDescription,
     RegisterEventHandler,
 )
-from launch.conditions import IfCondition
+from launch.conditions import IfCondition, UnlessCondition
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import (
     EqualsSubstitution,
@@ -53,6 +53,13 @@ def generate_launch_description() -> LaunchDescription:
                 description='Show the robot in RViz, with panels to drive and monitor it.',
             ),
             DeclareLaunchArgument(
+                'qr_code',
+                default_value='auto',
+                choices=['auto', 'true', 'false'],
+                description='Print the address of the page as a QR code as well, if other '
+                'machines can reach it; auto does so in a terminal.',
+            ),
+            DeclareLaunchArgument(
                 'navigation',
                 default_value='false',
                 choices=['true', 'false'],
@@ -82,7 +89,13 @@ def generate_launch_description() -> LaunchDescription:
                 description='What the other nodes do when the simulator or the mock robot exits.',
             ),
             RegisterEventHandler(watch_robot('when_robot_ends')),
-            RegisterEventHandler(announce_page()),
+            RegisterEventHandler(
+                announce_start(has_page=True), condition=IfCondition(LaunchConfiguration('gui'))
+            ),
+            RegisterEventHandler(
+                announce_start(has_page=False),
+                condition=UnlessCondition(LaunchConfiguration('gui')),
+            ),
             # First what checks its arguments: nothing starts with a scene that does not exist.
             _group('humanoid_simulation', 'simulation', time, simulated),
             _group('humanoid_control', 'mock_robot', time, EqualsSubstitution(backend, 'mock')),

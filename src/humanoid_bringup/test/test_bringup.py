@@ -23,6 +23,7 @@ def test_arguments() -> None:
         'manipulation': 'false',
         'navigation': 'false',
         'perception': 'false',
+        'qr_code': 'auto',
         'report_period_s': '3600.0',
         'use_controller': 'true',
         'use_sim_time': 'auto',

@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 from pathlib import Path
+import re
 
-from humanoid_bringup.robot_watch import announcement, Startup
+from humanoid_bringup.robot_watch import announcement, BRING, Startup, TURN
+from humanoid_bringup.start_box import Terminal
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import ros_sandbox
+import pytest
 from sensor_msgs.msg import JointState
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
 URL = 'http://127.0.0.1:8080/?token=a-b'
+SHARED = 'http://192.0.2.2:8080/?token=a-b'
 PAGE = f'[INFO] [1.2] [rviz2]: RViz is at {URL}\n'
 ROBOT = "[INFO] [1.3] [simulator]: Simulator started: one robot in the scene 'flat'\n"
 
@@ -35,16 +39,57 @@ def test_lines_that_come_in_pieces() -> None:
     assert startup.hear('rviz2-5', PAGE[40:]) == URL
 
 
+def test_without_a_page() -> None:
+    """The start of the robot suffices, and there is no address."""
+    startup = Startup(has_page=False)
+    assert startup.hear('simulator-1', ROBOT[:40]) is None
+    assert startup.hear('simulator-1', ROBOT[40:]) == ''
+    assert startup.hear('simulator-1', ROBOT) is None
+
+
 def test_announcement() -> None:
-    """The address stands between two lines."""
-    _, line, sentence, again = announcement(URL).split('\n')
-    assert URL in sentence and line == again == '-' * len(sentence)
+    """On lines of its own, below what else is logged, stand the address and what to try."""
+    lines = announcement(URL, {}, Terminal()).split('\n')
+    assert lines[0] == '' and lines[1].startswith('┌') and lines[-1].startswith('└')
+    assert any(URL in line for line in lines)
+    assert not any('ready' in line for line in lines)
+
+
+def test_what_the_robot_can_be_told() -> None:
+    """The example is something that the parts of the launch can do."""
+    full = {'planner': 'true', 'scene': 'apartment'}
+    full |= dict.fromkeys(('navigation', 'perception', 'hands', 'manipulation'), 'true')
+    assert BRING in announcement(URL, full, Terminal())
+    for name, value in (('scene', 'flat'), ('manipulation', 'false'), ('navigation', 'false')):
+        text = announcement(URL, {**full, name: value}, Terminal())
+        assert TURN in text and BRING not in text
+
+
+@pytest.mark.parametrize(
+    ('asked', 'url', 'has_colors', 'is_drawn'),
+    [
+        ('auto', SHARED, True, True),
+        ('auto', SHARED, False, False),
+        ('true', SHARED, False, True),
+        ('false', SHARED, True, False),
+        ('true', URL, True, False),
+        ('true', '', True, False),
+    ],
+)
+def test_qr_code(asked: str, url: str, has_colors: bool, is_drawn: bool) -> None:
+    """It is drawn if it is wanted, and another machine can use it."""
+    pytest.importorskip('segno')
+    text = announcement(url, {'qr_code': asked}, Terminal(has_colors=has_colors))
+    assert ('█' in text) == ('scanning the code' in text) == is_drawn
 
 
 def test_bringup_is_quiet() -> None:
     """Of the joints, of which commands go on, one line is said; the address comes after it."""
     with ros_sandbox() as ros, running_launch_file(LAUNCH_FILE, 'backend:=mock') as program:
-        program.wait_for_output('to see and drive the robot.', timeout_s=120.0)
+        program.wait_for_output('The robot has started.', timeout_s=120.0)
+        url = re.search(r'RViz is at (\S+)', program.output)
+        assert url is not None
+        program.wait_for_output(f'  {url[1]}')
         heard: list[JointState] = []
         ros.observer().create_subscription(JointState, 'joint_commands', heard.append, 10)
         ros.wait_until(lambda: len(heard) > 150, 60.0, 'seconds of commands')

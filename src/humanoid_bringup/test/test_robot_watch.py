@@ -54,9 +54,9 @@ def test_all_stays_without_the_robot() -> None:
 
 
 def test_ctrl_c_is_no_death() -> None:
-    """When all is ended by Ctrl-C, nobody mourns."""
+    """The start of the robot is announced; when all is ended by Ctrl-C, nobody mourns."""
     with ros_sandbox(), running_launch_file(LAUNCH_FILE, *QUIET) as program:
-        program.wait_for_output('Mock robot started', TIMEOUT_S)
+        program.wait_for_output('The robot has started, without a page.', TIMEOUT_S)
         report = program.stop(signal.SIGINT)
     assert report.status == 0 and 'The robot is gone' not in report.output
 
