@@ -50,11 +50,17 @@ def test_log(world: LiveWorld, tab: Any) -> None:
     shows(world, tab, '.text', 'bad')
     shows(world, tab, '.text', EVIL)
     assert tab.locator('.times').nth(1).text_content().endswith(' 2')
+    world.robot.get_logger().info('two')
+    shows(world, tab, '.line:last-child .times', '\u00d7 3')
+    assert tab.locator('.line .text').all_text_contents() == ['one', EVIL, 'bad', 'two']
     tab.get_by_role('button', name='Info').click()
     assert tab.locator('.line .text').all_text_contents() == ['bad']
     tab.get_by_role('button', name='Info').click()
     tab.locator('#search').fill('ON robot')
     assert tab.locator('.line .text').all_text_contents() == ['one', EVIL]
+    world.robot.get_logger().info('two and on')
+    shows(world, tab, '.text', 'two and on')
+    assert tab.locator('#what').text_content() == '3 of 5 different messages'
     tab.locator('#search').fill('')
     tab.get_by_role('button', name='Pause').click()
     world.robot.get_logger().info('later')

@@ -14,13 +14,60 @@ def line(text: str = 'x', level: int = 20, node: str = 'arm') -> LogLine:
 def test_newest_are_kept() -> None:
     """The newest lines are kept, and all are counted."""
     book = LogBook(kept=3)
-    for number in range(5):
-        book.add(line(str(number), 40 if number == 0 else 20))
-    assert [each.text for each in book.since(0)] == ['2', '3', '4']
-    assert [each.text for each in book.since(4)] == ['4']
+    for text in 'abcde':
+        book.add(line(text, 40 if text == 'a' else 20))
+    assert [each.text for each in book.since(0)] == ['c', 'd', 'e']
+    assert [each.text for each in book.since(4)] == ['e']
     assert book.since(5) == []
     assert book.counts == {20: 4, 40: 1}
     assert book.news(3)['nodes'] == ['arm']
+
+
+def test_a_line_that_repeats_is_kept_once() -> None:
+    """It is counted by node, level and text, even if others log between, and moves to the end."""
+    book = LogBook(kept=3)
+    book.add(line('rare'))
+    for second in range(100):
+        book.add(LogLine(float(second), 20, 'arm', 'hot'))
+        book.add(LogLine(float(second), 20, 'leg', 'hot'))
+    assert [(each.node, each.text, each.times) for each in book.since(0)] == [
+        ('arm', 'rare', 1),
+        ('arm', 'hot', 100),
+        ('leg', 'hot', 100),
+    ]
+    assert [each.time_s for each in book.since(200)] == [99.0]
+    assert book.counts == {20: 201}
+    first = book.since(0)[0]
+    kept = book.add(line('rare'))
+    assert kept is not None and (kept.times, kept.number) == (2, first.number)
+    assert book.since(0)[-1] == kept and book.since(book.count - 1) == [kept]
+    for other in (line('rare', 30), line('Rare'), line('rare', node='head')):
+        kept = book.add(other)
+        assert kept is not None and kept.times == 1
+
+
+def test_digits_make_no_other_line() -> None:
+    """Texts that differ in digits only are counted as one, with the newest numbers."""
+    book = LogBook()
+    book.add(line('joint 3 is at 99.5 degrees'))
+    kept = book.add(line('joint 12 is at 100.25 degrees'))
+    assert book.since(0) == [kept]
+    assert kept is not None and kept.text == 'joint 12 is at 100.25 degrees' and kept.times == 2
+    book.add(line('joint 3 is at 99.5 radians'))
+    book.add(line('joint 3 is at -99.5 degrees'))
+    assert [each.times for each in book.since(0)] == [2, 1, 1]
+    numbers = [each.number for each in book.since(0)]
+    assert len(set(numbers)) == 3
+
+
+def test_a_line_that_was_forgotten_begins_anew() -> None:
+    """The one that was not logged for longest goes first, and is then counted from one."""
+    book = LogBook(kept=2)
+    for text in 'abac':
+        book.add(line(text))
+    assert [(each.text, each.times) for each in book.since(0)] == [('a', 2), ('c', 1)]
+    again = book.add(line('b'))
+    assert again is not None and (again.times, again.number) == (1, 5)
 
 
 def test_namespace() -> None:

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Mapping
-from itertools import islice
+from itertools import takewhile
+import re
 import time
 from typing import Any, NamedTuple
 
@@ -20,6 +21,7 @@ __all__ = ['Interruption', 'Interruptions', 'Log', 'LogBook', 'LogLine']
 
 DEBUG, ERROR, FATAL = 10, 40, 50
 LONGEST_LINE = 2000
+DIGITS = re.compile(r'\d+')
 
 NOTIFICATION_PERIOD_S = 5.0
 LONGEST_NOTIFICATION = 300
@@ -33,23 +35,32 @@ SHOWN_S = 10.0
 
 
 class LogLine(NamedTuple):
-    """Log line of a node; the level is 10 (debug), 20, 30, 40 or 50 (fatal)."""
+    """
+    Log line of a node; the level is 10 (debug), 20, 30, 40 or 50 (fatal).
+
+    A `LogBook` counts in `times` how often a line was logged, and identifies it by `number`.
+    """
 
     time_s: float
     level: int
     node: str
     text: str
     where: str = ''
+    times: int = 1
+    number: int = 0
 
 
 class LogBook:
     """
     The latest log lines, with counts of all lines.
 
+    A line that a node repeats is kept once, as it was logged last: a node that logs much pushes
+    nothing out. Lines are repeated if level and text are the same, whatever digits are in it.
+
     Parameters
     ----------
     kept
-        The number of lines to keep.
+        The number of different lines to keep; the one that was not logged for longest goes first.
     namespace
         Lines of nodes outside this namespace are ignored; '' for all nodes.
 
@@ -65,7 +76,8 @@ class LogBook:
     """
 
     def __init__(self, kept: int = 500, namespace: str = '') -> None:
-        self._lines: deque[LogLine] = deque(maxlen=kept)
+        self._kept = kept
+        self._lines: dict[tuple[str, int, str], tuple[int, LogLine]] = {}
         self._namespace = namespace.strip('/').replace('/', '.')
         self.count = 0
         self.counts: Counter[int] = Counter()
@@ -83,24 +95,28 @@ class LogBook:
         Returns
         -------
         LogLine or None
-            The stored line: the level rounded down to one of the five, a long text truncated. None
-            if it is from another namespace.
+            The stored line: the level rounded down to one of the five, a long text truncated, and
+            how often it was logged. None if it is from another namespace.
 
         """
         if not self._is_ours(line.node):
             return None
-        kept = LogLine(
-            line.time_s, _level(line.level), line.node, _shortened(line.text), line.where
-        )
-        self._lines.append(kept)
         self.count += 1
-        self.counts[kept.level] += 1
-        self.nodes.add(kept.node)
+        level, text = _level(line.level), _shortened(line.text)
+        key = line.node, level, DIGITS.sub('', text)
+        _, former = self._lines.pop(key, (0, None))
+        times, number = (former.times + 1, former.number) if former else (1, self.count)
+        kept = LogLine(line.time_s, level, line.node, text, line.where, times, number)
+        self._lines[key] = self.count, kept
+        if len(self._lines) > self._kept:
+            del self._lines[next(iter(self._lines))]
+        self.counts[level] += 1
+        self.nodes.add(line.node)
         return kept
 
     def since(self, count: int) -> list[LogLine]:
         """
-        Return the lines added after a count that are still kept.
+        Return the kept lines that were added or repeated after a count, in order of their times.
 
         Parameters
         ----------
@@ -108,12 +124,13 @@ class LogBook:
             A previous value of `count`; 0 for all.
 
         """
-        fresh = min(self.count - count, len(self._lines))
-        return list(islice(self._lines, len(self._lines) - fresh, None))
+        newest_first = reversed(self._lines.values())
+        fresh = [line for _, line in takewhile(lambda each: each[0] > count, newest_first)]
+        return fresh[::-1]
 
     def news(self, count: int) -> dict[str, Any]:
         """
-        Return the lines added after a count, with the counts by level and the nodes, for the page.
+        Return the lines since a count, with the counts by level and the nodes, for the page.
 
         Parameters
         ----------
@@ -231,7 +248,7 @@ class Log(LivePanel):
     PROPERTIES = (
         NAMESPACE,
         Topic('Topic', '/rosout', 'The topic of the log.', 'rcl_interfaces/msg/Log'),
-        Whole('Kept Messages', 500, 'Number of messages to keep.', 10, 5000),
+        Whole('Kept Messages', 500, 'Number of different messages to keep.', 10, 5000),
         Flag('Pop Up Errors', True, 'Whether errors pop up in all browsers.'),
     )
 
