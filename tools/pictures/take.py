@@ -239,8 +239,7 @@ def show_camera(tab: Any) -> None:
         The page.
 
     """
-    tab.get_by_text('Camera (off)').click()
-    tab.locator('label:has-text("Enabled"):visible').first.click()
+    tab.locator('label:visible', has_text=re.compile('^Camera$')).click()
     tab.get_by_text('messages received on /camera/image_raw').wait_for()
 
 

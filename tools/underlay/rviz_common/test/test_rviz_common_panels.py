@@ -2,6 +2,7 @@
 """Tests of the widgets of the page."""
 
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -9,6 +10,7 @@ from rviz_common.context import Context
 from rviz_common.frames import Frames
 from rviz_common.inputs import WorkQueue
 from rviz_common.page import Page
+from rviz_common.panels.display_switches import DisplaySwitches
 from rviz_common.panels.displays_panel import EntryFolder
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.panels.property_editor import PropertyEditor
@@ -130,6 +132,29 @@ def test_the_tree_follows_the_displays(show: Show) -> None:
     assert folders[1].folder.label == 'Outer (off)'
 
 
+def test_one_click_switches_a_display(show: Show) -> None:
+    """Checkboxes outside of the folders follow the displays, and enable and disable them."""
+    shown = show('Panels:\n  - Class: rviz_common/Displays\n' + GROUP)
+    (panel,) = shown.panels.panels
+    switches: DisplaySwitches = panel._switches  # type: ignore[attr-defined]
+    group, outer = (switches.switches[each] for each in shown.displays.children)
+    assert outer.box.label == 'Outer' and outer.below is None and group.below is not None
+    (inner,) = group.below.switches.values()
+    for entry, switch in switches.switches.items():
+        click(switch.box, False)
+        shown.context.queue.run()
+        assert not entry.is_enabled
+    assert inner.box.label == 'Inner' and inner.box.value
+    shown.displays.children[1].name = 'Other'
+    shown.displays.children[1].enable(True)
+    switches.say()
+    assert (outer.box.label, outer.box.value) == ('Other', True)
+    shown.remove(shown.displays.children[0].children[0])  # type: ignore[attr-defined]
+    shown.remove(shown.displays.children[1])
+    shown.frame()
+    assert list(switches.switches.values()) == [group] and not group.below.switches
+
+
 def test_the_head_names_the_worst_first(show: Show) -> None:
     """The top of the page has the fixed frame, and the displays with something to say."""
     shown = show(GROUP)
@@ -232,6 +257,13 @@ def test_texts_of_others_mean_nothing_to_markdown() -> None:
     status.say('A', Level.ERROR, 'b')
     status.say('C', Level.OK, 'd')
     assert status_text(status) == '✖ **A**: b\n\n✔ **C**: d'
+
+
+def click(box: Any, is_on: bool) -> None:
+    """Do with a checkbox what a browser does."""
+    box.value = is_on
+    for callback in box._impl.update_cb:
+        callback(SimpleNamespace(client=object(), target=box))
 
 
 def tuple_of(value: Any) -> Any:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The panel with the tree of displays: their status and properties, and a way to add one."""
+"""The panel with the displays: which are shown, their status and properties, and new ones."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 from rviz_common.context import Context
 from rviz_common.pace import Pace
 from rviz_common.panel import Panel
+from rviz_common.panels.display_switches import DisplaySwitches
 from rviz_common.panels.property_editor import PropertyEditor
 from rviz_common.plugins import DISPLAYS, load_plugin, plugin_names
 from rviz_common.properties import Text, Topic, topic_path, Values
@@ -24,7 +25,7 @@ NO_TOPIC = '(none)'
 
 
 class DisplaysPanel(Panel):
-    """The tree of displays with their properties, and the global options."""
+    """What is shown, the tree of displays with their properties, and the global options."""
 
     CLASS = 'rviz_common/Displays'
     UNUSED = ('Help Height', 'Property Tree Widget', 'Splitter Ratio', 'Tree Height')
@@ -40,6 +41,8 @@ class DisplaysPanel(Panel):
             self._options = PropertyEditor(
                 self.context, self._visualizer.options, self._visualizer.set_option
             )
+        with gui.add_folder('Shown'):
+            self._switches = DisplaySwitches(self.context, self._visualizer.displays)
         self._add = _AddDisplay(self.context)
         self._tree = gui.add_folder(None)
         self._folders: dict[Entry, EntryFolder] = {}
@@ -63,6 +66,7 @@ class DisplaysPanel(Panel):
         if self._frames.value != self._fixed_frame():
             self._frames.value = self._fixed_frame()
         self._add.update()
+        self._switches.say()
         for folder in self._folders.values():
             folder.say()
 
@@ -77,6 +81,7 @@ class DisplaysPanel(Panel):
                     self._folders[entry] = EntryFolder(self.context, entry)
         for folder in self._folders.values():
             folder.follow()
+        self._switches.follow()
 
     def _fixed_frame(self) -> str:
         return str(self._visualizer.options[FIXED_FRAME])
@@ -87,7 +92,7 @@ class DisplaysPanel(Panel):
 
 class EntryFolder:
     """
-    A folder with a checkbox to enable a display, its status and its properties.
+    A folder with the status and the properties of a display.
 
     Parameters
     ----------
@@ -128,8 +133,6 @@ class EntryFolder:
         if text != self._text.content:
             self._text.content = text
             self._text.visible = bool(text)
-        if self._enabled.value != self._entry.is_enabled:
-            self._enabled.value = self._entry.is_enabled
         for below in self._below.values():
             below.say()
 
@@ -147,8 +150,6 @@ class EntryFolder:
 
     def _add(self) -> None:
         gui, entry = self._context.gui, self._entry
-        self._enabled: Any = gui.add_checkbox('Enabled', entry.is_enabled, hint=entry.class_name)
-        self._context.on_input(self._enabled, entry.enable)
         text = status_text(entry.status)
         self._text = gui.add_markdown(text, visible=bool(text))
         self._editors = []
