@@ -17,6 +17,7 @@ from robot_console.plots.series import parse_all, PathError
 from robot_console.plots.series_chooser import SeriesChooser
 from robot_console.plots.topic_listener import fields_of, TopicListener
 from robot_console.plots.traces import Numbers
+from robot_console.plots.units import shared_unit
 from rviz_common.pace import Pace
 from rviz_common.panel import Panel
 from rviz_common.properties import Number, Text
@@ -93,9 +94,14 @@ class PlotsPanel(Panel):
         if not self.context.server.get_clients():
             return
         if not self._board.is_resting:
-            self._chart.draw(self._board.window_s, self._board.drawn(time.time()))
+            self._draw_curves()
         if self._write.is_due():
             self._legend.content = legend_html(self._board.plotted)
+
+    def _draw_curves(self) -> None:
+        board = self._board
+        unit = shared_unit(each.unit for each in board.plotted)
+        self._chart.draw(board.window_s, board.drawn(time.time()), unit)
 
     def close(self) -> None:
         """Destroy the subscriptions."""
@@ -186,7 +192,7 @@ class PlotsPanel(Panel):
         plotted = self._board.plotted
         texts = [str(each.series) for each in plotted]
         self.values['Series'] = '; '.join(texts)
-        self._chart.draw(self._board.window_s, self._board.drawn(time.time()))
+        self._draw_curves()
         self._chooser.list_series(texts)
         self._listen()
 
@@ -203,7 +209,7 @@ class PlotsPanel(Panel):
 
     def _set_window(self, window_s: float) -> None:
         self.values['Window'] = self._board.window_s = window_s
-        self._chart.draw(window_s, self._board.drawn(time.time()))
+        self._draw_curves()
 
     def _press(self, event: Any) -> None:
         """Post the action of a button to the node thread; called from a thread of the page."""

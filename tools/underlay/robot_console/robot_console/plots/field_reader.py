@@ -16,6 +16,7 @@ from robot_console.plots.fields import (
     Schema,
 )
 from robot_console.plots.series import Element, Field, FieldPath, PathError, Step
+from robot_console.plots.units import unit_of
 from ros_environment.suggestions import did_you_mean
 
 __all__ = ['FieldReader']
@@ -166,6 +167,13 @@ class FieldReader:
     schema
         Returns the fields of a message type.
 
+    Attributes
+    ----------
+    path
+        The path.
+    unit
+        The unit of the number; '' if it is unknown, or if there is none.
+
     Raises
     ------
     PathError
@@ -178,6 +186,7 @@ class FieldReader:
         walk = _Walk(path, type_name, schema)
         self._accesses = [walk.go(step) for step in path.steps]
         walk.check_end()
+        self.unit = unit_of(walk.fields)
 
     def read(self, message: Any) -> float:
         """
@@ -208,6 +217,7 @@ class _Walk:
         self._path, self._schema = path, schema
         self._kind = type_name
         self._kinds = [type_name]
+        self.fields: list[tuple[str, str]] = []
         self._at = path.topic
 
     def go(self, step: Step) -> _Access:
@@ -239,6 +249,7 @@ class _Walk:
                 f"{self._at} has no field '{step.name}', but {', '.join(fields)}. "
                 f'{did_you_mean(step.name, fields, 0.75)}'.rstrip()
             )
+        self.fields.append((self._kind, step.name))
         self._kind = fields[step.name]
         return _FieldAccess(step.name)
 

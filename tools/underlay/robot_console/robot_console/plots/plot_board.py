@@ -11,6 +11,7 @@ from robot_console.plots.field_reader import FieldReader
 from robot_console.plots.fields import Schema
 from robot_console.plots.series import MAX_SERIES, parse_series, PathError, Series
 from robot_console.plots.traces import Numbers, thinned, Trace
+from robot_console.plots.units import shared_unit
 
 __all__ = ['MAX_WINDOW_S', 'PlotBoard', 'Plotted']
 
@@ -47,6 +48,11 @@ class Plotted:
         self.trouble = ''
         self._readers: list[FieldReader | None] = [None] * len(series.paths)
         self._newest: list[tuple[float, float] | None] = [None] * len(series.paths)
+
+    @property
+    def unit(self) -> str:
+        """The unit of the values; '' while it is unknown, or if there is none."""
+        return shared_unit('' if each is None else each.unit for each in self._readers)
 
     def find_type(self, topic: str, type_name: str, schema: Schema) -> None:
         """

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from html import escape
 from math import isfinite
 from typing import Any, TYPE_CHECKING
@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 from robot_console.plots.plot_board import Plotted
 from robot_console.plots.traces import Numbers, slice_times
+from robot_console.plots.units import shared_unit
 from viser import uplot
 
 if TYPE_CHECKING:
@@ -50,11 +51,15 @@ X_AXIS = uplot.Series(label='s')
 WIDER = 1.0 + 1e-9
 """uPlot lays out an axis only when its scale changes; one created hidden would stay empty."""
 NO_CURVE = uplot.Series(label='', show=False)
+LABEL_SIZE = 18
+"""Height of the label of the x axis and width of that of the y axis, in pixels."""
 
 
-def legend_html(plotted: Iterable[Plotted]) -> str:
+def legend_html(plotted: Sequence[Plotted]) -> str:
     """
     Render the legend as HTML: colour, text, latest value and error of each series.
+
+    Units are shown with the values, unless all series have the same: then the axis shows it.
 
     Parameters
     ----------
@@ -62,27 +67,33 @@ def legend_html(plotted: Iterable[Plotted]) -> str:
         The series in the order of their colours, at most 8.
 
     """
-    lines = ''.join(_line(each, COLORS[index]) for index, each in enumerate(plotted))
+    units = [each.unit for each in plotted]
+    shown = [''] * len(units) if shared_unit(units) else units
+    lines = ''.join(map(_line, plotted, shown, COLORS))
     return f'<div class=plot-legend>{lines}</div>' if lines else EMPTY
 
 
-def _line(each: Plotted, color: str) -> str:
-    newest = each.trace.newest
-    value = '' if newest is None else f'{newest:.4g}' if isfinite(newest) else 'no number'
+def _line(each: Plotted, unit: str, color: str) -> str:
     trouble = f'<p>⚠ {escape(each.trouble)}</p>' if each.trouble else ''
     return (
         f'<div><b style="background:{color}"></b><span>{escape(str(each.series))}</span>'
-        f'<i>{value}</i></div>{trouble}'
+        f'<i>{_value(each.trace.newest, unit)}</i></div>{trouble}'
     )
+
+
+def _value(newest: float | None, unit: str) -> str:
+    if newest is None:
+        return ''
+    return f'{newest:.4g} {unit}'.rstrip() if isfinite(newest) else 'no number'
 
 
 class PlotChart:
     """
     The viser widget that draws curves over a time window.
 
-    The widget is replaced whenever the number of curves or the scale changes: a browser receives
-    the curves and the options of a widget one after the other, and uPlot fails if they do not
-    match.
+    The widget is replaced whenever the number of curves, the scale or the unit changes: a browser
+    receives the curves and the options of a widget one after the other, and uPlot fails if they do
+    not match.
 
     Parameters
     ----------
@@ -94,11 +105,11 @@ class PlotChart:
     def __init__(self, server: ViserServer) -> None:
         self._server = server
         self._place = server.gui.add_folder(None)
-        self._count, self._is_zero = 0, True
+        self._count, self._is_zero, self._unit = 0, True, ''
         self._is_wider = False
         self._chart = self._new_chart(np.array([-1.0, 0.0]))
 
-    def draw(self, window_s: float, curves: Sequence[Numbers]) -> None:
+    def draw(self, window_s: float, curves: Sequence[Numbers], unit: str) -> None:
         """
         Draw curves over a time window.
 
@@ -108,14 +119,17 @@ class PlotChart:
             The length of the window, in s; it ends at the current time.
         curves
             The values of each curve (800,), at the times of `slice_times`; NaN creates a gap.
+        unit
+            The unit of all values, which is shown at the axis; '' if they have none in common.
 
         """
         self._is_wider = not self._is_wider
         times = slice_times(window_s) * (WIDER if self._is_wider else 1.0)
-        kind = len(curves), not any(np.nan_to_num(curve).any() for curve in curves)
+        is_zero = not any(np.nan_to_num(curve).any() for curve in curves)
+        kind = len(curves), is_zero, unit
         with self._server.atomic():
-            if kind != (self._count, self._is_zero):
-                self._count, self._is_zero = kind
+            if kind != (self._count, self._is_zero, self._unit):
+                self._count, self._is_zero, self._unit = kind
                 self._chart.remove()
                 self._chart = self._new_chart(times)
             shown = curves or [np.zeros(len(times))]
@@ -123,7 +137,7 @@ class PlotChart:
             self._chart._queue_update('data', tuple(map(_encoded, (times, *shown))))
 
     def _new_chart(self, times: Numbers) -> Any:
-        """Add a widget for the current number of curves."""
+        """Add a widget for the current number of curves, scale and unit."""
         gui: GuiApi = self._server.gui
         series = [
             uplot.Series(label=f'{number}', stroke=color, width=1.5, spanGaps=False)
@@ -134,10 +148,18 @@ class PlotChart:
                 (times, *(np.zeros(len(times)) for _ in series)),
                 (X_AXIS, *series),
                 scales=AROUND_ZERO if self._is_zero else FREE,
+                axes=(_axis('s'), _axis(self._unit)),
                 legend=uplot.Legend(show=False),
                 height=HEIGHT,
                 padding=(10, 16, 0, 0),
             )
+
+
+def _axis(unit: str) -> uplot.Axis:
+    """Return an axis with a unit; without one, nothing is left free for it."""
+    if not unit:
+        return uplot.Axis()
+    return uplot.Axis(label=unit, labelSize=LABEL_SIZE, labelGap=0, labelFont='11px sans-serif')
 
 
 def _encoded(numbers: Numbers) -> Any:

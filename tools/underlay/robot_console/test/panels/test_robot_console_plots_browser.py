@@ -20,6 +20,7 @@ POSITION = 'joint_states.position[a]'
 CHARTS = 'Object.values((window.__viserTestpoints || {}).uplots || {}).map(each => each.chart)'
 CURVES = f'{CHARTS}.map(chart => chart.data.slice(1).filter(curve => curve.some(Number.isFinite)))'
 DRAWN = f'{CURVES}.map(curves => curves.length)'
+LABELS = f'{CHARTS}.map(chart => chart.axes.map(axis => axis.label ?? null))'
 TICKS = f'{CHARTS}.map(chart => chart.axes.map(axis => (axis._splits || []).length))'
 
 
@@ -61,3 +62,4 @@ def test_other_series(
         series = parse_all(text)
         panel.show(series)
         work_until(panel, lambda count=len(series): is_drawn(count), move)
+    assert tab.evaluate(LABELS) == [['s', 'rad or m']]
