@@ -99,6 +99,11 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     tab.picture('console_moving')
 
 
+def test_the_page_opens_on_drive(tab: Tab) -> None:
+    """What a person does first is in front."""
+    tab.page.get_by_role('tab', name='Drive', exact=True, selected=True).wait_for()
+
+
 def test_a_parameter_is_changed(robot: World, tab: Tab) -> None:
     """A value that is typed in the page is that of the node; a refusal is shown."""
     tab.show('Parameters')

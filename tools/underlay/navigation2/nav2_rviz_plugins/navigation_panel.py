@@ -34,6 +34,7 @@ class NavigationPanel(LivePanel):
     """Send a robot somewhere: goals and waypoints, how far it is, and why it did not get there."""
 
     CLASS = 'nav2_rviz_plugins/Navigation 2'
+    FOLLOWS = 'robot_console/Plots'
     PAGE = 'navigation'
     PACKAGE = 'nav2_rviz_plugins'
 

@@ -53,6 +53,8 @@ class Panel:
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     UNUSED: ClassVar[tuple[str, ...]] = ()
     """Properties of RViz, by top-level name, that do not apply in a browser."""
+    FOLLOWS: ClassVar[str] = ''
+    """The class of the panel next to whose tab a panel on demand appears; '' for the last tab."""
     IS_ALWAYS_VISIBLE: ClassVar[bool] = False
     """Whether it is outside the tabs; it must then remove its widgets itself when closed."""
 

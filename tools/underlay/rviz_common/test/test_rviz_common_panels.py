@@ -10,6 +10,8 @@ from rviz_common.context import Context
 from rviz_common.frames import Frames
 from rviz_common.inputs import WorkQueue
 from rviz_common.page import Page
+from rviz_common.panel import Panel
+from rviz_common.panels import panel_tabs
 from rviz_common.panels.display_switches import DisplaySwitches
 from rviz_common.panels.displays_panel import EntryFolder
 from rviz_common.panels.panel_tabs import PanelTabs
@@ -197,6 +199,45 @@ def test_a_panel_that_fails_harms_no_other(context: Context, show: Show, capfd: 
     assert isinstance(shown.panels, PanelTabs)
     assert shown.panels.unknown == ['a/B']
     assert shown.panels.to_file() == [{'Class': 'rviz_common/Time'}, {'Class': 'a/B', 'X': 1}]
+
+
+class Awaited(Panel):
+    """A panel on demand, which is wanted from the start."""
+
+    CLASS = 'a/Awaited'
+    FOLLOWS = 'rviz_common/Views'
+
+    @classmethod
+    def is_wanted(cls, node: Any) -> bool:
+        """Want it."""
+        return True
+
+    def start(self) -> None:
+        """Add nothing."""
+
+
+@pytest.mark.parametrize(
+    ('followed', 'tabs'),
+    [('rviz_common/Views', 'Views Awaited Time'), ('b/Missing', 'Views Time Awaited')],
+)
+def test_a_panel_on_demand_appears_where_it_belongs(
+    show: Show, monkeypatch: pytest.MonkeyPatch, followed: str, tabs: str
+) -> None:
+    """Its tab is next to that of the panel that it follows, or else the last one."""
+    load = panel_tabs.load_plugin
+    plugins = {Awaited.CLASS: Awaited}
+    monkeypatch.setattr(Awaited, 'FOLLOWS', followed)
+    monkeypatch.setattr(panel_tabs, 'plugin_names', lambda group: list(plugins))
+    monkeypatch.setattr(
+        panel_tabs, 'load_plugin', lambda group, name: plugins.get(name) or load(group, name)
+    )
+    shown = show('Panels:\n  - Class: rviz_common/Views\n  - Class: rviz_common/Time\n')
+    assert shown.panels._tabs._tab_labels == ('Views', 'Time')
+    shown.frame()
+    assert shown.panels._tabs._tab_labels == tuple(tabs.split())
+    assert [each['Class'] for each in shown.panels.to_file()] == [
+        'rviz_common/Views', 'rviz_common/Time',
+    ]  # fmt: skip
 
 
 def test_a_panel_with_a_value_that_cannot_be_used(show: Show, capfd: Any) -> None:

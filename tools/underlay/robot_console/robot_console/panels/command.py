@@ -44,6 +44,7 @@ class Command(LivePanel):
     """
 
     CLASS = 'robot_console/Command'
+    FOLLOWS = 'robot_console/Drive'
     PAGE = 'command'
     PROPERTIES = (
         NAMESPACE,

@@ -107,6 +107,18 @@ class PanelTabs:
             self._tabs = self._context.gui.add_tab_group(order=TABS_ORDER)
         if self._started(panel):
             self._running.append(panel)
+        self._move(panel)
+
+    def _move(self, panel: Panel) -> None:
+        """Move the tab of a panel on demand next to that of the panel that it follows."""
+        tab = self._places[panel]
+        others = [each for each in self._tabs._tab_handles if each is not tab]
+        followed = [self._places[each] for each in self.panels if each.CLASS == panel.FOLLOWS]
+        for index, other in enumerate(others, 1):
+            if any(other is each for each in followed):  # viser has only a way to append tabs
+                self._tabs._tab_handles = [*others[:index], tab, *others[index:]]
+                self._tabs._rebuild_tab_props()
+                return
 
     def _made(self, entry: Mapping[str, Any]) -> Panel | Mapping[str, Any]:
         try:
