@@ -60,6 +60,21 @@ def test_title() -> None:
         assert b'<title>Viser' not in gzip.decompress(body)
 
 
+def test_name_and_icon() -> None:
+    """Browsers can show another name and an icon; who lacks the token sees the title."""
+    with Page('RViz', PageSettings()) as page:
+        page.present('Left & right', '<svg>"#"</svg>')
+        cookie = ask(page, f'/?token={page.settings.token}').getheader('Set-Cookie', '')
+        text = ask(page, Cookie=cookie.partition(';')[0]).read()
+        assert b'<title>Left &amp; right</title>' in text
+        assert text.count(b'rel="icon"') == 1
+        assert b'href="data:image/svg+xml,%3Csvg%3E%22%23%22%3C/svg%3E"' in text
+        assert 'RViz is at http' in ask(page, Accept='text/html').read().decode()
+        page.present('RViz')
+        text = ask(page, Cookie=cookie.partition(';')[0]).read()
+        assert b'<title>RViz</title>' in text and b'%3Csvg%3E%22' not in text
+
+
 def test_listens_here_only(page: Page) -> None:
     """No other address of the machine serves the page."""
     other = socket.create_server(('127.0.0.2', page.port))

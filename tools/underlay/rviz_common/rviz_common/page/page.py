@@ -9,7 +9,9 @@ from contextlib import contextmanager
 import functools
 import gzip
 from html import escape
+import re
 from typing import Any
+from urllib.parse import quote
 
 import rich
 from rviz_common.page.address import PageSettings
@@ -52,6 +54,7 @@ class Page(GatedPage):
 
     def __init__(self, title: str, settings: PageSettings | None = None) -> None:
         super().__init__(title, settings)
+        self._name, self._icon = title, ''
         rich.get_console().quiet = True  # viser prints addresses, but not the token
         self.uploads = Uploads()
         with _gated(self, self._options_of):
@@ -90,6 +93,41 @@ class Page(GatedPage):
             for message in (complete, RemoveNotificationMessage(f'upload-{start.transfer_uuid}')):
                 client.gui._websock_interface.queue_message(message)
 
+    def present(self, name: str, icon: str = '') -> None:
+        """
+        Name the page in browsers, from when they load it: in their tabs and above the widgets.
+
+        The page is still found under `title`, which the log and the page that asks for the token
+        mention.
+
+        Parameters
+        ----------
+        name
+            The name, as plain text.
+        icon
+            The icon of the browser's tab, as the text of an SVG file; '' for that of viser.
+
+        """
+        self._name, self._icon = name, icon
+        self.viser.gui.set_panel_label(name)
+
+    def entitle(self, response: Response) -> None:
+        """
+        Put the name and the icon into a response; responses that are not HTML stay as they are.
+
+        Parameters
+        ----------
+        response
+            The response of viser, possibly compressed with gzip; it is changed in place.
+
+        """
+        if not response.headers.get('Content-Type', '').startswith('text/html'):
+            return
+        is_packed = response.headers.get('Content-Encoding') == 'gzip'
+        response.body = _entitled(bytes(response.body), self._name, self._icon, is_packed)
+        del response.headers['Content-Length']
+        response.headers['Content-Length'] = str(len(response.body))
+
     def _options_of(self, widget: str) -> tuple[str, ...] | None:
         """Return the options of a choice widget, None if there is no such widget."""
         handle = self.viser.gui._gui_input_handle_from_uuid.get(widget)
@@ -104,6 +142,7 @@ class Page(GatedPage):
 # Larger than the chunks of half a megabyte in which browsers send files.
 LARGEST_BYTES = 2_000_000
 OF_VISER = b'<title>Viser</title>'
+ICON_OF_VISER = re.compile(rb'(<link\s+rel="icon"\s+href=")[^"]*"')
 
 
 @contextmanager
@@ -162,7 +201,7 @@ def _answering(page: Page, answer: Any) -> Any:
             response: Response | None = answer(connection, request)
             if response is not None:
                 response.headers['Content-Security-Policy'] = POLICY
-                _entitle(response, page.title)
+                page.entitle(response)
             return response
 
         return page.response_to(request, of_viser)
@@ -188,28 +227,11 @@ def _routed(handler: Any, page: Page, options_of: OptionsOf) -> Any:
     return talk
 
 
-def _entitle(response: Response, title: str) -> None:
-    """
-    Replace the title of the page in a response; responses that are not HTML stay as they are.
-
-    Parameters
-    ----------
-    response
-        The response of viser, possibly compressed with gzip; it is changed in place.
-    title
-        The title of the browser's tab, as plain text.
-
-    """
-    if not response.headers.get('Content-Type', '').startswith('text/html'):
-        return
-    is_packed = response.headers.get('Content-Encoding') == 'gzip'
-    response.body = _entitled(bytes(response.body), title, is_packed)
-    del response.headers['Content-Length']
-    response.headers['Content-Length'] = str(len(response.body))
-
-
 @functools.lru_cache(maxsize=4)
-def _entitled(body: bytes, title: str, is_packed: bool) -> bytes:
+def _entitled(body: bytes, name: str, icon: str, is_packed: bool) -> bytes:
     text = gzip.decompress(body) if is_packed else body
-    text = text.replace(OF_VISER, f'<title>{escape(title)}</title>'.encode())
+    text = text.replace(OF_VISER, f'<title>{escape(name)}</title>'.encode())
+    if icon:
+        data = f'data:image/svg+xml,{quote(icon)}'.encode()
+        text = ICON_OF_VISER.sub(lambda found: found[1] + data + b'"', text, count=1)
     return gzip.compress(text, 6) if is_packed else text
