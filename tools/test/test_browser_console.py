@@ -100,8 +100,12 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
 
 
 def test_the_page_opens_on_drive(tab: Tab) -> None:
-    """What a person does first is in front."""
+    """What a person does first is in front; above it stands what the robot does."""
     tab.page.get_by_role('tab', name='Drive', exact=True, selected=True).wait_for()
+    bar = tab.small('robot')
+    bar.locator('#words').filter(has_text='Ready').wait_for()
+    bar.locator('#why').filter(has_text='No simulator is running').wait_for()
+    assert tab.page.title() == 'Humanoid'
 
 
 def test_a_parameter_is_changed(robot: World, tab: Tab) -> None:

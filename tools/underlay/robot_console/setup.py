@@ -38,6 +38,7 @@ setup(
             'robot_console/Parameters = robot_console.panels.parameters:Parameters',
             'robot_console/Plots = robot_console.panels.plots_panel:PlotsPanel',
             'robot_console/Recordings = robot_console.panels.recordings:Recordings',
+            'robot_console/Robot = robot_console.panels.robot:Robot',
             'robot_console/Safety = robot_console.panels.safety:Safety',
             'robot_console/Services = robot_console.panels.services:Services',
             'robot_console/Topics = robot_console.panels.topics:Topics',

@@ -27,6 +27,8 @@ class LivePanel(Panel):
     """The name of the page and of its file."""
     PACKAGE: ClassVar[str] = 'robot_console'
     """The package that contains the file, in its folder `web`."""
+    ORDER: ClassVar[float | None] = None
+    """The order of the page among the widgets; None to append it."""
     PERIOD_S: ClassVar[float] = 0.2
     PROPERTIES: ClassVar[tuple[Property, ...]] = (NAMESPACE,)
 
@@ -41,6 +43,7 @@ class LivePanel(Panel):
             namespace,
             self.settings(),
             self.channel,
+            self.ORDER,
             package=self.PACKAGE,
         )
         try:

@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 import time
+from typing import Any
 from weakref import WeakKeyDictionary
 
 from rclpy.event_handler import SubscriptionEventCallbacks
@@ -17,7 +18,16 @@ from rviz_common.context import Context
 from rviz_common.page import Page
 from std_msgs.msg import Bool, String
 
-__all__ = ['COMMAND', 'LATCHED', 'Control', 'EmergencyStop', 'People', 'RobotLink', 'link_of']
+__all__ = [
+    'COMMAND',
+    'LATCHED',
+    'Control',
+    'EmergencyStop',
+    'People',
+    'RobotLink',
+    'link_of',
+    'node_names',
+]
 
 LATCHED = QoSProfile(
     depth=1,
@@ -240,6 +250,7 @@ class RobotLink:
     """
 
     def __init__(self, node: Node, namespace: str) -> None:
+        self._node = node
         self.control = Control()
         self.stop = EmergencyStop()
         self.people = People()
@@ -290,11 +301,29 @@ class RobotLink:
             self._beat_s = now_s
             self._beat_publisher.publish(Bool(data=in_control))
 
+    def stop_publishers(self) -> set[str]:
+        """Return the names of the other nodes that publish the emergency stop."""
+        ends = self._node.get_publishers_info_by_topic(self.stop_topic)
+        return node_names(ends) - {self._node.get_fully_qualified_name()}
+
     def _hear(self, message: Bool) -> None:
         self.stop.hear(message.data)
 
     def _hear_answer(self, message: String) -> None:
         self.holds_because = message.data
+
+
+def node_names(ends: Iterable[Any]) -> set[str]:
+    """
+    Return the fully qualified names of the nodes of publishers or subscriptions.
+
+    Parameters
+    ----------
+    ends
+        The `TopicEndpointInfo` of each.
+
+    """
+    return {f'{end.node_namespace.rstrip("/")}/{end.node_name}' for end in ends}
 
 
 _LINKS: WeakKeyDictionary[Page, dict[str, RobotLink]] = WeakKeyDictionary()

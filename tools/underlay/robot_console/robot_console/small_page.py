@@ -15,7 +15,7 @@ from websockets.asyncio.server import ServerConnection
 
 __all__ = ['SmallPage', 'Talks', 'page_text']
 
-COMMON = ('common.css', 'link.js', 'live.css', 'live.js')
+COMMON = ('common.css', 'link.js', 'live.css', 'live.js', 'stay.js')
 # The main page dims and blocks its widgets when its connection is lost; embedded pages have
 # another connection.
 STYLE = 'display: block; width: 100%; border: 0; color-scheme: dark; pointer-events: auto'

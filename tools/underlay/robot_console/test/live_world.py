@@ -23,6 +23,7 @@ from robot_console.panels.diagnostics import Diagnostics
 from robot_console.panels.log import Log
 from robot_console.panels.objects import Objects
 from robot_console.panels.parameters import Parameters
+from robot_console.panels.robot import Robot
 from robot_console.panels.services import Services
 from robot_console.panels.topics import Topics
 from rviz_common.context import Context
@@ -34,7 +35,8 @@ from websockets.sync.client import connect
 __all__ = ['PANELS', 'LiveWorld', 'live_world']
 
 PANELS = {'log': Log, 'diagnostics': Diagnostics, 'topics': Topics}
-PANELS |= {'command': Command, 'objects': Objects, 'parameters': Parameters, 'services': Services}
+PANELS |= {'command': Command, 'objects': Objects, 'parameters': Parameters, 'robot': Robot}
+PANELS |= {'services': Services}
 
 
 class LiveWorld:

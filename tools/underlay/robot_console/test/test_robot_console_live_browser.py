@@ -10,7 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from live_world import live_world, LiveWorld, PANELS
 import pytest
 from std_msgs.msg import String
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 
 EVIL = '<img src=x onerror="throw 1">'
 
@@ -145,6 +145,24 @@ def test_services(world: LiveWorld, tab: Any) -> None:
     shows(world, tab, '#response', EVIL)
     tab.locator('#all').check()
     assert 'set_parameters' in tab.locator('#list').text_content()
+
+
+def test_robot(world: LiveWorld, tab: Any) -> None:
+    """A button says why it is disabled, or calls its service; a rejection is shown as text."""
+
+    def refuse(request: Any, response: Any) -> Any:
+        response.message = EVIL
+        return response
+
+    show(world, tab, 'robot')
+    shows(world, tab, '#why', 'No simulator is running')
+    stand_up = tab.get_by_role('button', name='Stand up')
+    assert stand_up.is_disabled() and "no service '/stand_up'" in stand_up.get_attribute('title')
+    world.robot.create_service(Trigger, '/stand_up', refuse)
+    world.wait_until(stand_up.is_enabled, 'still disabled')
+    stand_up.click()
+    shows(world, tab, '#said', EVIL)
+    assert tab.locator('body').bounding_box()['height'] < 120
 
 
 @pytest.mark.parametrize('name', PANELS)

@@ -24,8 +24,18 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from robot_console.panels.command import Command
 from robot_console.panels.objects import Objects
-from std_msgs.msg import Header, String
-from std_srvs.srv import SetBool
+from simulation_interfaces.msg import Resource, Result, SimulationState, WorldResource
+from simulation_interfaces.srv import (
+    GetAvailableWorlds,
+    GetCurrentWorld,
+    GetSimulationState,
+    LoadWorld,
+    ResetSimulation,
+    SetSimulationState,
+    StepSimulation,
+)
+from std_msgs.msg import Bool, Header, String
+from std_srvs.srv import SetBool, Trigger
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
 LATCHED = QoSProfile(
@@ -347,6 +357,148 @@ def test_service_that_does_not_answer(world: LiveWorld) -> None:
     assert failed == "'/stuck' did not respond within 1 s."
     dead.destroy_node()
     other.try_shutdown()
+
+
+class Simulator:
+    """Services of a simulator that loads, pauses and resets, but never steps."""
+
+    def __init__(self, node: Node) -> None:
+        self.asked: list[str] = []
+        self.state, self.world = SimulationState.STATE_PLAYING, 'flat'
+        for kind, name, answer in (
+            (GetSimulationState, 'get_simulation_state', self._tell),
+            (SetSimulationState, 'set_simulation_state', self._set),
+            (ResetSimulation, 'reset_simulation', self._note),
+            (StepSimulation, 'step_simulation', self._refuse),
+            (GetAvailableWorlds, 'get_available_worlds', self._list),
+            (GetCurrentWorld, 'get_current_world', self._tell_world),
+            (LoadWorld, 'load_world', self._load),
+        ):
+            node.create_service(kind, f'/simulator/{name}', answer)
+        node.create_service(Trigger, 'stand_up', self._lift)
+
+    def _note(self, request: Any, response: Any) -> Any:
+        self.asked.append(type(request).__qualname__)
+        response.result.result = Result.RESULT_OK
+        return response
+
+    def _refuse(self, request: Any, response: Any) -> Any:
+        response.result.error_message = f'{request.steps} steps are too many.'
+        return response
+
+    def _tell(self, request: Any, response: Any) -> Any:
+        response.state.state = self.state
+        return response
+
+    def _set(self, request: Any, response: Any) -> Any:
+        self.state = request.state.state
+        return self._note(request, response)
+
+    def _list(self, request: Any, response: Any) -> Any:
+        for name in ('room', 'flat'):
+            response.worlds.append(WorldResource(name=name, world_resource=Resource(uri=name)))
+        response.result.result = Result.RESULT_OK
+        return response
+
+    def _tell_world(self, request: Any, response: Any) -> Any:
+        response.world.world_resource.uri = self.world
+        response.result.result = Result.RESULT_OK
+        return response
+
+    def _load(self, request: Any, response: Any) -> Any:
+        self.world, self.state = request.uri, SimulationState.STATE_STOPPED
+        return self._note(request, response)
+
+    def _lift(self, request: Any, response: Any) -> Any:
+        self.asked.append('stand_up')
+        response.success = True
+        return response
+
+
+def said(*texts: str) -> Any:
+    """Return what holds for words of a state that are these."""
+    return lambda found: [text for text, _ in found] == list(texts)
+
+
+def test_robot_without_a_simulator(world: LiveWorld) -> None:
+    """Each button is disabled with its reason; the state is that of the robot and its stop."""
+    page = world.visit('robot', Namespace='robot1')
+    told = page.wait_for('words', said('The robot does not report its state'))
+    assert "no service '/robot1/stand_up'" in told['why']['stand_up']
+    for button in ('reset', 'pause', 'step', 'world'):
+        assert told['why'][button].startswith('No simulator is running')
+    page.ask('reset')
+    page.wait_for('refusal', lambda refusal: refusal.startswith('No simulator is running'))
+    state = world.robot.create_publisher(String, 'walking_state', LATCHED)
+    state.publish(String(data='fallen'))
+    page.wait_for('words', said('Fallen: hold it upright'))
+    stop = world.robot.create_publisher(Bool, 'emergency_stop', LATCHED)
+    stop.publish(Bool(data=True))
+    page.wait_for('words', said('Stopped by /robot1/robot', 'Fallen: hold it upright'))
+    stop.publish(Bool(data=False))
+    state.publish(String(data='stand'))
+    page.wait_for('words', said('Ready'))
+    world.robot.destroy_publisher(state)
+    page.told.clear()
+    page.wait_for('words', said('The robot does not report its state'))
+
+
+def test_robot_with_a_simulator(world: LiveWorld) -> None:
+    """The buttons call the services; a rejection is shown, and what is paused."""
+    simulator = Simulator(world.robot)
+    state = world.robot.create_publisher(String, 'walking_state', LATCHED)
+    state.publish(String(data='fallen'))
+    page = world.visit('robot', Namespace='robot1', Steps=7)
+    page.wait_for('words', said('Fallen: press Stand up'))
+    told = page.wait_for('world', lambda name: name == 'flat')
+    told = page.wait_for('worlds', lambda worlds: [each[1] for each in worlds] == ['flat', 'room'])
+    assert {button for button, why in told['why'].items() if why} == {'step'}
+    for button in ('stand_up', 'reset'):
+        page.told.clear()
+        page.ask(button)
+        assert page.wait_for('said', lambda reason: reason == '')
+    assert simulator.asked == ['stand_up', 'ResetSimulation_Request']
+    state.publish(String(data='stand'))
+    page.ask('pause')
+    told = page.wait_for('words', said('Paused'))
+    assert told['paused'] and not told['why']['step']
+    page.ask('step')
+    page.wait_for('said', lambda reason: reason == '7 steps are too many.')
+    page.ask('play')
+    page.wait_for('words', said('Ready'))
+
+
+def test_scenes(world: LiveWorld) -> None:
+    """A scene that is chosen runs at once, unless the last one was paused."""
+    simulator = Simulator(world.robot)
+    page = world.visit('robot')
+    page.wait_for('worlds', bool)
+    page.ask('world', uri='moon')
+    page.wait_for('refusal', lambda refusal: 'no longer offers' in refusal)
+    world.wait_until(lambda: world.panels[0]._simulator.state == 1, 'not playing')
+    page.ask('world', uri='room')
+    page.wait_for('world', lambda name: name == 'room')
+    world.wait_until(lambda: simulator.state == SimulationState.STATE_PLAYING, 'not playing')
+    page.ask('pause')
+    page.wait_for('words', said('Paused'))
+    page.ask('world', uri='flat')
+    page.wait_for('words', said('Paused at the start'))
+    page.wait_for('world', lambda name: name == 'flat')
+    assert simulator.asked[-1] == 'LoadWorld_Request'
+
+
+def test_title_of_the_page(world: LiveWorld) -> None:
+    """The page has the title of the panel as long as the panel is shown."""
+
+    def title() -> str:
+        connection = HTTPConnection('127.0.0.1', world.page.port, timeout=100)
+        connection.request('GET', '/')
+        return connection.getresponse().read().decode().partition('<title>')[2].partition('<')[0]
+
+    world.start('robot', Title='Humanoid')
+    assert title() == 'Humanoid'
+    world.panels.pop().close()
+    assert title() == 'test'
 
 
 @pytest.mark.parametrize('name', PANELS)

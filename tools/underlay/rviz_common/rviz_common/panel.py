@@ -13,11 +13,20 @@ from rviz_common.properties import Property, Values
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ['ALWAYS_ORDER', 'FILE_ORDER', 'STATUS_ORDER', 'TABS_ORDER', 'TOOLS_ORDER', 'Panel']
+__all__ = [
+    'ALWAYS_ORDER',
+    'BAR_ORDER',
+    'FILE_ORDER',
+    'STATUS_ORDER',
+    'TABS_ORDER',
+    'TOOLS_ORDER',
+    'Panel',
+]
 
 COMMON = ('Class', 'Name')
 
 # The vertical order of the widgets in the page; those not listed are numbered from 0.
+BAR_ORDER = -60.0
 ALWAYS_ORDER = -50.0
 STATUS_ORDER = -40.0
 FILE_ORDER = -30.0

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 import math
 import time
@@ -13,7 +13,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from robot_console.control_page import Connections, Session
 from robot_console.namespaces import NAMESPACE
-from robot_console.robot_link import link_of, RobotLink
+from robot_console.robot_link import link_of, node_names, RobotLink
 from robot_console.small_page import SmallPage
 from rviz_common.panel import ALWAYS_ORDER, Panel
 from rviz_common.properties import Choice
@@ -220,20 +220,15 @@ class Safety(Panel):
         """Collect the facts about the robot from the ROS graph."""
         node, topic = self.context.node, self._link.stop_topic
         own = node.get_fully_qualified_name()
-        speakers = _names(node.get_publishers_info_by_topic(topic)) - {own}
-        listeners = _names(node.get_subscriptions_info_by_topic(topic)) - {own}
+        listeners = node_names(node.get_subscriptions_info_by_topic(topic)) - {own}
         is_said = node.count_publishers(self._link.state_topic) > 0
         return Facts(
             robot_kind(self.values['Robot'], node.count_publishers('/clock')),
             tuple(sorted(filter(_may_be_robot, listeners))),
-            tuple(sorted(speakers)),
+            tuple(sorted(self._link.stop_publishers())),
             self._link.holds_because if is_said else None,
             self._pace.factor(time.monotonic()),
         )
-
-
-def _names(ends: Iterable[Any]) -> set[str]:
-    return {f'{end.node_namespace.rstrip("/")}/{end.node_name}' for end in ends}
 
 
 def _may_be_robot(name: str) -> bool:

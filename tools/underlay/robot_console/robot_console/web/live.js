@@ -91,10 +91,14 @@ function fill(list, items, empty) {
   list.replaceChildren(...children);
 }
 
-// The frame around takes the room that is left below what is above it.
+// The frame around takes the room that is left below what is above it; that of a slim page is as high as what is in it.
 function fit() {
   const frame = window.frameElement;
   if (!frame) return;
+  if (document.body.classList.contains('slim')) {
+    frame.style.height = `${document.body.offsetHeight}px`;
+    return;
+  }
   const room = window.parent.innerHeight;
   const free = room - Math.max(frame.getBoundingClientRect().top, 60) - 16;
   frame.style.height = `${Math.round(Math.max(440, Math.min(free, room - 60)))}px`;

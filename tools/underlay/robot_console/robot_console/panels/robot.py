@@ -1,0 +1,348 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Panel with the state of a robot in words, and buttons for the robot and its simulator."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from importlib.resources import files
+import time
+from typing import Any
+
+from robot_console.live_panel import LivePanel
+from robot_console.namespaces import NAMESPACE
+from robot_console.panels.safety import RealTimeFactor
+from robot_console.robot_link import LATCHED, link_of
+from robot_console.service_calls import ServiceCalls
+from robot_console.simulator_link import failure_of, SimulatorLink
+from rviz_common.pace import Pace
+from rviz_common.page.channel import Action, Viewer
+from rviz_common.panel import BAR_ORDER
+from rviz_common.properties import Text, Whole
+from simulation_interfaces.msg import SimulationState
+from simulation_interfaces.srv import (
+    LoadWorld,
+    ResetSimulation,
+    SetSimulationState,
+    StepSimulation,
+)
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+__all__ = ['Robot', 'slowness', 'stopped_by', 'words']
+
+WALKING = {
+    'stand': ('Ready', 'good'),
+    'walk': ('Walking', 'good'),
+    'stop': ('Coming to a stand', 'good'),
+    'blocked': ('Blocked: turn it, or walk another way', 'warn'),
+    'fallen': ('Fallen', 'bad'),
+    'stand_up': ('Getting up', 'warn'),
+}
+SIMULATION = {
+    SimulationState.STATE_STOPPED: ('Paused at the start', 'warn'),
+    SimulationState.STATE_PAUSED: ('Paused', 'warn'),
+    SimulationState.STATE_QUITTING: ('The simulator is ending', 'warn'),
+    SimulationState.STATE_NO_WORLD: ('No scene is loaded: choose one', 'warn'),
+    SimulationState.STATE_LOADING_WORLD: ('Loading the scene', 'warn'),
+}
+UNKNOWN = ('The robot does not report its state', 'dim')
+MATTERS = ('blocked', 'fallen', 'stand_up')
+"""States of the walk that are shown beside a pause or a stop."""
+SLOW = 0.5
+TOO_SLOW = (
+    'The simulation takes more than twice as long as reality: this computer is overloaded, or the '
+    'simulation was slowed down on purpose.'
+)
+NO_STAND_UP = "Nothing can stand this robot up: there is no service '{}'. A simulator offers it."
+NAMED = 3
+LOAD_S = 60.0
+"""The time that a simulator may take to load a scene."""
+
+Word = tuple[str, str]
+"""A text, and how it looks: `good`, `warn`, `bad` or `dim`."""
+
+
+def stopped_by(person: str, publishers: set[str]) -> str:
+    """
+    Name who has pressed the emergency stop.
+
+    Parameters
+    ----------
+    person
+        The user of this console who did; '' if it was another node.
+    publishers
+        The other nodes that publish the emergency stop.
+
+    """
+    if person:
+        return person
+    names = sorted(publishers)
+    more = f' and {len(names) - NAMED} more' if len(names) > NAMED else ''
+    return ', '.join(names[:NAMED]) + more or 'someone who has left'
+
+
+def words(
+    walking: str | None, stopped: str, holds_because: str, simulation: int | None, can_rise: bool
+) -> list[Word]:
+    """
+    Describe the state of a robot, what matters most first.
+
+    Parameters
+    ----------
+    walking
+        The walking state; None if no node publishes it.
+    stopped
+        Who has pressed the emergency stop; '' while it is not pressed.
+    holds_because
+        Why the robot holds still, as it reports; '' if it moves or does not report it.
+    simulation
+        The state of the simulation, of `simulation_interfaces/msg/SimulationState`; None if it is
+        unknown or there is none.
+    can_rise
+        Whether a service can stand the robot up.
+
+    """
+    found: list[Word] = []
+    if simulation in SIMULATION:
+        found.append(SIMULATION[simulation])
+    if stopped:
+        found.append((f'Stopped by {stopped}', 'bad'))
+    elif holds_because:
+        found.append((f'Holds still: {holds_because}', 'warn'))
+    if walking is None:
+        return found or [UNKNOWN]
+    if walking in MATTERS or not found:
+        text, look = WALKING.get(walking, (f"Does not walk: mode '{walking}'", 'dim'))
+        advice = ': press Stand up' if can_rise else ': hold it upright'
+        found.append((text + advice if walking == 'fallen' else text, look))
+    return found
+
+
+def slowness(factor: float | None) -> str:
+    """
+    Explain a real-time factor that is too low; '' if it is not.
+
+    Parameters
+    ----------
+    factor
+        Simulated seconds per real second; None if it is unknown.
+
+    """
+    return TOO_SLOW if factor is not None and factor < SLOW else ''
+
+
+class Robot(LivePanel):
+    """
+    The state of a robot in words; buttons to stand it up, reset, pause and step, and its scenes.
+
+    The simulator is the node that offers the services of `simulation_interfaces`. While the panel
+    is shown, the page has its title, and the icon of the console.
+
+    """
+
+    CLASS = 'robot_console/Robot'
+    PAGE = 'robot'
+    IS_ALWAYS_VISIBLE = True
+    ORDER = BAR_ORDER
+    PROPERTIES = (
+        NAMESPACE,
+        Text('Title', 'Robot', 'Name of the page in browsers.'),
+        Text('Simulator', '', 'Node of the simulator; empty: the only one that is running.'),
+        Whole('Steps', 50, 'Steps of physics for each press of Step.', 1, 1_000_000),
+    )
+
+    def settings(self) -> dict[str, Any]:
+        """Return the initial settings of the page."""
+        return {'namespace': self.values['Namespace'], 'steps': self.values['Steps']}
+
+    def actions(self) -> Mapping[str, Action]:
+        """Return the actions that the page may request."""
+        return {
+            'stand_up': self._stand_up,
+            'reset': self._reset,
+            'pause': lambda viewer, message: self._set(viewer, SimulationState.STATE_PAUSED),
+            'play': lambda viewer, message: self._set(viewer, SimulationState.STATE_PLAYING),
+            'step': self._step,
+            'world': self._load,
+        }
+
+    def begin(self) -> None:
+        """Subscribe to the state of the robot, and name the page."""
+        node, namespace = self.context.node, self.values['Namespace']
+        self._link = link_of(self.context, namespace)
+        self._calls = ServiceCalls(node)
+        wanted = self.values['Simulator']
+        self._simulator = SimulatorLink(
+            node, self._calls, self.full_name(wanted) if wanted else '', namespace
+        )
+        self._stand_up_name = self.full_name('stand_up')
+        self._topic = self.full_name('walking_state')
+        self._walking = ''
+        self._can_rise = self._is_told = False
+        self._pending: set[str] = set()
+        self._told: dict[str, Any] = {}
+        self._look = Pace(1.0)
+        self._subscription = node.create_subscription(String, self._topic, self._take, LATCHED)
+        self._factor = RealTimeFactor(node)
+        icon = files('robot_console') / 'web' / 'icon.svg'
+        self.context.page.present(self.values['Title'], icon.read_text(encoding='utf-8'))
+
+    def greet(self, viewer: Viewer) -> None:
+        """
+        Send the state to a new viewer.
+
+        Parameters
+        ----------
+        viewer
+            As for `LivePanel.greet`.
+
+        """
+        viewer.tell(**self._state())
+
+    def update(self) -> None:
+        """Process pending service calls, follow the simulator, and send updates."""
+        self._calls.update()
+        if self.channel.viewers:
+            self._simulator.update()
+        super().update()
+
+    def refresh(self) -> None:
+        """Send the state if it has changed."""
+        if not self.channel.viewers:
+            return
+        if self._look.is_due():
+            self._examine_graph()
+        state = self._state()
+        if state != self._told:
+            self._told = state
+            self.channel.tell(**state)
+
+    def end(self) -> None:
+        """Destroy the subscriptions and clients, and give the page its own title again."""
+        self._simulator.close()
+        self._calls.close()
+        self._factor.close()
+        self.context.node.destroy_subscription(self._subscription)
+        self.context.page.present(self.context.page.title)
+
+    def _take(self, message: String) -> None:
+        self._walking = message.data
+
+    def _examine_graph(self) -> None:
+        """Look up whether nodes report the state, and whether one can stand the robot up."""
+        node = self.context.node
+        if not node.count_publishers(self._topic):
+            self._walking = ''
+        self._can_rise = node.count_services(self._stand_up_name) > 0
+        self._is_told = node.count_publishers(self._link.state_topic) > 0
+
+    def _state(self) -> dict[str, Any]:
+        """Return what the page shows."""
+        simulator = self._simulator
+        factor = self._factor.factor(time.monotonic())
+        return {
+            'words': words(
+                self._walking or None,
+                self._stopped_by(),
+                self._link.holds_because if self._is_told else '',
+                simulator.state,
+                self._can_rise,
+            ),
+            'factor': None if factor is None else round(factor, 2),
+            'slow': slowness(factor),
+            'why': self._reasons(),
+            'paused': simulator.state in SIMULATION,
+            'worlds': [
+                [each.world_resource.uri, each.name, each.description] for each in simulator.worlds
+            ],
+            'world': simulator.world,
+        }
+
+    def _stopped_by(self) -> str:
+        """Name who has pressed the emergency stop; '' while it is not pressed."""
+        stop = self._link.stop
+        if not stop.pressed:
+            return ''
+        return stopped_by(stop.by, set() if stop.by else self._link.stop_publishers())
+
+    def _reasons(self) -> dict[str, str]:
+        """Return why each button is disabled; '' for those that can be pressed."""
+        simulator = self._simulator
+        is_playing = simulator.state == SimulationState.STATE_PLAYING
+        why = {
+            'stand_up': '' if self._can_rise else NO_STAND_UP.format(self._stand_up_name),
+            'reset': simulator.why_not('reset_simulation'),
+            'pause': simulator.why_not('set_simulation_state'),
+            'step': simulator.why_not('step_simulation')
+            or ('Pause the simulation first.' if is_playing else ''),
+            'world': simulator.why_not('load_world')
+            or ('' if simulator.worlds else 'The simulator has no scenes to choose from.'),
+        }
+        return {
+            button: reason or ('Please wait.' if button in self._pending else '')
+            for button, reason in why.items()
+        }
+
+    def _check(self, button: str) -> None:
+        """Raise ValueError if a button is disabled, as it may be by now."""
+        reason = self._reasons()[button]
+        if reason:
+            raise ValueError(reason)
+
+    def _stand_up(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        self._check('stand_up')
+        answer = self._answering(viewer, 'stand_up')
+        self._calls.call(Trigger, self._stand_up_name, Trigger.Request(), answer)
+
+    def _reset(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        self._ask(viewer, 'reset', 'reset_simulation', ResetSimulation.Request())
+
+    def _set(self, viewer: Viewer, state: int) -> None:
+        request = SetSimulationState.Request(state=SimulationState(state=state))
+        self._ask(viewer, 'pause', 'set_simulation_state', request)
+
+    def _step(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        request = StepSimulation.Request(steps=self.values['Steps'])
+        self._ask(viewer, 'step', 'step_simulation', request)
+
+    def _load(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        """Load a scene; it starts at once if the last one was running."""
+        uri = str(message.get('uri', ''))
+        if all(each.world_resource.uri != uri for each in self._simulator.worlds):
+            raise ValueError('The simulator no longer offers this scene.')
+        was_playing = self._simulator.state == SimulationState.STATE_PLAYING
+
+        def play() -> None:
+            if was_playing and not self._reasons()['pause']:
+                self._set(viewer, SimulationState.STATE_PLAYING)
+
+        self._ask(viewer, 'world', 'load_world', LoadWorld.Request(uri=uri), LOAD_S, play)
+
+    def _ask(
+        self,
+        viewer: Viewer,
+        button: str,
+        service: str,
+        request: Any,
+        timeout_s: float = 5.0,
+        then: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Call a service of the simulator, or raise ValueError if the button is disabled."""
+        self._check(button)
+        self._simulator.call(service, request, self._answering(viewer, button, then), timeout_s)
+
+    def _answering(
+        self, viewer: Viewer, button: str, then: Callable[[], None] = lambda: None
+    ) -> Callable[[Any, str], None]:
+        """Disable a button until its request is answered, and return what takes the answer."""
+        self._pending.add(button)
+
+        def answer(response: Any, failed: str) -> None:
+            self._pending.discard(button)
+            reason = failed or failure_of(response)
+            viewer.tell(said=reason)
+            self._simulator.hurry()
+            if not reason:
+                then()
+
+        return answer
