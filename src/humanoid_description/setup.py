@@ -19,6 +19,7 @@ setup(
         ('share/' + package_name, ['package.xml']),
         ('share/' + package_name + '/launch', glob('launch/*.launch.*')),
         ('share/' + package_name + '/config', glob('config/*')),
+        ('share/' + package_name + '/meshes', glob('meshes/*.stl')),
         *(
             (f'share/{package_name}/{folder}', glob(f'{folder}/*.xacro'))
             for folder in model_folders

@@ -36,14 +36,18 @@ def load_config(name: str) -> dict[str, Any]:
 
 
 def humanoid_urdf(
-    scale: float = 1.0, prefix: str = '', upper_body_only: bool = False, hands: bool = False
+    scale: float = 1.0,
+    prefix: str = '',
+    upper_body_only: bool = False,
+    hands: bool = False,
+    colours: str = 'light',
 ) -> str:
     """
     Generate the URDF of the humanoid.
 
     Parameters
     ----------
-    scale, prefix, upper_body_only, hands
+    scale, prefix, upper_body_only, hands, colours
         The xacro arguments of the model.
 
     Raises
@@ -59,6 +63,7 @@ def humanoid_urdf(
             'prefix': prefix,
             'upper_body_only': str(upper_body_only).lower(),
             'hands': str(hands).lower(),
+            'colours': colours,
         },
     )
 

@@ -128,7 +128,8 @@ def _shape(element: Any) -> Shape:
         return Shape('cylinder', size_m, pose)
     if geometry.tag == 'sphere':
         return Shape('sphere', (float(geometry.get('radius')),), pose)
-    return Shape('mesh', (), pose, geometry.get('filename'))
+    scale = _numbers(geometry.get('scale'), (1.0, 1.0, 1.0))
+    return Shape('mesh', tuple(scale), pose, geometry.get('filename'))
 
 
 def _joint(joint: Any) -> Joint:

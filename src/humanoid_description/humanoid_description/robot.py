@@ -27,7 +27,7 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """A box (three edges), cylinder (radius, length), sphere (radius) or mesh (a file)."""
+    """A box (three edges), cylinder (radius, length), sphere (radius) or mesh (scale; a file)."""
 
     kind: str
     size_m: tuple[float, ...]

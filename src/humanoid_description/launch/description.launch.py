@@ -15,7 +15,7 @@ def generate_launch_description() -> LaunchDescription:
     """Describe the robot state publisher."""
     share = FindPackageShare('humanoid_description')
     urdf = ['xacro "', PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro']), '"']
-    for argument in ('scale', 'prefix', 'upper_body_only', 'hands'):
+    for argument in ('scale', 'prefix', 'upper_body_only', 'hands', 'colours'):
         urdf += [f' {argument}:=', LaunchConfiguration(argument)]
     description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}
     time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
@@ -40,6 +40,12 @@ def generate_launch_description() -> LaunchDescription:
                 default_value='false',
                 choices=['true', 'false'],
                 description='Add wrists and grippers to the arms.',
+            ),
+            DeclareLaunchArgument(
+                'colours',
+                default_value='light',
+                choices=['light', 'dark'],
+                description='Colour scheme of the robot.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',

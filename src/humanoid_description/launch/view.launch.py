@@ -22,7 +22,7 @@ def generate_launch_description() -> LaunchDescription:
     model = PathJoinSubstitution([share, 'launch', 'description.launch.py'])
     view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
     gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
-    forwarded = ('scale', 'prefix', 'upper_body_only', 'hands', 'use_sim_time')
+    forwarded = ('scale', 'prefix', 'upper_body_only', 'hands', 'colours', 'use_sim_time')
     time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
     return LaunchDescription(
         [
@@ -51,6 +51,12 @@ def generate_launch_description() -> LaunchDescription:
                 default_value='false',
                 choices=['true', 'false'],
                 description='Add wrists and grippers to the arms.',
+            ),
+            DeclareLaunchArgument(
+                'colours',
+                default_value='light',
+                choices=['light', 'dark'],
+                description='Colour scheme of the robot.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',

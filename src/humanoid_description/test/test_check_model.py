@@ -379,7 +379,7 @@ def test_humanoid_is_sound(
         1: 'The humanoid with hands',
         3: "The upper body of the humanoid with the prefix 'r1_'",
     }[len(more)]
-    verdict = f'{which} at scale {float(scale):g} is sound: 18 checks passed.\n'
+    verdict = f'{which} at scale {float(scale):g} is sound: 19 checks passed.\n'
     assert capsys.readouterr().out.endswith(verdict)
 
 
@@ -422,7 +422,7 @@ def test_broken_file(urdf: str, tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert main([str(path)]) == 1
     out = capsys.readouterr().out
     assert ": Link 'base_link' has a mass of 0 kg." in out
-    assert out.endswith(f'{path} has 1 defect: 9 checks passed, 8 skipped.\n')
+    assert out.endswith(f'{path} has 1 defect: 9 checks passed, 9 skipped.\n')
 
 
 def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
@@ -431,8 +431,8 @@ def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([f'{share}/urdf/simple_arm.urdf']) == 0
     out = capsys.readouterr().out
     assert out.count("skipped: the robot 'simple_arm' is not the humanoid") == 1
-    assert '\n8 more ' in out
-    assert out.endswith('is sound: 10 checks passed, 8 skipped.\n')
+    assert '\n9 more ' in out
+    assert out.endswith('is sound: 10 checks passed, 9 skipped.\n')
 
 
 def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
@@ -448,7 +448,7 @@ def test_arguments_of_a_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([file, 'scale:=0.5', 'prefix:=r1_', 'sclae:=1']) == 0
     captured = capsys.readouterr()
     assert '5.350 kg' in captured.out
-    assert captured.out.endswith(f'The xacro output of {file} is sound: 18 checks passed.\n')
+    assert captured.out.endswith(f'The xacro output of {file} is sound: 19 checks passed.\n')
     assert 'sclae' in captured.err
 
 

@@ -48,7 +48,7 @@ def test_fixed_frame(view: dict[str, Any], robot: ElementTree.Element) -> None:
 
 MODEL = {
     'scale': '1.0', 'prefix': '', 'upper_body_only': 'false', 'hands': 'false',
-    'use_sim_time': 'false',
+    'colours': 'light', 'use_sim_time': 'false',
 }  # fmt: skip
 
 

@@ -115,7 +115,7 @@ def height_m(robot: Robot) -> float:
     """
     Compute the height in m from the ground to the crown, with all joints at zero.
 
-    Meshes do not count; if all visual shapes are meshes, the collision shapes count instead.
+    All visual and collision shapes count but meshes.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def height_m(robot: Robot) -> float:
 
     """
     at, ground = poses(robot), ground_contact(robot)
-    corners = np.vstack([outline(link.visuals, at[link.name]) for link in robot.links])
-    if not len(corners):
-        corners = np.vstack([outline(link.collisions, at[link.name]) for link in robot.links])
+    corners = np.vstack(
+        [outline((*link.visuals, *link.collisions), at[link.name]) for link in robot.links]
+    )
     return float(corners[:, 2].max() - ground[:, 2].min())

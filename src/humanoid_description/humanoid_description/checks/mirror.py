@@ -4,18 +4,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
+from humanoid_description.mesh_files import bounds
 from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot
 import numpy as np
 
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 SIDES = (('left_', 'right_'), ('l_', 'r_'))
 TOLERANCE = 1e-6
+# Of bounding boxes of visual shapes, since the vertices of meshes are rounded.
+LOOKS_M = 1e-4
 
 
 def look_at_mirror(robot: Robot) -> tuple[str, Iterable[str]]:
     """
-    Compare each link and joint of the left side with its mirror image on the right.
+    Compare each link, its visual shapes, and each joint of the left side with those on the right.
 
     Parameters
     ----------
@@ -35,6 +39,7 @@ def look_at_mirror(robot: Robot) -> tuple[str, Iterable[str]]:
         defects += _unlike_joints(robot.joint[left], robot.joint[right])
     for left, right in link_pairs:
         defects += _unlike_links(robot.link[left], robot.link[right])
+        defects += _unlike_looks(robot.link[left], robot.link[right], robot.folder)
     return f'{len(link_pairs)} links, {len(joint_pairs)} joints', defects
 
 
@@ -129,6 +134,22 @@ def _unlike_links(left: Link, right: Link) -> Iterator[str]:
         )
     if not _is_mirrored(_inertia(ours), _inertia(theirs)):
         yield f'{both} do not have mirrored inertias.'
+
+
+def _unlike_looks(left: Link, right: Link, folder: Path) -> Iterator[str]:
+    """Yield a message if the bounding boxes of the visual shapes of two links are not mirrored."""
+    ours, theirs = _boxes(left, folder), _boxes(right, folder)
+    mirrored = [np.sort(box * MIRROR.diagonal()[:3], axis=0) for box in ours]
+    if len(ours) != len(theirs) or not all(
+        any(np.allclose(box, other, rtol=0, atol=LOOKS_M) for other in theirs) for box in mirrored
+    ):
+        yield f"Links '{left.name}' and '{right.name}' do not have mirrored visual shapes."
+
+
+def _boxes(link: Link, folder: Path) -> list[Array]:
+    """Compute the bounding boxes of the visual shapes of a link, as far as they are known."""
+    boxes = (bounds(shape, np.eye(4), folder) for shape in link.visuals)
+    return [box for box in boxes if box is not None]
 
 
 def _centre(body: Body) -> Array:

@@ -8,10 +8,13 @@ Two geoms collide when a bit of the `contype` of one is set in the `conaffinity`
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 from humanoid_description.drives import Drive
+from humanoid_description.errors import DescriptionError
+from humanoid_description.mesh_files import is_remote, mesh_path
 from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.model.description import (
     ACCELEROMETER,
@@ -32,8 +35,8 @@ _PAD_FRICTION = (1.2, 0.02, 0.001)
 # ROS: z forward and y down; MuJoCo: z backward and y up.
 _FROM_OPTICAL_FRAME = (0.0, 1.0, 0.0, 0.0)
 # What MuJoCo discards by default when it reads a URDF: visuals, and links that are fixed to
-# others, such as the frames of sensors.
-_KEEP = {'discardvisual': 'false', 'fusestatic': 'false'}
+# others, such as the frames of sensors. Otherwise it would also drop the folders of meshes.
+_KEEP = {'discardvisual': 'false', 'fusestatic': 'false', 'strippath': 'false'}
 
 WORLD = 1
 _ARM_ON_ARM = 1 << 1
@@ -184,7 +187,7 @@ def spec_of(urdf: str) -> Any:
     Raises
     ------
     SimulationError
-        The text is not XML, or MuJoCo rejects it.
+        The text is not XML, a mesh is in an unknown package, or MuJoCo rejects it.
 
     """
     try:
@@ -195,6 +198,8 @@ def spec_of(urdf: str) -> Any:
         )
     for old in robot.findall('mujoco'):
         robot.remove(old)
+    for mesh in robot.iter('mesh'):
+        mesh.set('filename', _mesh_file(mesh.get('filename', '')))
     ElementTree.SubElement(ElementTree.SubElement(robot, 'mujoco'), 'compiler', _KEEP)
     try:
         return mujoco.MjSpec.from_string(ElementTree.tostring(robot, encoding='unicode'))
@@ -202,6 +207,18 @@ def spec_of(urdf: str) -> Any:
         raise SimulationError(
             f'The robot cannot be simulated: MuJoCo rejects its URDF: {error}. Run check_model '
             'for details.'
+        ) from error
+
+
+def _mesh_file(file: str) -> str:
+    """Resolve the file name of a mesh; MuJoCo knows neither `package://` nor `file://`."""
+    if '://' not in file or is_remote(file):
+        return file
+    try:
+        return str(mesh_path(file, Path()))
+    except DescriptionError as error:
+        raise SimulationError(
+            f"The robot cannot be simulated: the mesh '{file}' was not found: {error}"
         ) from error
 
 
