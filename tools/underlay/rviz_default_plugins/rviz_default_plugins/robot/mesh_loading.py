@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from math import isqrt
+from dataclasses import dataclass, replace
+from math import isqrt, radians
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,9 @@ MAX_BYTES = 100_000_000
 MAX_TRIANGLES = 200_000
 
 STEP = 0.7
+
+CREASE_RAD = radians(35.0)
+"""Facets of an STL file that enclose a smaller angle are shaded as one smooth surface."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,8 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
     count = sum(len(body.faces) for body in bodies)
     is_flat = path.suffix.lower() == '.stl'
     if count <= MAX_TRIANGLES:
-        return DrawnMesh(tuple(map(_surface, bodies)), is_flat)
+        surfaces = map(_surface, bodies)
+        return DrawnMesh(tuple(map(_creased, surfaces) if is_flat else surfaces))
     return _simplified(bodies, count, is_flat, name)
 
 
@@ -127,6 +131,22 @@ def _surface(body: Any) -> Surface:
         np.asarray(body.faces, np.uint32),
         color,
         body.export(file_type='glb') if is_coloured else None,
+    )
+
+
+def _creased(surface: Surface) -> Surface:
+    """Duplicate the vertices at sharp edges, so that the rest can be shaded smoothly."""
+    import trimesh
+
+    body = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
+    smooth = body.face_adjacency[body.face_adjacency_angles < CREASE_RAD]
+    patches = trimesh.graph.connected_component_labels(smooth, len(body.faces))
+    count = int(patches.max()) + 1
+    corners, faces = np.unique(body.faces * count + patches[:, None], return_inverse=True)
+    return replace(
+        surface,
+        vertices=surface.vertices[corners // count],
+        faces=faces.reshape(-1, 3).astype(np.uint32),
     )
 
 

@@ -100,6 +100,20 @@ def test_kinds(tmp_path: Path, kind: str) -> None:
     assert np.ptp(mesh.surfaces[0].vertices, axis=0).tolist() == [1.0, 2.0, 3.0]
 
 
+def test_edges_of_stl_stay_sharp(tmp_path: Path) -> None:
+    """Smooth parts of an STL file share vertices, and those at sharp edges are separate."""
+    trimesh.creation.box((1, 2, 3)).export(tmp_path / 'box.stl')
+    trimesh.creation.icosphere(subdivisions=3).export(tmp_path / 'ball.stl')
+    box, ball = (load_mesh(tmp_path / f'{name}.stl', name) for name in ('box', 'ball'))
+    assert not (box.is_flat or ball.is_flat)
+    assert len(box.surfaces[0].vertices) == 6 * 4
+    assert len(ball.surfaces[0].vertices) == 642
+    for mesh in (box, ball):
+        [surface] = mesh.surfaces
+        shape = trimesh.Trimesh(surface.vertices, surface.faces, process=True)
+        assert shape.is_watertight
+
+
 def test_collada(tmp_path: Path) -> None:
     """A file that says its unit is shown in metres."""
     path = tmp_path / 'triangle.dae'
