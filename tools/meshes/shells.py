@@ -276,7 +276,8 @@ def stl_of(vertices: Array, faces: NDArray[np.int64]) -> bytes:
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     facets = np.zeros(len(faces), dtype=_FACET)
     facets['corners'], facets['normal'] = corners, np.round(normals, 4)
-    return bytes(_HEADER_BYTES) + np.uint32(len(faces)).tobytes() + facets.tobytes()
+    count = len(faces).to_bytes(4, 'little')
+    return bytes(_HEADER_BYTES) + count + facets.tobytes()
 
 
 def main() -> None:

@@ -89,7 +89,7 @@ def start_box(url: str, sentence: str, has_code: bool, terminal: Terminal) -> st
     lines = _lines(url, sentence, has_code)
     width = max(map(len, lines))
     corners = _LINES if terminal.can_show(_LINES) else _ASCII
-    top_left, top_right, bottom_left, bottom_right, rule, side = corners
+    top_left, top_right, bottom_left, bottom_right, rule, side = tuple(corners)
     if width + 4 > terminal.columns:
         rules = rule * min(width, terminal.columns)
         return '\n'.join([rules, *lines, rules])

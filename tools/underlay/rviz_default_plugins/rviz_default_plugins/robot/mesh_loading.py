@@ -140,7 +140,8 @@ def _creased(surface: Surface) -> Surface:
 
     body = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
     smooth = body.face_adjacency[body.face_adjacency_angles < CREASE_RAD]
-    patches = trimesh.graph.connected_component_labels(smooth, len(body.faces))
+    graph: Any = trimesh.graph
+    patches = graph.connected_component_labels(smooth, len(body.faces))
     count = int(patches.max()) + 1
     corners, faces = np.unique(body.faces * count + patches[:, None], return_inverse=True)
     return replace(
