@@ -148,7 +148,7 @@ class Robot(LivePanel):
         NAMESPACE,
         Text('Title', 'Robot', 'Name of the page in browsers.'),
         Text('Simulator', '', 'Node of the simulator; empty: the only one that is running.'),
-        Whole('Steps', 50, 'Steps of physics for each press of Step.', 1, 1_000_000),
+        Whole('Steps', 50, 'Steps of physics for each press of Step.', 1, 100_000),
     )
 
     def settings(self) -> dict[str, Any]:
