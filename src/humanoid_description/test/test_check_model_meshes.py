@@ -16,7 +16,7 @@ MISSING = {
     ),
     'no such package': ('package://nope/m.stl', "there is no package 'nope'. Install or build"),
     'no file': (f'{SHARE}/config/robot_vie.rviz', "Did you mean 'robot_view.rviz'?"),
-    'no folder': (f'{SHARE}/meshes/arm.stl', 'there is no folder '),
+    'no folder': (f'{SHARE}/mesh/arm.stl', 'there is no folder '),
     'a folder': (f'{SHARE}/config', "/config' is a folder."),
     'no path': ('file:///nowhere/arm.stl', "there is no folder '/nowhere'."),
     'beside the model': ('arm.stl', 'Install it, or correct the name.'),
