@@ -11,6 +11,7 @@ from http.client import HTTPConnection, HTTPResponse
 import socket
 import threading
 from typing import Any
+import warnings
 
 import pytest
 from ros2cli.graph.reach import Interface
@@ -73,6 +74,9 @@ def test_name_and_icon() -> None:
         page.present('RViz')
         text = ask(page, Cookie=cookie.partition(';')[0]).read()
         assert b'<title>RViz</title>' in text and b'%3Csvg%3E%22' not in text
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        page.present('closed')
 
 
 def test_listens_here_only(page: Page) -> None:

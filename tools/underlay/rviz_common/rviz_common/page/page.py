@@ -55,6 +55,7 @@ class Page(GatedPage):
     def __init__(self, title: str, settings: PageSettings | None = None) -> None:
         super().__init__(title, settings)
         self._name, self._icon = title, ''
+        self._is_closed = False
         rich.get_console().quiet = True  # viser prints addresses, but not the token
         self.uploads = Uploads()
         with _gated(self, self._options_of):
@@ -109,7 +110,8 @@ class Page(GatedPage):
 
         """
         self._name, self._icon = name, icon
-        self.viser.gui.set_panel_label(name)
+        if not self._is_closed:
+            self.viser.gui.set_panel_label(name)
 
     def entitle(self, response: Response) -> None:
         """
@@ -136,6 +138,7 @@ class Page(GatedPage):
 
     def close(self) -> None:
         """Stop serving the page."""
+        self._is_closed = True
         self.viser.stop()
 
 
