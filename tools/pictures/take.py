@@ -240,6 +240,7 @@ def show_camera(tab: Any) -> None:
 
     """
     tab.get_by_role('tab', name='Displays').click()
+    tab.get_by_text('Camera (off)').click()
     tab.locator('label:visible', has_text=re.compile('^Camera$')).click()
     tab.get_by_text('messages received on /camera/image_raw').wait_for()
 
