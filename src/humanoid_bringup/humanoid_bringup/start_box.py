@@ -102,13 +102,13 @@ def start_box(url: str, sentence: str, has_code: bool, terminal: Terminal) -> st
 def _lines(url: str, sentence: str, has_code: bool) -> list[str]:
     """Return what the box says."""
     if url:
-        lines = ['The robot has started. See it, and drive it in the tab Drive, at', f'  {url}']
+        lines = ['The robot has started. See it, and drive it in the Drive tab, at', f'  {url}']
         lines += [SCAN] if has_code else []
     else:
         lines = ['The robot has started, without a page.']
     lines += ['In another terminal, with the workspace sourced, this makes it walk:', f'  {WALK}']
     if sentence and url:
-        lines += ['When it is ready, tell it in the tab Command, for example:', f'  {sentence}']
+        lines += ['When it is ready, tell it in the Command tab, for example:', f'  {sentence}']
     elif sentence:
         command = TELL.format(sentence)
         lines += ['When it is ready, tell it what to do, for example:', f'  {command}']

@@ -44,7 +44,7 @@ def test_output_without_unicode(encoding: str) -> None:
 
 def test_sentences() -> None:
     """With a page, the robot is told in its tab; without one, by a command; else not at all."""
-    assert 'Command, for example:' in start_box(URL, 'turn around', False, WIDE)
+    assert 'Command tab, for example:' in start_box(URL, 'turn around', False, WIDE)
     without_page = start_box('', 'turn around', False, WIDE)
     assert 'without a page' in without_page and 'http' not in without_page
     command = 'ros2 topic pub --once /user_command std_msgs/msg/String \'{data: "turn around"}\''

@@ -85,7 +85,7 @@ def test_colours(urdf: str) -> None:
 
 def test_no_such_colours() -> None:
     """An unknown scheme is refused, with the names of those that there are."""
-    with pytest.raises(DescriptionError, match=r'no colours pink\. Give light or dark'):
+    with pytest.raises(DescriptionError, match=r'no colour scheme pink\. Give light or dark'):
         humanoid_urdf(colours='pink')
 
 

@@ -33,7 +33,7 @@ __all__ = ['Robot', 'slowness', 'stopped_by', 'words']
 WALKING = {
     'stand': ('Ready', 'good'),
     'walk': ('Walking', 'good'),
-    'stop': ('Coming to a stand', 'good'),
+    'stop': ('Coming to a halt', 'good'),
     'blocked': ('Blocked: turn it, or walk another way', 'warn'),
     'fallen': ('Fallen', 'bad'),
     'stand_up': ('Getting up', 'warn'),
@@ -41,7 +41,7 @@ WALKING = {
 SIMULATION = {
     SimulationState.STATE_STOPPED: ('Paused at the start', 'warn'),
     SimulationState.STATE_PAUSED: ('Paused', 'warn'),
-    SimulationState.STATE_QUITTING: ('The simulator is ending', 'warn'),
+    SimulationState.STATE_QUITTING: ('The simulator is shutting down', 'warn'),
     SimulationState.STATE_NO_WORLD: ('No scene is loaded: choose one', 'warn'),
     SimulationState.STATE_LOADING_WORLD: ('Loading the scene', 'warn'),
 }
