@@ -487,6 +487,23 @@ def test_scenes(world: LiveWorld) -> None:
     assert simulator.asked[-1] == 'LoadWorld_Request'
 
 
+def test_robot_that_is_as_it_was(world: LiveWorld) -> None:
+    """A viewer who comes while the robot is down sees that it is again as it was before."""
+    state = world.robot.create_publisher(String, 'walking_state', LATCHED)
+    state.publish(String(data='stand'))
+    world.visit('robot', Namespace='robot1').wait_for('words', said('Ready'))
+    panel: Any = world.panels[0]
+    panel._pace = panel._look = mock.Mock(is_due=mock.Mock(return_value=False))
+    state.publish(String(data='fallen'))
+    world.wait_until(lambda: panel._walking == 'fallen', 'not fallen')
+    page = world.look('robot', 'robot1')
+    page.wait_for('words', said('Fallen: hold it upright'))
+    state.publish(String(data='stand'))
+    world.wait_until(lambda: panel._walking == 'stand', 'still fallen')
+    panel.refresh()
+    page.wait_for('words', said('Ready'))
+
+
 def test_title_of_the_page(world: LiveWorld) -> None:
     """The page has the title of the panel as long as the panel is shown."""
 

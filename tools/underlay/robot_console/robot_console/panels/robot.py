@@ -189,7 +189,7 @@ class Robot(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send the state to a new viewer.
+        Send the state to all viewers, so that the new one sees what the others see.
 
         Parameters
         ----------
@@ -197,7 +197,7 @@ class Robot(LivePanel):
             As for `LivePanel.greet`.
 
         """
-        viewer.tell(**self._state())
+        self._tell(self._state())
 
     def update(self) -> None:
         """Process pending service calls, follow the simulator, and send updates."""
@@ -214,8 +214,7 @@ class Robot(LivePanel):
             self._examine_graph()
         state = self._state()
         if state != self._told:
-            self._told = state
-            self.channel.tell(**state)
+            self._tell(state)
 
     def end(self) -> None:
         """Destroy the subscriptions and clients, and give the page its own title again."""
@@ -224,6 +223,10 @@ class Robot(LivePanel):
         self._factor.close()
         self.context.node.destroy_subscription(self._subscription)
         self.context.page.present(self.context.page.title)
+
+    def _tell(self, state: dict[str, Any]) -> None:
+        self._told = state
+        self.channel.tell(**state)
 
     def _take(self, message: String) -> None:
         self._walking = message.data
