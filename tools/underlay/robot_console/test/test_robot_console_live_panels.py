@@ -469,7 +469,7 @@ def test_robot_with_a_simulator(world: LiveWorld) -> None:
 
 
 def test_scenes(world: LiveWorld) -> None:
-    """A scene that is chosen runs at once, unless the last one was paused."""
+    """A scene that is chosen is shown, and runs at once unless the last one was paused."""
     simulator = Simulator(world.robot)
     page = world.visit('robot')
     page.wait_for('worlds', bool)
@@ -481,10 +481,12 @@ def test_scenes(world: LiveWorld) -> None:
     world.wait_until(lambda: simulator.state == SimulationState.STATE_PLAYING, 'not playing')
     page.ask('pause')
     page.wait_for('words', said('Paused'))
-    page.ask('world', uri='flat')
-    page.wait_for('words', said('Paused at the start'))
-    page.wait_for('world', lambda name: name == 'flat')
-    assert simulator.asked[-1] == 'LoadWorld_Request'
+    for scene in ('flat', 'room'):
+        page.told.clear()
+        page.ask('world', uri=scene)
+        page.wait_for('world', lambda name, scene=scene: name == scene)
+        page.wait_for('words', said('Paused at the start'))
+    assert simulator.asked[-2:] == ['LoadWorld_Request'] * 2
 
 
 def test_robot_that_is_as_it_was(world: LiveWorld) -> None:

@@ -315,11 +315,12 @@ class Robot(LivePanel):
             raise ValueError('The simulator no longer offers this scene.')
         was_playing = self._simulator.state == SimulationState.STATE_PLAYING
 
-        def play() -> None:
+        def go_on() -> None:
+            self._simulator.ask_for_worlds()  # the state need not have changed
             if was_playing and not self._reasons()['pause']:
                 self._set(viewer, SimulationState.STATE_PLAYING)
 
-        self._ask(viewer, 'world', 'load_world', LoadWorld.Request(uri=uri), LOAD_S, play)
+        self._ask(viewer, 'world', 'load_world', LoadWorld.Request(uri=uri), LOAD_S, go_on)
 
     def _ask(
         self,
