@@ -9,6 +9,8 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from live_world import live_world, LiveWorld, PANELS
 import pytest
+from simulation_interfaces.msg import Resource, Result, WorldResource
+from simulation_interfaces.srv import GetAvailableWorlds, LoadWorld
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
@@ -163,6 +165,28 @@ def test_robot(world: LiveWorld, tab: Any) -> None:
     stand_up.click()
     shows(world, tab, '#said', EVIL)
     assert tab.locator('body').bounding_box()['height'] < 120
+
+
+def test_scene_that_is_refused(world: LiveWorld, tab: Any) -> None:
+    """The reason is shown, and the list does not go on to name a scene that is not loaded."""
+
+    def offer(request: Any, response: Any) -> Any:
+        response.worlds.append(WorldResource(name='Moon', world_resource=Resource(uri='moon')))
+        response.result.result = Result.RESULT_OK
+        return response
+
+    def refuse(request: Any, response: Any) -> Any:
+        response.result.error_message = f"'{request.uri}' is too far."
+        return response
+
+    world.robot.create_service(GetAvailableWorlds, '/simulator/get_available_worlds', offer)
+    world.robot.create_service(LoadWorld, '/simulator/load_world', refuse)
+    show(world, tab, 'robot')
+    scenes = tab.locator('#world')
+    world.wait_until(scenes.is_enabled, 'still disabled')
+    scenes.select_option('Moon')
+    shows(world, tab, '#said', "'moon' is too far.")
+    assert scenes.input_value() == ''
 
 
 @pytest.mark.parametrize('name', PANELS)
