@@ -129,8 +129,10 @@ class SimulatorLink:
         The node that owns the clients. It is used in its own thread only.
     calls
         Makes the service calls.
-    wanted, namespace
+    wanted
         As for `choose_simulator`.
+    namespace
+        The namespace of the robot, without leading and trailing slashes; '' for that of the node.
 
     Attributes
     ----------
@@ -145,7 +147,8 @@ class SimulatorLink:
 
     def __init__(self, node: Node, calls: ServiceCalls, wanted: str, namespace: str) -> None:
         self._node, self._calls = node, calls
-        self._wanted, self._namespace = wanted, namespace
+        self._wanted = wanted
+        self._namespace = namespace or node.get_namespace().strip('/')
         self._place: str | None = None
         self._problem = NO_SIMULATOR
         self._offered: set[str] = set()

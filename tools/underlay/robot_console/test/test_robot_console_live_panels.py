@@ -24,6 +24,8 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from robot_console.panels.command import Command
 from robot_console.panels.objects import Objects
+from robot_console.service_calls import ServiceCalls
+from robot_console.simulator_link import SimulatorLink
 from simulation_interfaces.msg import Resource, Result, SimulationState, WorldResource
 from simulation_interfaces.srv import (
     GetAvailableWorlds,
@@ -413,6 +415,20 @@ class Simulator:
         self.asked.append('stand_up')
         response.success = True
         return response
+
+
+def test_simulator_in_the_namespace_of_the_console(world: LiveWorld) -> None:
+    """A console in the namespace of a robot has the simulator of this robot."""
+    services = {f'{name}/reset_simulation' for name in ('/simulator', '/robot1/a', '/robot2/a')}
+    for service in services:
+        world.robot.create_service(ResetSimulation, service, print)
+    console = Node('console', namespace='robot1', context=world.ros)
+    world.wait_until(lambda: all(map(console.count_services, services)), 'not discovered')
+    link = SimulatorLink(console, ServiceCalls(console), '', '')
+    link.update()
+    assert "'/robot1/a/load_world'" in link.why_not('load_world')
+    link.close()
+    console.destroy_node()
 
 
 def said(*texts: str) -> Any:
