@@ -450,7 +450,12 @@ def test_robot_without_a_simulator(world: LiveWorld) -> None:
     page.wait_for('words', said('Fallen: hold it upright'))
     stop = world.robot.create_publisher(Bool, 'emergency_stop', LATCHED)
     stop.publish(Bool(data=True))
+    pressed = 'Stop pressed by /robot1/robot; the robot has not confirmed it'
+    page.wait_for('words', said(pressed, 'Fallen: hold it upright'))
+    holds = world.robot.create_publisher(String, 'stop_state', LATCHED)
+    holds.publish(String(data='the emergency stop is pressed'))
     page.wait_for('words', said('Stopped by /robot1/robot', 'Fallen: hold it upright'))
+    holds.publish(String(data=''))
     stop.publish(Bool(data=False))
     state.publish(String(data='stand'))
     page.wait_for('words', said('Ready'))

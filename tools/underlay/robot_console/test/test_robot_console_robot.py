@@ -22,10 +22,10 @@ PLAYING, PAUSED = SimulationState.STATE_PLAYING, SimulationState.STATE_PAUSED
         ('stand', '', '', PAUSED, 'Paused'),
         ('stand', 'ann', 'the emergency stop is pressed', PLAYING, 'Stopped by ann'),
         ('stand', '', 'the console is lost', PLAYING, 'Holds still: the console is lost'),
-        ('fallen', 'ann', '', PAUSED, 'Paused; Stopped by ann; Fallen: press Stand up'),
+        ('fallen', 'ann', 'it fell', PAUSED, 'Paused; Stopped by ann; Fallen: press Stand up'),
         ('swing', '', '', None, "Does not walk: mode 'swing'"),
         (None, '', '', PLAYING, 'The robot does not report its state'),
-        (None, 'ann', '', None, 'Stopped by ann'),
+        (None, 'ann', '', None, 'Stop pressed by ann; the robot has not confirmed it'),
     ],
 )
 def test_words(

@@ -105,8 +105,10 @@ def words(
     found: list[Word] = []
     if simulation in SIMULATION:
         found.append(SIMULATION[simulation])
-    if stopped:
+    if stopped and holds_because:
         found.append((f'Stopped by {stopped}', 'bad'))
+    elif stopped:
+        found.append((f'Stop pressed by {stopped}; the robot has not confirmed it', 'bad'))
     elif holds_because:
         found.append((f'Holds still: {holds_because}', 'warn'))
     if walking is None:
