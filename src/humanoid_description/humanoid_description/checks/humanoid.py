@@ -16,7 +16,7 @@ from humanoid_description.checks.build import (
 )
 from humanoid_description.checks.mirror import look_at_mirror
 from humanoid_description.checks.outcome import Check
-from humanoid_description.checks.shells import SHELLS
+from humanoid_description.checks.shells import look_at_shells
 from humanoid_description.drives import load_drives, load_scaling
 from humanoid_description.geometry import centre_of_mass, margin_inside
 from humanoid_description.kinematics import chain, pose_along, poses
@@ -266,7 +266,7 @@ NAMES = (
 )
 SHAPE = (
     Check('mirror symmetry', look_at_mirror),
-    SHELLS,
+    Check('shells', look_at_shells),
     Check('height', look_at_height),
     Check('total mass', look_at_mass),
     Check('stand', look_at_stand),

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from humanoid_description.checks.build import build_of, height_m
-from humanoid_description.checks.outcome import Check, count
+from humanoid_description.checks.outcome import count
 from humanoid_description.mesh_files import bounds
 from humanoid_description.robot import Array, Link, named, Robot, Shape
 import numpy as np
@@ -88,6 +88,3 @@ def _box(shapes: Iterable[Shape], robot: Robot) -> Array | None:
         boxes.append(box)
     low, high = np.stack(boxes, axis=1)
     return np.array([low.min(axis=0), high.max(axis=0)])
-
-
-SHELLS = Check('shells', look_at_shells)
