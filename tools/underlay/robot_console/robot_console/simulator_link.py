@@ -23,7 +23,14 @@ from simulation_interfaces.srv import (
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ['SERVICES', 'SimulatorLink', 'choose_simulator', 'failure_of', 'simulators_among']
+__all__ = [
+    'SERVICES',
+    'SILENT',
+    'SimulatorLink',
+    'choose_simulator',
+    'failure_of',
+    'simulators_among',
+]
 
 SERVICES: dict[str, Any] = {
     'get_available_worlds': GetAvailableWorlds,
@@ -40,6 +47,8 @@ NO_SIMULATOR = 'No simulator is running: this works in simulation only.'
 LOOK_S = 1.0
 SILENCE_S = 3.0
 """A simulator that does not report its state within this time is asked again."""
+SILENT = -1
+"""The state of a simulator that does not report it in time."""
 
 
 def simulators_among(services: Iterable[tuple[str, Sequence[str]]]) -> dict[str, set[str]]:
@@ -137,7 +146,8 @@ class SimulatorLink:
     Attributes
     ----------
     state
-        The newest state, of `simulation_interfaces/msg/SimulationState`; None if it is unknown.
+        The newest state, of `simulation_interfaces/msg/SimulationState`; `SILENT` if the simulator
+        does not report it in time, None if it is unknown.
     worlds
         The scenes that it can load.
     world
@@ -256,7 +266,7 @@ class SimulatorLink:
                 self.ask_for_worlds()
         elif self._future is not None and now_s - self._asked_s > SILENCE_S:
             self._client.remove_pending_request(self._future)
-            self._future = self.state = None
+            self._future, self.state = None, SILENT
         if self._future is None and self._poll.is_due() and self._client.service_is_ready():
             self._asked_s = now_s
             self._future = self._client.call_async(GetSimulationState.Request())

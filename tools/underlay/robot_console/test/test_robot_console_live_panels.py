@@ -22,6 +22,7 @@ from rclpy.context import Context as RosContext
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from robot_console import simulator_link
 from robot_console.panels.command import Command
 from robot_console.panels.objects import Objects
 from robot_console.service_calls import ServiceCalls
@@ -361,6 +362,14 @@ def test_service_that_does_not_answer(world: LiveWorld) -> None:
     other.try_shutdown()
 
 
+def list_scenes(request: Any, response: Any) -> Any:
+    """Answer which scenes can be loaded."""
+    for name in ('room', 'flat'):
+        response.worlds.append(WorldResource(name=name, world_resource=Resource(uri=name)))
+    response.result.result = Result.RESULT_OK
+    return response
+
+
 class Simulator:
     """Services of a simulator that loads, pauses and resets, but never steps."""
 
@@ -372,7 +381,7 @@ class Simulator:
             (SetSimulationState, 'set_simulation_state', self._set),
             (ResetSimulation, 'reset_simulation', self._note),
             (StepSimulation, 'step_simulation', self._refuse),
-            (GetAvailableWorlds, 'get_available_worlds', self._list),
+            (GetAvailableWorlds, 'get_available_worlds', list_scenes),
             (GetCurrentWorld, 'get_current_world', self._tell_world),
             (LoadWorld, 'load_world', self._load),
         ):
@@ -395,12 +404,6 @@ class Simulator:
     def _set(self, request: Any, response: Any) -> Any:
         self.state = request.state.state
         return self._note(request, response)
-
-    def _list(self, request: Any, response: Any) -> Any:
-        for name in ('room', 'flat'):
-            response.worlds.append(WorldResource(name=name, world_resource=Resource(uri=name)))
-        response.result.result = Result.RESULT_OK
-        return response
 
     def _tell_world(self, request: Any, response: Any) -> Any:
         response.world.world_resource.uri = self.world
@@ -508,6 +511,32 @@ def test_scenes(world: LiveWorld) -> None:
         page.wait_for('world', lambda name, scene=scene: name == scene)
         page.wait_for('words', said('Paused at the start'))
     assert simulator.asked[-2:] == ['LoadWorld_Request'] * 2
+
+
+def test_simulator_that_does_not_respond(
+    world: LiveWorld, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The robot is not called ready; while a scene is loaded, silence is expected."""
+    monkeypatch.setattr(simulator_link, 'SILENCE_S', 0.1)
+    other = RosContext()
+    rclpy.init(context=other, domain_id=world.ros.get_domain_id())
+    node = Node('simulator', context=other)  # does not spin
+    node.create_service(GetSimulationState, '~/get_simulation_state', print)
+    node.create_service(LoadWorld, '~/load_world', print)
+    name = '/simulator/get_available_worlds'
+    world.robot.create_service(GetAvailableWorlds, name, list_scenes)
+    state = world.robot.create_publisher(String, 'walking_state', LATCHED)
+    state.publish(String(data='stand'))
+    page = world.visit('robot', Namespace='robot1')
+    told = page.wait_for('words', said('The simulator does not respond'))
+    assert not told['paused']
+    page.wait_for('worlds', bool)
+    page.ask('world', uri='flat')
+    page.wait_for('words', said('Loading the scene'))
+    page.told.clear()
+    node.destroy_node()
+    page.wait_for('words', said('Ready'))
+    other.try_shutdown()
 
 
 def test_robot_that_is_as_it_was(world: LiveWorld) -> None:

@@ -13,7 +13,7 @@ from robot_console.namespaces import NAMESPACE
 from robot_console.panels.safety import RealTimeFactor
 from robot_console.robot_link import LATCHED, link_of
 from robot_console.service_calls import ServiceCalls
-from robot_console.simulator_link import failure_of, SimulatorLink
+from robot_console.simulator_link import failure_of, SILENT, SimulatorLink
 from rviz_common.pace import Pace
 from rviz_common.page.channel import Action, Viewer
 from rviz_common.panel import BAR_ORDER
@@ -39,6 +39,7 @@ WALKING = {
     'stand_up': ('Getting up', 'warn'),
 }
 SIMULATION = {
+    SILENT: ('The simulator does not respond', 'bad'),
     SimulationState.STATE_STOPPED: ('Paused at the start', 'warn'),
     SimulationState.STATE_PAUSED: ('Paused', 'warn'),
     SimulationState.STATE_QUITTING: ('The simulator is shutting down', 'warn'),
@@ -96,8 +97,7 @@ def words(
     holds_because
         Why the robot holds still, as it reports; '' if it moves or does not report it.
     simulation
-        The state of the simulation, of `simulation_interfaces/msg/SimulationState`; None if it is
-        unknown or there is none.
+        The state of the simulation, as that of a `SimulatorLink`.
     can_rise
         Whether a service can stand the robot up.
 
@@ -245,18 +245,19 @@ class Robot(LivePanel):
         """Return what the page shows."""
         simulator = self._simulator
         factor = self._factor.factor(time.monotonic())
+        is_loading = 'world' in self._pending
         return {
             'words': words(
                 self._walking or None,
                 self._stopped_by(),
                 self._link.holds_because if self._is_told else '',
-                simulator.state,
+                SimulationState.STATE_LOADING_WORLD if is_loading else simulator.state,
                 self._can_rise,
             ),
             'factor': None if factor is None else round(factor, 2),
             'slow': slowness(factor),
             'why': self._reasons(),
-            'paused': simulator.state in SIMULATION,
+            'paused': simulator.state not in (None, SILENT, SimulationState.STATE_PLAYING),
             'worlds': [
                 [each.world_resource.uri, each.name, each.description] for each in simulator.worlds
             ],
