@@ -31,7 +31,7 @@ from sensor_msgs.msg import Image as ImageMessage
 
 FOLDER = Path(__file__).resolve().parents[2] / 'docs' / 'pictures'
 CHROMIUM = '/usr/bin/chromium'
-LARGEST = 150_000
+LARGEST = 200_000
 LARGEST_ANIMATION = 900_000
 COMMAND, BROUGHT = 'bring me the red mug from the kitchen', 'red_mug'
 COMMAND_S = 900.0

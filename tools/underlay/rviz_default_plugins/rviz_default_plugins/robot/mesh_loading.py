@@ -30,12 +30,17 @@ CREASE_RAD = radians(35.0)
 
 @dataclass(frozen=True)
 class Surface:
-    """Triangles, with their colour if they have one; `glb` has all colours and textures."""
+    """
+    Triangles, with their colour if they have one; `glb` has all colours and textures.
+
+    Nobody sees the inside of a closed surface; its triangles face outwards.
+    """
 
     vertices: Vertices
     faces: Faces
     color: Color | None = None
     glb: bytes | None = None
+    is_closed: bool = False
 
 
 @dataclass(frozen=True)
@@ -131,6 +136,7 @@ def _surface(body: Any) -> Surface:
         np.asarray(body.faces, np.uint32),
         color,
         body.export(file_type='glb') if is_coloured else None,
+        bool(body.is_volume),
     )
 
 

@@ -101,6 +101,7 @@ def _draw_mesh(
 ) -> None:
     """Draw a mesh with the colours of its file, without any with the second; or with a tint."""
     tint, color = colors
+    is_mirrored = np.prod(body.scale) < 0.0
     for index, surface in enumerate(mesh.surfaces):
         name = f'{path}_{index}'
         if surface.glb is not None and alpha >= 1.0 and tint is None:
@@ -112,7 +113,8 @@ def _draw_mesh(
             surface.faces,
             scale=body.scale,
             flat_shading=mesh.is_flat,
-            side='double',
+            # Twice as fast, or more, without a graphics card.
+            side='front' if surface.is_closed and not is_mirrored else 'double',
             **_look(tint or surface.color or color or GREY, alpha),
             **place,
         )

@@ -114,6 +114,15 @@ def test_edges_of_stl_stay_sharp(tmp_path: Path) -> None:
         assert shape.is_watertight
 
 
+@pytest.mark.parametrize(('kept', 'is_closed'), [(12, True), (11, False)])
+def test_closed_surfaces(tmp_path: Path, kept: int, is_closed: bool) -> None:
+    """Of a box without one of its triangles, the inside can be seen."""
+    box = trimesh.creation.box((1, 2, 3))
+    trimesh.Trimesh(box.vertices, box.faces[:kept]).export(tmp_path / 'box.stl')
+    (surface,) = load_mesh(tmp_path / 'box.stl', 'box.stl').surfaces
+    assert surface.is_closed == is_closed
+
+
 def test_collada(tmp_path: Path) -> None:
     """A file that says its unit is shown in metres."""
     path = tmp_path / 'triangle.dae'
