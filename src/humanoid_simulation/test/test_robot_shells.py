@@ -48,7 +48,8 @@ def _vertices(model: mujoco.MjModel, geom: str) -> np.ndarray:
     number = model.geom(geom).id
     mesh = model.geom_dataid[number]
     first = model.mesh_vertadr[mesh]
-    vertices = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
+    last = first + model.mesh_vertnum[mesh]
+    vertices = model.mesh_vert[first:last]
     turn = np.empty(9)
     mujoco.mju_quat2Mat(turn, model.geom_quat[number])
     return vertices @ turn.reshape(3, 3).T + model.geom_pos[number]
