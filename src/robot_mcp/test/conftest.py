@@ -6,14 +6,16 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-import os
+from contextlib import contextmanager, ExitStack
 from pathlib import Path
+import re
 import sys
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
 from humanoid_common.qos import EVENT, LATCHED, STATE
 from humanoid_common.single_goal import RunningGoal, SingleGoal
+from humanoid_common.testing.processes import running_program
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.srv import FindObjects
 from llm_planner.skill_executor import SkillExecutor
@@ -45,7 +47,7 @@ class Robot(Node):
         self.spins: list[float] = []
         self.said: list[str] = []
         self.canceled = 0
-        self.is_slow = False
+        self.is_slow = self.is_walking = False
         self._walks, self._spins, self._paths = (SingleGoal(self, lambda: '') for _ in range(3))
         self._walks.offer(NavigateToPose, 'navigate_to_pose', self._walk)
         self._spins.offer(Spin, 'spin', self._spin)
@@ -67,9 +69,6 @@ class Robot(Node):
         mug.bbox.center.position.z = 0.75
         mug.bbox.size.x = mug.bbox.size.y = mug.bbox.size.z = 0.1
         self._objects.publish(Detection3DArray(detections=[mug]))
-
-    def show(self) -> None:
-        """Begin to publish pictures, and a map."""
         self._map = self.create_publisher(OccupancyGrid, 'map', LATCHED)
         grid = OccupancyGrid(data=[0, 100, -1, 0, 0, 0])
         grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 1.0
@@ -79,17 +78,26 @@ class Robot(Node):
         image = Image(height=2, width=2, encoding='rgb8', step=6, data=[255, 0, 0] * 4)
         self.create_timer(0.1, lambda: self._camera.publish(image))
 
+    def forget(self) -> None:
+        """Clear what it was told to do, as a robot that has just started."""
+        for each in (self.walks, self.spins, self.said):
+            each.clear()
+        self.canceled = 0
+
     def _hear(self, message: String) -> None:
         self.said.append(message.data)
 
     async def _walk(self, goal: RunningGoal) -> None:
         self.walks.append(goal.request.pose.pose.position)
+        self.is_walking = True
         try:
             while self.is_slow:
                 await goal.tick()
         except BaseException:
             self.canceled += 1
             raise
+        finally:
+            self.is_walking = False
 
     async def _spin(self, goal: RunningGoal) -> None:
         self.spins.append(goal.request.target_yaw)
@@ -111,6 +119,8 @@ class World:
         self.places = folder / 'places.yaml'
         self.places.write_text(PLACES)
         self._pool = ThreadPoolExecutor(1)
+        self._stack = ExitStack()
+        self._servers: dict[tuple[tuple[str, Any], ...], tuple[str, str, Any]] = {}
 
     def begin_robot(self) -> Robot:
         """Start a robot."""
@@ -132,6 +142,24 @@ class World:
         options = [f'{name}:={value}' for name, value in told.items()]
         return [sys.executable, '-m', 'robot_mcp.robot_mcp', *options]
 
+    @contextmanager
+    def http_server(self, **parameters: Any) -> Iterator[tuple[str, str, Any]]:
+        """Run a server for HTTP; give its address, its token, and the program."""
+        command = self.command(transport='http', port=0, **parameters)
+        with running_program(command) as program:
+            program.wait_for_output('Bearer ')
+            address, token = re.search(
+                r'(http://\S+)\nAuthorization: Bearer (\S+)\n', program.output
+            ).groups()
+            yield address, token, program
+
+    def shared_server(self, **parameters: Any) -> tuple[str, str, Any]:
+        """Return the server for HTTP with these parameters, which runs as long as the world."""
+        key = tuple(sorted(parameters.items()))
+        if key not in self._servers:
+            self._servers[key] = self._stack.enter_context(self.http_server(**parameters))
+        return self._servers[key]
+
     def play(self, script: Callable[[], Awaitable[Any]]) -> Any:
         """Run a coroutine function to its end, and return what it returns."""
 
@@ -142,18 +170,59 @@ class World:
         self.ros.wait_until(future.done, 100.0, 'the end of what the assistant does')
         return future.result()
 
+    def close(self) -> None:
+        """End the servers."""
+        self._stack.close()
+        self._pool.shutdown()
+
+
+@contextmanager
+def _a_world(folder: Path) -> Iterator[World]:
+    """Open a domain of one's own."""
+    with ros_sandbox() as ros:
+        made = World(ros, folder)
+        try:
+            yield made
+        finally:
+            made.close()
+
 
 @pytest.fixture
 def world(tmp_path: Path) -> Iterator[World]:
     """Give a domain without a robot."""
-    with ros_sandbox() as ros:
-        yield World(ros, tmp_path)
+    with _a_world(tmp_path) as made:
+        yield made
 
 
 @pytest.fixture
-def robot(world: World) -> Robot:
-    """Start a robot in the world."""
+def robot_of_its_own(world: World) -> Robot:
+    """Start a robot in the world, for a test that kills what is connected to it."""
     return world.begin_robot()
+
+
+@pytest.fixture(scope='module')
+def _inhabited(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[World, Robot]]:
+    """Start a robot in a domain of its own, for the tests of a module."""
+    with _a_world(tmp_path_factory.mktemp('home')) as made:
+        yield made, made.begin_robot()
+
+
+@pytest.fixture
+def home(_inhabited: tuple[World, Robot]) -> World:
+    """Give the domain with the robot, where no call is noted yet."""
+    made, _ = _inhabited
+    made.audit.unlink(missing_ok=True)
+    return made
+
+
+@pytest.fixture
+def robot(_inhabited: tuple[World, Robot]) -> Iterator[Robot]:
+    """Give the robot of `home`, which stands, and was told nothing yet."""
+    world, robot = _inhabited
+    robot.forget()
+    yield robot
+    robot.is_slow = False
+    world.ros.wait_until(lambda: not robot.is_walking, 60.0, 'a robot that stands')
 
 
 @pytest.fixture
@@ -170,9 +239,10 @@ def until() -> Callable[..., Awaitable[None]]:
     return wait
 
 
-@pytest.fixture(autouse=True)
-def own_ros_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(scope='session', autouse=True)
+def own_ros_home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Keep what is written out of the home of whoever runs the tests."""
-    monkeypatch.setenv('ROS_HOME', str(tmp_path / 'ros'))
-    monkeypatch.delenv('ROBOT_MCP_TOKEN', raising=False)
-    assert os.environ['ROS_HOME']
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv('ROS_HOME', str(tmp_path_factory.mktemp('ros')))
+        patch.delenv('ROBOT_MCP_TOKEN', raising=False)
+        yield
