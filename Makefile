@@ -88,7 +88,7 @@ trials: build ## Let the humanoid walk into 200 obstacles
 
 stories: build ## Run the stories that take too long for make test
 	@$(SETUP) tests
-	@$(RUN) python3 -m pytest -o python_files='story_*.py' src tools/test $(ARGS)
+	@$(RUN) python3 -m pytest -o python_files='story_*.py' src tools $(ARGS)
 
 docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py
