@@ -53,6 +53,7 @@ class Apartment:
         self.pinhole = pinhole_of(self.model, VIEW)
         self.detector = make_detector(DetectorParameters())
         self.rays = self.pinhole.rays().reshape(-1, 3)
+        self._bodies: dict[bytes, np.ndarray] = {}
         mujoco.mj_forward(self.model, self.data)
 
     def look(self, eye_m: np.ndarray, at_m: np.ndarray) -> None:
@@ -78,9 +79,15 @@ class Apartment:
         turn = self.data.cam_xmat[self.camera].reshape(3, 3) @ FLIP
         return turn, self.data.cam_xpos[self.camera].copy()
 
-    def bodies(self, hidden: frozenset[int] = frozenset()) -> np.ndarray:
-        """Return the body that each pixel shows, (height, width)."""
+    def bodies(self) -> np.ndarray:
+        """Return the body that each pixel shows, (height, width); each view is cast once."""
         turn, eye = self.pose
+        view = turn.tobytes() + eye.tobytes()
+        if view not in self._bodies:
+            self._bodies[view] = self._cast(turn, eye)
+        return self._bodies[view]
+
+    def _cast(self, turn: np.ndarray, eye: np.ndarray) -> np.ndarray:
         rays = self.rays @ turn.T
         count = len(rays)
         geoms, distances = np.full(count, -1, np.int32), np.zeros(count)
