@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, ExitStack
+import os
 from pathlib import Path
 import re
 import sys
+import threading
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
@@ -106,6 +107,43 @@ class Robot(Node):
         return
 
 
+class StdioClient:
+    """A client of the SDK with the server that it starts, in a task that opens and closes it."""
+
+    def __init__(self, mode: str, command: list[str], *, can_ask: bool) -> None:
+        self.asked: Any = None
+        """Answers what the server asks at present, if the client can ask anybody."""
+        self._opened: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        self._is_over = asyncio.Event()
+        self._task = asyncio.create_task(self._run(mode, command, can_ask))
+
+    async def _run(self, mode: str, command: list[str], can_ask: bool) -> None:
+        from mcp import Client, StdioServerParameters
+
+        async def ask(context: Any, params: Any) -> Any:
+            return await self.asked(context, params)
+
+        server = StdioServerParameters(command=command[0], args=command[1:], env=dict(os.environ))
+        try:
+            asked = ask if can_ask else None
+            async with Client(server, mode=mode, elicitation_callback=asked) as client:
+                self._opened.set_result(client)
+                await self._is_over.wait()
+        except BaseException as error:
+            if not self._opened.done():
+                self._opened.set_exception(error)
+            raise
+
+    async def opened(self) -> Any:
+        """Return the client of the SDK, when it is connected."""
+        return await asyncio.shield(self._opened)
+
+    async def close(self) -> None:
+        """End the server."""
+        self._is_over.set()
+        await asyncio.gather(self._task, return_exceptions=True)
+
+
 class World:
     """
     A domain of its own, perhaps with a robot in it, and what plays an assistant there.
@@ -118,7 +156,10 @@ class World:
         self.audit = folder / 'audit.jsonl'
         self.places = folder / 'places.yaml'
         self.places.write_text(PLACES)
-        self._pool = ThreadPoolExecutor(1)
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+        self._thread.start()
+        self._clients: dict[tuple[Any, ...], StdioClient] = {}
         self._stack = ExitStack()
         self._servers: dict[tuple[tuple[str, Any], ...], tuple[str, str, Any]] = {}
 
@@ -160,20 +201,34 @@ class World:
             self._servers[key] = self._stack.enter_context(self.http_server(**parameters))
         return self._servers[key]
 
+    async def shared_client(self, mode: str, asked: Any = None, **parameters: Any) -> Any:
+        """Return the client over stdio with these parameters, which lives as long as the world."""
+        can_ask = asked is not None
+        key = (mode, can_ask, *sorted(parameters.items()))
+        if key not in self._clients:
+            command = self.command(**parameters)
+            self._clients[key] = StdioClient(mode, command, can_ask=can_ask)
+        self._clients[key].asked = asked
+        return await self._clients[key].opened()
+
     def play(self, script: Callable[[], Awaitable[Any]]) -> Any:
         """Run a coroutine function to its end, and return what it returns."""
 
         async def limited() -> Any:
             return await asyncio.wait_for(script(), 90.0)
 
-        future = self._pool.submit(lambda: asyncio.run(limited()))
+        future = asyncio.run_coroutine_threadsafe(limited(), self._loop)
         self.ros.wait_until(future.done, 100.0, 'the end of what the assistant does')
         return future.result()
 
     def close(self) -> None:
-        """End the servers."""
+        """End the clients and the servers."""
+        for client in self._clients.values():
+            asyncio.run_coroutine_threadsafe(client.close(), self._loop).result(60.0)
         self._stack.close()
-        self._pool.shutdown()
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join()
+        self._loop.close()
 
 
 @contextmanager

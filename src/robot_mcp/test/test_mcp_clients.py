@@ -20,7 +20,7 @@ import pytest
 pytest.importorskip('mcp')
 
 import httpx2  # noqa: E402, I100
-from mcp import Client, StdioServerParameters, types  # noqa: E402
+from mcp import Client, types  # noqa: E402
 from mcp.client.streamable_http import streamable_http_client  # noqa: E402
 
 WAYS = [('stdio', 'auto'), ('stdio', 'legacy'), ('http', 'auto'), ('http', 'legacy')]
@@ -33,12 +33,9 @@ all_ways = pytest.mark.parametrize('transport, mode', WAYS)
 async def connected(
     world: Any, transport: str, mode: str, *, asked: Any = None, **parameters: Any
 ) -> AsyncIterator[Client]:
-    """Connect a client to a server: for HTTP to the one that clients share."""
+    """Connect a client to a server, which tests share; over stdio they share the client, too."""
     if transport == 'stdio':
-        command, *arguments = world.command(**parameters)
-        server = StdioServerParameters(command=command, args=arguments, env=dict(os.environ))
-        async with Client(server, mode=mode, elicitation_callback=asked) as client:
-            yield client
+        yield await world.shared_client(mode, asked, **parameters)
         return
     address, token, _ = world.shared_server(**parameters)
     async with reached(address, token, mode, asked) as client:
