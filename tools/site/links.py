@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the site shows a file of the workspace, and links of pages rewritten for that."""
+"""Where the site shows a file of the workspace; links of pages, checked and rewritten for that."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 import posixpath
 import re
 
-__all__ = ['linked_files', 'rewrite_page', 'site_path']
+from contents import SiteError
+
+__all__ = ['linked_file', 'linked_files', 'require_anchors', 'rewrite_page', 'site_path']
 
 _PLACES = {
     'README.md': 'index.md',
@@ -24,6 +28,9 @@ _LINK = re.compile(
     r'(?:(?P<start>!?\[)(?P<label>[^\[\]]*))?\]'
     r'\((?P<target>[^()\s#:]+)(?P<anchor>#[^()\s]*)?\)'
 )
+_ANCHORED = re.compile(r'\]\((?P<target>[^()\s#:]*)#(?P<anchor>[^()\s]+)\)')
+_FENCED = re.compile(r'^(?P<fence>`{3,}).*?^(?P=fence)$', flags=re.MULTILINE | re.DOTALL)
+_HEADING = re.compile(r'^#{1,4} +(?P<title>.+?) *$', flags=re.MULTILINE)
 _WRITTEN_FILE = re.compile(r'^```(\w+) file=(\S+)$', flags=re.MULTILINE)
 
 
@@ -72,6 +79,83 @@ def linked_files(text: str, page: str) -> Iterator[str]:
     for prose, _ in _split(text):
         for match in _LINK.finditer(prose):
             yield _resolve(match['target'], page)
+
+
+def linked_file(root: Path, page: str, path: str) -> str:
+    """
+    Return the file that a path names in a link of a page: of a folder, its README.
+
+    Parameters
+    ----------
+    root
+        The workspace.
+    page, path
+        The page and the path, relative to the workspace.
+
+    Raises
+    ------
+    SiteError
+        There is no such file in the workspace; the message says where the link is.
+
+    """
+    readme = posixpath.normpath(posixpath.join(path, 'README.md'))
+    for each in (path, readme):
+        if not each.startswith('..') and (root / each).is_file():
+            return each
+    raise SiteError(
+        f'{page} links to {path}, which is no file of the workspace and no folder with a '
+        'README.md: correct the link'
+    )
+
+
+def require_anchors(pages: Mapping[str, str], file_of: Callable[[str, str], str]) -> None:
+    """
+    Check that each link to a heading leads to one.
+
+    Parameters
+    ----------
+    pages
+        The text of each page, by its path relative to the workspace. Links to other files are not
+        checked.
+    file_of
+        Returns the file that stands for a path in a link of a page, as `linked_file` does.
+
+    Raises
+    ------
+    SiteError
+        A page has no such heading; the message names each link.
+
+    """
+    anchors = {page: _heading_anchors(text) for page, text in pages.items()}
+    problems = [
+        f'{page} links to #{anchor} of {target}, which has no such heading: correct the link'
+        for page, text in pages.items()
+        for target, anchor in _linked_anchors(text, page, file_of)
+        if anchor not in anchors.get(target, {anchor})
+    ]
+    if problems:
+        raise SiteError('\n'.join(problems))
+
+
+def _linked_anchors(
+    text: str, page: str, file_of: Callable[[str, str], str]
+) -> Iterator[tuple[str, str]]:
+    """Yield the page and the anchor of each link to a heading."""
+    for prose, _ in _split(text):
+        for match in _ANCHORED.finditer(prose):
+            target = match['target']
+            yield file_of(page, _resolve(target, page)) if target else page, match['anchor']
+
+
+def _heading_anchors(text: str) -> set[str]:
+    """Return the anchors that code hosts and the site give to the headings of a page."""
+    found: Counter[str] = Counter()
+    anchors = set()
+    for match in _HEADING.finditer(_FENCED.sub('', text)):
+        slug = re.sub(r'[^\w -]', '', match['title'].lower()).replace(' ', '-')
+        anchors.add(f'{slug}-{found[slug]}' if found[slug] else slug)
+        found[slug] += 1
+    return anchors
 
 
 def rewrite_page(text: str, page: str, file_of: Callable[[str], str]) -> str:

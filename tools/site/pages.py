@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import partial
 from pathlib import Path, PurePosixPath
-import posixpath
 import shutil
 
-from contents import Group, groups, require_all, SiteError
-from links import linked_files, rewrite_page, site_path
+from changelog import with_anchors
+from contents import Group, groups, require_all
+from links import linked_file, linked_files, require_anchors, rewrite_page, site_path
 from own_packages import is_own_package
 from python_reference import python_page
 
@@ -41,7 +41,8 @@ _ABOUT_PACKAGES = """\
 What each package contains: nodes, topics, parameters, commands. First come the packages of the
 robot (`src`), then those of the ROS 2 installation that comes with it (`tools/underlay`).
 """
-_PROJECT = Group('Project', ('CONTRIBUTING.md', 'CHANGELOG.md'))
+_CHANGELOG = 'CHANGELOG.md'
+_PROJECT = Group('Project', ('CONTRIBUTING.md', _CHANGELOG))
 
 
 def write_pages(root: Path, folder: Path) -> dict[str, str]:
@@ -67,10 +68,11 @@ def write_pages(root: Path, folder: Path) -> dict[str, str]:
 
     """
     pages = _pages(root)
+    require_anchors(pages, partial(linked_file, root))
     shown: dict[str, str] = {}
     linked: set[str] = set()
     for page, text in pages.items():
-        find = partial(_find, root, page)
+        find = partial(linked_file, root, page)
         linked |= {find(path) for path in linked_files(text, page)}
         shown[page] = rewrite_page(text, page, find)
     for path in sorted(linked - {*pages}):
@@ -99,6 +101,7 @@ def _pages(root: Path) -> dict[str, str]:
     pages = {name: (root / name).read_text(encoding='utf-8') for name in names}
     navigation = groups(pages['docs/README.md'])
     require_all(navigation, [name for name in names if name.startswith('docs/')])
+    pages[_CHANGELOG] = with_anchors(pages[_CHANGELOG])
     pages['README.md'] += ''.join(_branches([*navigation, _PROJECT]))
     described = {
         f'docs/python/{package.name}.md': python_page(package.name, package, root)
@@ -134,18 +137,6 @@ def _tree(entries: Iterable[str], *options: str) -> str:
     """Format a table of contents."""
     lines = [*(f':{option}' for option in options), '', *entries]
     return '\n'.join(['', '```{toctree}', *lines, '```', ''])
-
-
-def _find(root: Path, page: str, path: str) -> str:
-    """Return the file that a path names in a link of a page: of a folder, its README."""
-    readme = posixpath.normpath(posixpath.join(path, 'README.md'))
-    for each in (path, readme):
-        if not each.startswith('..') and (root / each).is_file():
-            return each
-    raise SiteError(
-        f'{page} links to {path}, which is no file of the workspace and no folder with a '
-        'README.md: correct the link'
-    )
 
 
 def _listing(path: str, text: str) -> str:

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 import re
 
+from changelog import with_anchors
 import commands
 from contents import Group, groups, require_all, SiteError  # tools/site is on the path here
-from links import linked_files, rewrite_page, site_path
+from links import linked_file, linked_files, require_anchors, rewrite_page, site_path
 from locations import Locations
 import processes
 import pytest
@@ -95,6 +97,62 @@ def test_linked_files_are_found_outside_code() -> None:
     """What a page links to is found, relative to the workspace."""
     text = '[a](../a.py) `[b](b.py)` ![c](../pictures/c.png)\n```text\n[d](d.py)\n```\n[e](#e)'
     assert [*linked_files(text, 'docs/how-to/p.md')] == ['docs/a.py', 'docs/pictures/c.png']
+
+
+def test_the_links_of_the_site_lead_to_files_and_headings(root: Path) -> None:
+    """What the pages of the site link to exists, down to the heading."""
+    patterns = ('*.md', 'docs/**/*.md', 'src/*/README.md', 'tools/underlay/*/README.md')
+    paths = [path for pattern in patterns for path in root.glob(pattern)]
+    pages = {path.relative_to(root).as_posix(): path.read_text() for path in paths}
+    linked = [
+        linked_file(root, page, path)
+        for page, text in pages.items()
+        for path in linked_files(text, page)
+    ]
+    assert len(linked) > len(pages)
+    require_anchors(pages, partial(linked_file, root))
+
+
+@pytest.mark.parametrize(
+    ('link', 'wrong'),
+    [
+        ('b.md#what-ros2-run-starts', ''),
+        ('b.md#twice-1', ''),
+        ('#its-own', ''),
+        ('b.md#twice-2', '#twice-2 of b.md'),
+        ('b.md#a-comment', '#a-comment of b.md'),
+        ('#what-ros2-run-starts', '#what-ros2-run-starts of a.md'),
+    ],
+)
+def test_a_link_to_a_heading_that_is_missing_is_refused(link: str, wrong: str) -> None:
+    """The page, the heading and the page that lacks it are named."""
+    other = '# What `ros2 run` starts\n\n## Twice\n\n## Twice\n\n```bash\n# a comment\n```\n'
+    pages = {'a.md': f'# Its own\n\n[see]({link})\n', 'b.md': other}
+    if not wrong:
+        require_anchors(pages, lambda page, path: path)
+        return
+    with pytest.raises(SiteError, match=f'^a.md links to {wrong}, which has no such heading'):
+        require_anchors(pages, lambda page, path: path)
+
+
+def test_a_link_to_a_file_that_is_missing_is_refused(tmp_path: Path) -> None:
+    """A folder stands for its README; the page is named that links to nothing."""
+    (tmp_path / 'p').mkdir()
+    (tmp_path / 'p' / 'README.md').write_text('# p\n')
+    assert linked_file(tmp_path, 'a.md', 'p') == 'p/README.md'
+    with pytest.raises(SiteError, match='^a.md links to q, which is no file'):
+        linked_file(tmp_path, 'a.md', 'q')
+
+
+def test_versions_of_the_changelog_have_anchors_that_stay() -> None:
+    """A release keeps its anchor when there are newer ones, and line numbers stay."""
+    older = '\n## [1.0.0] - 2026-01-02\n\n### Added\n\n- x\n'
+    named = '(v1-0-0)=\n## [1.0.0] - 2026-01-02\n(v1-0-0-added)=\n### Added\n\n- x\n'
+    assert with_anchors(f'# Changelog\n{older}') == f'# Changelog\n{named}'
+    newer = '# Changelog\n\n## Unreleased\n\n### Added\n\n- y\n'
+    assert with_anchors(newer + older) == (
+        f'# Changelog\n\n## Unreleased\n(unreleased-added)=\n### Added\n\n- y\n{named}'
+    )
 
 
 def test_what_the_site_needs_is_pinned_and_nobody_else_installs_it(root: Path) -> None:
