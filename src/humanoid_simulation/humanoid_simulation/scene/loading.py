@@ -29,11 +29,28 @@ def load_scene(name: str = 'flat') -> Scene:
         There is no such scene, or its file cannot be read or has a mistake (`TableError`).
 
     """
-    if name.endswith(SCENE_SUFFIXES):
-        path = Path(name)
-    else:
-        path = named('scene', name, installed_scenes())
+    path = scene_path(name)
     return scene_of(load_table(path), path.stem)
+
+
+def scene_path(name: str) -> Path:
+    """
+    Find the file of a scene.
+
+    Parameters
+    ----------
+    name
+        The name of an installed scene, or the path of a file that ends with .yaml or .yml.
+
+    Raises
+    ------
+    SimulationError
+        There is no installed scene of that name; a path is returned unchecked.
+
+    """
+    if name.endswith(SCENE_SUFFIXES):
+        return Path(name)
+    return named('scene', name, installed_scenes())
 
 
 def scene_of(table: Table, name: str) -> Scene:

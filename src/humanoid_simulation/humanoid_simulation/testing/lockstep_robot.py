@@ -8,15 +8,17 @@ from collections.abc import Callable, Sequence
 import math
 
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
-from humanoid_control.walking import PlanarPose, VelocityCommand
+from humanoid_control.walking import PlanarPose, VelocityCommand, WalkParameters
 from humanoid_description.loading import load_robot
 from humanoid_description.rotations import from_quaternion, yaw_of
 from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
+from humanoid_simulation.keyframes import Keyframe, load_keyframes
 from humanoid_simulation.model import humanoid
 from humanoid_simulation.scene import Scene
 import numpy as np
 
+DEFAULT_WALK = WalkParameters()
 PUSH_S = 0.1
 """Duration of a push."""
 
@@ -47,6 +49,8 @@ class LockstepRobot:
         Called at each tick; returns whether the controller misses it.
     hands
         Whether the robot has wrists and grippers.
+    walk
+        Parameters of the walk; others than the defaults also change the initial posture.
 
     Attributes
     ----------
@@ -66,13 +70,17 @@ class LockstepRobot:
         scene: Scene = Scene(),
         misses: Callable[[], bool] = never,
         hands: bool = False,
+        walk: WalkParameters = DEFAULT_WALK,
     ) -> None:
         description = humanoid(hands=hands)
-        self.backend = MujocoBackend(description, scene, settings=settings)
         robot = load_robot(description.urdf, 'the humanoid')
         self.walking = WalkingRobotControl.of(
-            robot, description.drives, imu=settings.noise.imu(settings.period_s)
+            robot, description.drives, walk, imu=settings.noise.imu(settings.period_s)
         )
+        keyframes = load_keyframes()
+        if walk != DEFAULT_WALK:
+            keyframes['home'] = Keyframe(self.walking.home_rad)
+        self.backend = MujocoBackend(description, scene, settings=settings, keyframes=keyframes)
         self._velocity = VelocityCommand()
         self._misses = misses
         self._fall_watch = FallWatch()
