@@ -27,8 +27,8 @@ JAZZY = set(
 )
 LIBRARIES = set(
     'OpenGL cv2 faster_whisper httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '
-    'onnxruntime pinocchio pocketsphinx pytest pywhispercpp scipy segno setuptools sounddevice '
-    'uvicorn yaml yourdfpy'.split()
+    'onnxruntime pinocchio pocketsphinx pyarrow pytest pywhispercpp scipy segno setuptools '
+    'sounddevice uvicorn yaml yourdfpy'.split()
 )
 ROOT = Path(__file__).resolve().parents[2]
 
