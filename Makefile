@@ -80,8 +80,8 @@ bench: build ## Measure what commands, launches, bags, transforms, RViz, physics
 	@$(RUN) python3 tools/benchmarks/perception.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/planner.py $(ARGS)
 
-soak: build ## Let the humanoid walk for 20 minutes under bad conditions
-	@$(RUN) python3 tools/benchmarks/walking_soak.py $(ARGS)
+soak: build ## Let the humanoid walk for 20 minutes under bad conditions; an interrupted soak goes on
+	@$(RUN) ros2 run humanoid_simulation sweep soak --output build/soak $(ARGS)
 
 trials: build ## Let the humanoid walk into 200 obstacles
 	@$(RUN) python3 tools/benchmarks/obstacle_trials.py $(ARGS)

@@ -16,10 +16,10 @@ from arguments import in_range
 from humanoid_description.rotations import from_quaternion, to_rpy, wrap_angle
 from humanoid_simulation.backend import BackendSettings, SensorNoise
 from humanoid_simulation.backend.noise import REALISTIC
+from humanoid_simulation.sweep.walk import random_segment
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
 from numpy.typing import NDArray
-from soak_run import drawn_segment
 
 Array = NDArray[np.float64]
 QUANTITIES = {'x, y': (0, 1), 'z': (2,), 'roll, pitch': (3, 4), 'heading': (5,)}
@@ -58,7 +58,7 @@ class OdometryRun:
         end_s = self._robot.backend.time_s + duration_s
         while (rest_s := end_s - self._robot.backend.time_s) > 1e-6:
             if self._left_s <= 0.0:
-                segment = drawn_segment(self._random, 0.0)
+                segment = random_segment(self._random, 0.0)
                 command, self._left_s = segment.command, segment.duration_s
                 self._robot.drive(command.forward_m_s, command.left_m_s, command.turn_rad_s)
             step_s = min(self._left_s, rest_s)

@@ -15,6 +15,7 @@ NODES = {
         'humanoid_simulation.examples.walk_square.WalkSquareParameters'
     ),
     'humanoid_simulation push_test': 'humanoid_simulation.examples.push_test.PushTestParameters',
+    'humanoid_simulation replay': 'humanoid_simulation.sweep.replay_node.ReplayParameters',
     'humanoid_control mock_robot': 'humanoid_control.hosting.parameters.HostParameters',
     'humanoid_control joint_controller': (
         'humanoid_control.joint_controller.JointControllerParameters'

@@ -41,8 +41,6 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['walking_pushes', '--phases', '0'], "'0' is no int at least 1."),
         (['obstacle_trials', '--first', '-1'], "'-1' is no int at least 0."),
         (['obstacle_trials', '--trials', '0'], "'0' is no int at least 1."),
-        (['walking_soak', '--drop-outs', '7'], "'7' is no float from 0 to 1."),
-        (['walking_soak', '--first-seed', 'x'], "'x' is no int at least 0."),
         (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
         (['journeys', '--only', 'flight'], "invalid choice: 'flight'"),
     ],
