@@ -134,6 +134,7 @@ def test_plots() -> None:
     assert svg.count('class="fell"') == 2 and 'height="176.0"' in svg and 'height="0.0"' in svg
     points = survival_over(NAME, RUNS)
     assert points.count('class="fell"') == 2 and points.count('class="stood"') == 2
+    assert survival_over(NAME, 1000 * RUNS).count('<circle') == 1334
 
 
 def test_columns() -> None:

@@ -6,8 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from humanoid_simulation.sweep.results import Bin, FELL, FinishedRun, number_text, STOOD
+from humanoid_simulation.sweep.results import Bin, FinishedRun, number_text, STOOD
 
+MOST_POINTS = 1500
+"""Maximum number of points of a plot; of more runs, evenly chosen ones are shown."""
 _WIDTH, _HEIGHT = 460, 250
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 12, 26, 48
 _INNER_WIDTH, _INNER_HEIGHT = _WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
@@ -45,7 +47,7 @@ def falls_by(name: str, bins: Sequence[Bin]) -> str:
 
 def survival_over(name: str, runs: Sequence[FinishedRun]) -> str:
     """
-    Draw the time on its feet over a numeric condition, a point for each run.
+    Draw the time on its feet over a numeric condition, a point for each run or some of them.
 
     Parameters
     ----------
@@ -55,11 +57,13 @@ def survival_over(name: str, runs: Sequence[FinishedRun]) -> str:
         The runs, whose values of the condition are numbers.
 
     """
+    ranked = sorted(runs, key=lambda run: (run.result.outcome != STOOD, run.result.survived_s))
+    runs = ranked[:: -(-len(ranked) // MOST_POINTS)]
     values = [float(run.conditions[name]) for run in runs]
     low, high = min(values), max(values)
     longest_s = max([run.result.survived_s for run in runs] + [1e-9])
     parts = [_axis([(share, f'{share * longest_s:.3g}') for share in (0.0, 0.5, 1.0)])]
-    for value, run in sorted(zip(values, runs), key=lambda each: each[1].result.outcome == FELL):
+    for value, run in zip(values, runs):
         x = _LEFT + 6 + (value - low) / ((high - low) or 1.0) * (_INNER_WIDTH - 12)
         y = _y(run.result.survived_s / longest_s)
         kind = 'stood' if run.result.outcome == STOOD else 'fell'
