@@ -105,8 +105,6 @@ def test_a_crash_is_recorded_and_tried_again_by_the_next_command(tmp_path: Path)
     """It is not finished; the report of the first command has its reason."""
 
     class Crashing:
-        workers = 1
-
         def outcomes(self, runs):
             yield Done(runs[0], STOOD)
             yield Crashed(runs[1], 1, 'no <memory>')

@@ -58,10 +58,6 @@ Outcomes = Generator[Done | Crashed, None, None]
 class Engine(Protocol):
     """What does runs: each is done once, or tried `ATTEMPTS` times if its process crashes."""
 
-    @property
-    def workers(self) -> int:
-        """Return how many runs are done at the same time."""
-
     def outcomes(self, runs: Sequence[Run]) -> Outcomes:
         """
         Do the runs, and yield what becomes of each as soon as it is known, in any order.
@@ -94,11 +90,6 @@ class LocalProcesses:
     def __init__(self, work: Work, workers: int) -> None:
         self._work, self._workers = work, workers
         self._context = multiprocessing.get_context('spawn')
-
-    @property
-    def workers(self) -> int:
-        """Return how many runs are done at the same time."""
-        return self._workers
 
     def outcomes(self, runs: Sequence[Run]) -> Outcomes:
         """
