@@ -118,6 +118,11 @@ def test_a_list_parameter_is_one_value() -> None:
         ('conditions: {seed: 3}', "set 'first_seed' and 'seeds'"),
         ('conditions: {load_kg: 1}', "'load_kg' needs 'hands: true'"),
         ('conditions: {commands: random, forward_m_s: 0.1}', "no effect with 'commands: random'"),
+        ('conditions: {push_every_s: 0.05}', "'push_every_s' is 0.05, but a push takes 0.1 s"),
+        (
+            'conditions: {push_ns: 5, push_at_s: 20}',
+            "'push_at_s' is 20, but a run ends after 20 s",
+        ),
         ('conditions: {friction: {from: 1, to: 0.5, steps: 2}}', "'from' must be below 'to'"),
         ('conditions: {friction: {from: 0.5, to: 1}}', "needs 'steps'"),
         ('conditions: {friction: {from: 0.5, till: 1}}', "'till'"),

@@ -15,6 +15,7 @@ from humanoid_simulation.model.description import SELF_COLLISIONS
 from humanoid_simulation.scene.loading import scene_path
 
 STEADY, RANDOM = 'steady', 'random'
+SHORTEST_PUSH_PERIOD_S = 0.2
 _STEADY_ONLY = (
     *('forward_m_s', 'left_m_s', 'turn_rad_s'),
     *('push_angle_rad', 'push_at_s', 'push_every_s'),
@@ -114,6 +115,7 @@ class Conditions:
         """Check what must hold for several conditions together."""
         if self.load_kg and not self.hands:
             raise ParameterError("'load_kg' needs 'hands: true': nothing carries without.")
+        self._check_pushes()
         defaults = {each.name: each.default for each in fields(self)}
         for name in _STEADY_ONLY if self.commands == RANDOM else ():
             if getattr(self, name) != defaults[name]:
@@ -122,6 +124,21 @@ class Conditions:
                     "Remove it, or set 'commands: steady'.",
                     name,
                 )
+
+    def _check_pushes(self) -> None:
+        """Check that steady pushes happen, one after the other."""
+        if 0.0 < self.push_every_s < SHORTEST_PUSH_PERIOD_S:
+            raise ParameterError(
+                f"'push_every_s' is {self.push_every_s:g}, but a push takes 0.1 s. Give "
+                f'{SHORTEST_PUSH_PERIOD_S:g} or more, or 0 for a single push.',
+                'push_every_s',
+            )
+        if self.commands == STEADY and self.push_ns and self.push_at_s >= self.seconds:
+            raise ParameterError(
+                f"'push_at_s' is {self.push_at_s:g}, but a run ends after {self.seconds:g} s, so "
+                "nothing would be pushed. Give less, or more 'seconds'.",
+                'push_at_s',
+            )
 
     @property
     def digest(self) -> str:
