@@ -55,6 +55,7 @@ def test_results(folder: Path) -> None:
     assert walked.distance_m > 0.1 and walked.largest_tilt_rad < 0.2 and walked.push_s == 0.0
     assert pushed.outcome == 'fell' and pushed.push_s == pytest.approx(1.5, abs=0.02)
     assert pushed.push_s < pushed.survived_s < 3.0 and pushed.push_x_ns > 100.0
+    assert walked.phase == pushed.phase == 'walk'
 
 
 def test_a_run_is_repeatable(folder: Path) -> None:

@@ -39,7 +39,7 @@ def falls_by(name: str, bins: Sequence[Bin]) -> str:
                 f'<title>{each.fell} of {each.runs} fell</title></rect>'
                 f'<path class="interval" d="M{middle:.1f} {_y(low):.1f}V{_y(high):.1f}"/>'
             )
-        parts.append(_label(middle, _HEIGHT - 32, each.label, len(bins) > 6))
+        parts.append(_label(middle, _HEIGHT - 32, each.label, len(bins) > 3))
         parts.append(_text(middle, _HEIGHT - 18, f'{each.fell}/{each.runs}', 'count'))
     parts.append(_text(_LEFT + _INNER_WIDTH / 2, _HEIGHT - 4, name, 'name'))
     return _svg(f'Share of falls over {name}', parts)

@@ -22,7 +22,7 @@ from humanoid_simulation.sweep.conditions import conditions_of
 from humanoid_simulation.sweep.motion import Motion
 from humanoid_simulation.sweep.record import find_run
 from humanoid_simulation.sweep.report import ending as ending_text
-from humanoid_simulation.sweep.results import FinishedRun
+from humanoid_simulation.sweep.results import FELL, FinishedRun
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -95,7 +95,7 @@ class Replay(Node):
             ) from error
         self._ticks: Iterator[None] | None = self._motion.walk.ticks()
         self._last_s, self._ahead_s, self._markers_s = time.monotonic(), 0.0, -math.inf
-        self._ended_s = math.inf
+        self._outcome, self._end_s, self._ended_s = '', 0.0, math.inf
 
     def _go_on(self) -> None:
         """Let the time pass that has passed in reality, and publish."""
@@ -117,25 +117,42 @@ class Replay(Node):
         self._ahead_s += passed_s
         period_s = self._motion.walk.robot.backend.period_s
         for _ in range(_MOST_TICKS):
-            if self._ahead_s < period_s or self._ticks is None:
+            if self._ahead_s < period_s:
                 return
             self._ahead_s -= period_s
             try:
-                next(self._ticks)
-            except StopIteration:
-                self._end('')
+                self._tick()
             except SimulationError as error:
                 self._end(str(error))
         self._ahead_s = 0.0
 
-    def _end(self, problem: str) -> None:
+    def _tick(self) -> None:
+        """Do one control period of the run; after a fall, let the robot come to rest."""
+        walk = self._motion.walk
+        if self._ticks is not None:
+            try:
+                next(self._ticks)
+            except StopIteration:
+                self._end(walk.result().outcome)
+        elif self._outcome == FELL:
+            walk.robot.tick()
+
+    def _end(self, outcome: str) -> None:
         """Note that the run is over; it starts again after a pause."""
-        self._ticks, self._ended_s = None, time.monotonic()
-        self.get_logger().info(problem or f'The run has ended: {self._title()}')
+        self._ticks, self._outcome, self._ended_s = None, outcome, time.monotonic()
+        self._end_s = self._motion.walk.robot.backend.time_s
+        self.get_logger().info(f'The run has ended: {self._title()}')
 
     def _title(self) -> str:
         """Return the text above the robot."""
-        result = self._motion.walk.result()
-        velocity = f'{result.forward_m_s:.2f} {result.left_m_s:.2f} {result.turn_rad_s:.2f}'
-        state = result.outcome if self._ticks is None else f'commanded {velocity}'
-        return f'{self._run.key[:8]}  {result.survived_s:.1f} s  {state}'
+        walk = self._motion.walk
+        command = walk.segment.command
+        if self._ticks is None:
+            time_s, state = self._end_s, self._outcome
+        else:
+            time_s = walk.robot.backend.time_s
+            state = (
+                f'commanded {command.forward_m_s:.2f} {command.left_m_s:.2f} '
+                f'{command.turn_rad_s:.2f}'
+            )
+        return f'{self._run.key[:8]}  {time_s:.1f} s  {state}'

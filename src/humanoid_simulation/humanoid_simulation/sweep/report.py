@@ -145,7 +145,7 @@ class Report:
     def _table(self, runs: Sequence[FinishedRun]) -> str:
         """Return a table of runs."""
         names = ('key', 'result', 'seed', *self.varied)
-        units = ('last command', 'last push', 'walked', 'tilt')
+        units = ('last command (m/s, m/s, rad/s)', 'last push', 'walked', 'tilt')
         head = ''.join(f'<th>{escape(name)}</th>' for name in (*names, *units))
         rows = ''.join(f'<tr>{_cells(run, self.varied)}</tr>' for run in runs[:MOST_ROWS])
         rest = len(runs) - MOST_ROWS
@@ -212,7 +212,7 @@ h2{margin-top:2rem}code,pre{font:13px ui-monospace,monospace}pre{margin:0;white-
 th,td{padding:.25rem .7rem .25rem 0;border-bottom:1px solid var(--line);text-align:left;
 vertical-align:top}td{font-variant-numeric:tabular-nums}th{white-space:nowrap}
 .bad{color:var(--bad)}.good{color:var(--good)}summary{cursor:pointer}
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(330px,1fr));gap:1rem}
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(420px,100%),1fr));gap:1rem}
 figure{margin:0}svg{width:100%;height:auto}svg text{font:11px system-ui,sans-serif;
 fill:var(--soft);text-anchor:middle}svg .title{font-size:13px;fill:var(--text);
 text-anchor:start}svg .axis{text-anchor:end}svg .name{fill:var(--text)}svg .small{font-size:9px}

@@ -33,7 +33,7 @@ class RunResult:
     blocked: int = 0
     """How often the walk took its way for blocked."""
     phase: str = ''
-    """Phase of the walk at the end."""
+    """Phase of the walk at the end, or before it noticed that it fell."""
     forward_m_s: float = 0.0
     left_m_s: float = 0.0
     turn_rad_s: float = 0.0

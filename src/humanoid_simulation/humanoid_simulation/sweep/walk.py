@@ -141,7 +141,7 @@ class Walk:
             self._hold_hand_before_body()
         self.segment = Segment(VelocityCommand(), 0.0)
         self.push_ns, self.push_s = 0j, 0.0
-        self._has_fallen = False
+        self._has_fallen, self._phase = False, ''
         self._distance_m, self._tilt_rad = 0.0, 0.0
         self._blocked, self._was_blocked = 0, False
 
@@ -164,7 +164,6 @@ class Walk:
 
         """
         pose, command = self.robot.pose, self.segment.command
-        status = self.robot.walking.walker.status
         return RunResult(
             outcome=FELL if self._has_fallen else STOOD,
             survived_s=self.robot.backend.time_s,
@@ -174,7 +173,7 @@ class Walk:
             end_y_m=pose.position_m.imag,
             end_yaw_rad=pose.yaw_rad,
             blocked=self._blocked,
-            phase=status.phase if status else '',
+            phase=self._phase,
             forward_m_s=command.forward_m_s,
             left_m_s=command.left_m_s,
             turn_rad_s=command.turn_rad_s,
@@ -220,6 +219,7 @@ class Walk:
             for _ in range(min(left, piece)):
                 self.robot.tick()
                 self._has_fallen = not self.robot.stands
+                self._note_phase()
                 self._tilt_rad = max(self._tilt_rad, self.robot.tilt_rad)
                 yield
                 if self._has_fallen:
@@ -227,6 +227,12 @@ class Walk:
             self._distance_m += abs(self.robot.pose.position_m - place)
             self._count_blocks()
             left -= piece
+
+    def _note_phase(self) -> None:
+        """Keep the phase of the walk, until it notices that it falls."""
+        walker = self.robot.walking.walker
+        if not walker.has_fallen:
+            self._phase = walker.phase or ''
 
     def _count_blocks(self) -> None:
         """Count how often the way is blocked, which lasts at least half a second."""
