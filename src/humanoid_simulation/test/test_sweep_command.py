@@ -116,6 +116,7 @@ def test_an_interrupted_sweep_keeps_its_runs(tmp_path: Path, number: signal.Sign
         program.wait_for_output('0 of 1 runs are finished already')
         report = program.stop(number)
     assert report.status == 128 + number and 'Traceback' not in report.output
+    assert 'the same command does the others' in report.stderr
     assert '0 of 1' in (tmp_path / 'out' / 'report.html').read_text()
 
 

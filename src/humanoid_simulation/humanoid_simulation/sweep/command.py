@@ -25,6 +25,7 @@ from humanoid_simulation.sweep.version import code_version
 from humanoid_simulation.sweep.walk import walk
 
 FALLS_EXIT, PROBLEM_EXIT = 1, 2
+_INTERRUPTED = 'Interrupted. Finished runs are kept; the same command does the others.'
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -127,6 +128,9 @@ def _do(arguments: argparse.Namespace) -> int:
         sweep = Sweep(experiment, finished, version, print_progress(sys.stdout))
         try:
             sweep.run(LocalProcesses(walk, arguments.processes))
+        except KeyboardInterrupt:
+            print(f'\n{_INTERRUPTED}', file=sys.stderr)
+            raise
         finally:
             _write(sweep, folder, _replay_command(arguments))
     print(sweep.conclusion(folder))

@@ -20,6 +20,8 @@ from humanoid_simulation.sweep.results import FinishedRun, RunResult
 from humanoid_simulation.sweep.sampling import Run
 
 NAME = 'runs.jsonl'
+_LONGEST_LINE = 1_000_000
+"""In bytes; a line has about a thousandth of that."""
 
 
 @dataclass(frozen=True)
@@ -195,9 +197,10 @@ class Record:
 
     def _cut_off_torn_line(self) -> None:
         """Remove an incomplete last line."""
-        content = self._path.read_bytes()
-        if content and not content.endswith(b'\n'):
-            os.ftruncate(self._file, content.rfind(b'\n') + 1)
+        start = max(os.fstat(self._file).st_size - _LONGEST_LINE, 0)
+        end = os.pread(self._file, _LONGEST_LINE, start)
+        if end and not end.endswith(b'\n'):
+            os.ftruncate(self._file, start + end.rfind(b'\n') + 1)
             os.fsync(self._file)
 
     def _error(self, error: OSError) -> SimulationError:
@@ -228,24 +231,31 @@ def read_record(path: Path) -> tuple[dict[tuple[str, str], FinishedRun], list[Cr
     finished: dict[tuple[str, str], FinishedRun] = {}
     crashes: list[Crash] = []
     try:
-        lines = path.read_text(encoding='utf-8').splitlines(keepends=True)
+        with path.open(encoding='utf-8') as stream:
+            for number, line in enumerate(stream, 1):
+                if not line.endswith('\n'):
+                    break
+                entry = _entry(line, f'{path}, line {number}')
+                if isinstance(entry, Crash):
+                    crashes.append(entry)
+                else:
+                    finished[entry.version, entry.key] = entry
     except (OSError, UnicodeDecodeError) as error:
         raise SimulationError(f'{path} cannot be read: {error}.') from error
-    for number, line in enumerate(lines, 1):
-        if not line.endswith('\n'):
-            break
-        try:
-            content = json.loads(line)
-            if 'reason' in content:
-                crashes.append(Crash(**content))
-            else:
-                entry = FinishedRun(**content | {'result': RunResult(**content['result'])})
-                finished[entry.version, entry.key] = entry
-        except (ValueError, TypeError, KeyError) as error:
-            raise SimulationError(
-                f'{path}, line {number}, is damaged. Delete that line: its run is then done again.'
-            ) from error
     return finished, crashes
+
+
+def _entry(line: str, place: str) -> FinishedRun | Crash:
+    """Parse a line of a record, or raise SimulationError with its place."""
+    try:
+        content = json.loads(line)
+        if 'reason' in content:
+            return Crash(**content)
+        return FinishedRun(**content | {'result': RunResult(**content['result'])})
+    except (ValueError, TypeError, KeyError) as error:
+        raise SimulationError(
+            f'{place}, is damaged. Delete that line: its run is then done again.'
+        ) from error
 
 
 def find_run(path: Path, key: str) -> FinishedRun:
