@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parse the joints and the visual and collision shapes of a URDF."""
+"""Parse the joints, the masses, and the visual and collision shapes of a URDF."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from urdf.robot_model import (
 )
 from urdf.xml_element import child, number, origin_of, text, UrdfError, vector, XmlElement
 
-__all__ = ['read_joint', 'read_materials', 'read_shapes']
+__all__ = ['read_joint', 'read_mass', 'read_materials', 'read_shapes']
 
 
 def read_joint(element: XmlElement) -> Joint:
@@ -119,6 +119,33 @@ def _mimic(element: XmlElement, where: str) -> Mimic | None:
         number(mimic, 'multiplier', where, 1.0),
         number(mimic, 'offset', where, 0.0),
     )
+
+
+def read_mass(link: XmlElement, where: str) -> float | None:
+    """
+    Parse the mass of a link.
+
+    Parameters
+    ----------
+    link
+        The `<link>` element.
+    where
+        Description of the link, for error messages: "link 'pelvis'".
+
+    Returns
+    -------
+    float | None
+        The mass in kg; None without an `<inertial>` that has one.
+
+    Raises
+    ------
+    UrdfError
+        The mass is not a number.
+
+    """
+    inertial = link.find('inertial')
+    mass = None if inertial is None else inertial.find('mass')
+    return None if mass is None else number(mass, 'value', f'<mass> of {where}', 0.0)
 
 
 def read_materials(robot: XmlElement) -> dict[str, Color]:

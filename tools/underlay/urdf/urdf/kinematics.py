@@ -9,16 +9,19 @@ rotations about its axis are linear in the sine and cosine of half the angle.
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, sin
+from math import atan2, cos, pi, sin
 
 from urdf.robot_model import Joint, Vector
 
-__all__ = ['Pose', 'joint_motion', 'rotate', 'rotation_of']
+__all__ = ['Pose', 'joint_motion', 'joint_position', 'rotate', 'rotation_of']
 
 Quaternion = tuple[float, float, float, float]
 """x, y, z, w."""
 Pose = tuple[float, float, float, float, float, float, float]
 """Translation x, y, z in metres and rotation x, y, z, w."""
+
+ROUNDING_RAD = 1e-6
+"""How far an angle may be beyond a limit, since transforms are rounded."""
 
 
 def joint_motion(joint: Joint) -> Callable[[float], Pose]:
@@ -44,6 +47,45 @@ def joint_motion(joint: Joint) -> Callable[[float], Pose]:
         return _sliding(joint.origin.xyz, rotation, joint.axis)
     pose = (*joint.origin.xyz, *rotation)
     return lambda position: pose
+
+
+def joint_position(joint: Joint, pose: Pose) -> float:
+    """
+    Compute the position of a joint from the pose of its child link: the inverse of `joint_motion`.
+
+    Parameters
+    ----------
+    joint
+        A joint with a scalar position.
+    pose
+        The pose of the child link in the frame of the parent link: translation in m, quaternion
+        x, y, z, w.
+
+    Returns
+    -------
+    float
+        The position, in rad or m. An angle is within the limits of the joint if one of its full
+        turns is, otherwise from -pi to pi.
+
+    """
+    x, y, z, w = rotation_of(joint.origin.rpy)
+    back = (-x, -y, -z, w)
+    if joint.kind == 'prismatic':
+        px, py, pz = (there - here for there, here in zip(pose[:3], joint.origin.xyz))
+        return _dot(joint.axis, rotate(back, (px, py, pz)))
+    tx, ty, tz, tw = product(back, pose[3:])
+    angle = 2.0 * atan2(_dot(joint.axis, (tx, ty, tz)), tw)
+    turns = (angle, angle - 2.0 * pi, angle + 2.0 * pi)
+    limits = joint.limits
+    if limits is not None:
+        for each in turns:
+            if limits.lower - ROUNDING_RAD <= each <= limits.upper + ROUNDING_RAD:
+                return each
+    return min(turns, key=abs)
+
+
+def _dot(left: Vector, right: Vector) -> float:
+    return sum(a * b for a, b in zip(left, right))
 
 
 def _turning(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float], Pose]:

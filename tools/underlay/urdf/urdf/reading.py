@@ -8,7 +8,7 @@ import os
 import re
 
 from ros_environment.suggestions import did_you_mean
-from urdf.element_reading import read_joint, read_materials, read_shapes
+from urdf.element_reading import read_joint, read_mass, read_materials, read_shapes
 from urdf.robot_model import check_for_loops, Color, Joint, Link, RobotModel
 from urdf.xml_element import parse_xml, UrdfError, XmlElement
 from urdf.xml_element import text as attribute
@@ -108,6 +108,7 @@ def _link(element: XmlElement, materials: Mapping[str, Color]) -> Link:
         name,
         read_shapes(element, 'visual', where, materials),
         read_shapes(element, 'collision', where, materials),
+        read_mass(element, where),
         element.line,
     )
 

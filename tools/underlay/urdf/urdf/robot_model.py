@@ -147,6 +147,8 @@ class Link:
     name: str
     visuals: tuple[Shape, ...] = ()
     collisions: tuple[Shape, ...] = ()
+    mass: float | None = None
+    """In kilograms; None if the URDF does not give one."""
     line: int | None = field(default=None, compare=False)
 
 
