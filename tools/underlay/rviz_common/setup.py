@@ -25,6 +25,7 @@ setup(
     entry_points={
         'rviz_common.panels': [
             'rviz_common/Displays = rviz_common.panels.displays_panel:DisplaysPanel',
+            'rviz_common/Selection = rviz_common.panels.selection_panel:SelectionPanel',
             'rviz_common/Time = rviz_common.panels.time_panel:TimePanel',
             'rviz_common/Tool Properties = '
             'rviz_common.panels.view_and_tool_panels:ToolPropertiesPanel',

@@ -29,6 +29,7 @@ setup(
             'rviz_default_plugins/Measure = rviz_default_plugins.tools.measure:Measure',
             'rviz_default_plugins/PublishPoint = '
             'rviz_default_plugins.tools.publishing:PublishPoint',
+            'rviz_default_plugins/Select = rviz_default_plugins.tools.select:Select',
             'rviz_default_plugins/SetGoal = rviz_default_plugins.tools.publishing:SetGoal',
             'rviz_default_plugins/SetInitialPose = '
             'rviz_default_plugins.tools.publishing:SetInitialPose',

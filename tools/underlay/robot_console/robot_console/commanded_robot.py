@@ -12,6 +12,7 @@ from robot_console.namespaces import below, NAMESPACE
 from rviz_common.frames import Pose
 from rviz_common.polled_topic import PolledTopic
 from rviz_common.properties import ColorOf, Flag, Property, qos_of, topic_properties
+from rviz_common.selection import Hit, Ray
 from rviz_common.status import Level
 from rviz_default_plugins.displays.robot_model import RobotModel
 from rviz_default_plugins.robot.robot_scene import Look, PoseOf
@@ -178,6 +179,18 @@ class CommandedRobot(RobotModel):
             self._commands.close()
         self._commands = None
         super().stop()
+
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find nothing: a click meets the robot behind its ghost.
+
+        Parameters
+        ----------
+        ray
+            As for `Display.pick`.
+
+        """
+        return None
 
     def on_change(self, path: str) -> None:
         """

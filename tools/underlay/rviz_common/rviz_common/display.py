@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from rviz_common.context import Context
 from rviz_common.plugins import name_of
 from rviz_common.properties import Flag, Property, Values
+from rviz_common.selection import Hit, Ray
 from rviz_common.status import Level, Statuses
 
 __all__ = ['Display']
@@ -85,6 +86,18 @@ class Display:
 
     def update(self) -> None:
         """Draw the next frame."""
+
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find the first object of the display on a ray; by default the user can select none.
+
+        Parameters
+        ----------
+        ray
+            The ray, in the fixed frame.
+
+        """
+        return None
 
     def on_change(self, path: str) -> None:
         """

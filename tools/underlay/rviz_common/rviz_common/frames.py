@@ -10,7 +10,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from rviz_common.polled_topic import WaitingGroup
-from tf2_py.poses import inverse
+from tf2_py.poses import chain, inverse
 from tf2_py.poses import Pose as Numbers
 from tf2_py.samples import Sample
 from tf2_ros import Buffer, TransformException, TransformListener
@@ -31,6 +31,22 @@ class Pose(NamedTuple):
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+    def of(self, child: Pose) -> Pose:
+        """
+        Compose two poses: this one, of a frame, and that of a child in the frame.
+
+        Parameters
+        ----------
+        child
+            The pose of the child in the frame that has this pose.
+
+        """
+        return _pose(chain(_numbers(self), _numbers(child)))
+
+    def inverse(self) -> Pose:
+        """Return the pose of the parent in this frame."""
+        return _pose(inverse(_numbers(self)))
 
 
 class FrameError(LookupError):
@@ -178,6 +194,12 @@ class Frames:
 
     def _named(self, frame: str) -> str:
         return self.fixed_frame if frame == FIXED_FRAME else frame.lstrip('/')
+
+
+def _numbers(pose: Pose) -> Numbers:
+    """Convert a pose to the form of tf2, whose quaternions have w last."""
+    w, x, y, z = pose.wxyz
+    return (*pose.position, x, y, z, w)
 
 
 def _pose(numbers: Numbers) -> Pose:

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of tools."""
+"""The base classes of tools: for the ground, and for the objects of the scene."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from rviz_common.context import Context
 from rviz_common.properties import Property, Values
+from rviz_common.selection import Point, Ray
 
-__all__ = ['Point', 'Tool']
-
-Point = tuple[float, float, float]
+__all__ = ['Drag', 'ObjectTool', 'Point', 'Tool']
 
 COMMON = ('Class',)
 
@@ -84,6 +84,9 @@ class Tool:
         self.close()
         self.begin()
 
+    def update(self) -> None:
+        """Update what the tool draws; called for each frame."""
+
     def take_up(self) -> None:
         """Activate the tool."""
 
@@ -117,6 +120,68 @@ class Tool:
             The start of the drag and the current position of the pointer, in m in the fixed frame.
         is_over
             Whether the button has been released.
+
+        Returns
+        -------
+        bool
+            Whether the tool is done, and to be deactivated.
+
+        """
+        return False
+
+
+@dataclass(frozen=True)
+class Drag:
+    """A movement of the pointer with the button pressed; rays are in the fixed frame."""
+
+    start: Ray
+    """Through the point where the button was pressed."""
+    now: Ray
+    is_over: bool
+    """Whether the button has been released, or the browser is gone."""
+    browser: int
+    """The number of the browser, as several of them may drag at the same time."""
+
+
+class ObjectTool(Tool):
+    """
+    A tool for the objects of the scene, which gets rays instead of points of the ground.
+
+    Parameters
+    ----------
+    context, root, given
+        As for `Tool`.
+
+    """
+
+    TAKES_DRAGS: ClassVar[bool] = False
+    """Whether it gets drags, which then do not turn the scene."""
+
+    def click_along(self, ray: Ray) -> bool:
+        """
+        Handle a click anywhere in the scene.
+
+        Parameters
+        ----------
+        ray
+            From the eye through the pointer, in the fixed frame.
+
+        Returns
+        -------
+        bool
+            Whether the tool is done, and to be deactivated.
+
+        """
+        return False
+
+    def drag_along(self, drag: Drag) -> bool:
+        """
+        Handle a drag anywhere in the scene; called for each movement.
+
+        Parameters
+        ----------
+        drag
+            The drag so far.
 
         Returns
         -------

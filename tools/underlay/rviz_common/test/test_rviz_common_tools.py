@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of where the pointer is, and of which tool is in use."""
+"""Tests of where the pointer is, which tool is in use, and what it gets."""
 
 import asyncio
 from collections.abc import Callable
@@ -7,7 +7,8 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from rviz_common.tool import Point, Tool
+from rviz_common.selection import Ray
+from rviz_common.tool import Drag, ObjectTool, Point, Tool
 from rviz_common.visualizer import Visualizer
 from rviz_common.visualizer.tool_box import ground_point, ToolBox
 
@@ -42,6 +43,36 @@ class Probe(Tool):
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
         """Fail."""
         raise RuntimeError('no drag')
+
+
+class ObjectProbe(ObjectTool):
+    """A tool for objects that remembers."""
+
+    CLASS = 'test/ObjectProbe'
+    NAME = 'Object Probe'
+    HINT = 'Probe objects.'
+    TAKES_DRAGS = True
+
+    def __init__(self, *given: Any) -> None:
+        """Begin with nothing."""
+        super().__init__(*given)
+        self.rays: list[Ray] = []
+        self.drags: list[Drag] = []
+        self.frames = 0
+
+    def click_along(self, ray: Ray) -> bool:
+        """Remember the ray."""
+        self.rays.append(ray)
+        return False
+
+    def drag_along(self, drag: Drag) -> bool:
+        """Remember the drag."""
+        self.drags.append(drag)
+        return drag.is_over
+
+    def update(self) -> None:
+        """Count the frames."""
+        self.frames += 1
 
 
 @pytest.fixture
@@ -88,7 +119,7 @@ def test_clicks_reach_the_tool_in_the_thread_of_the_node(shown: Visualizer) -> N
     box.use(tool)
     shown.cameras._at = (10.0, 20.0, 0.0)
     event = SimpleNamespace(ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.5, 0.0, -1.0))
-    asyncio.run(box._ground._on_click(event))
+    asyncio.run(box._pointer._on_click(event))
     assert said(tool) == ['up']
     shown.context.queue.run()
     assert said(tool) == ['up', (11.0, 20.0, 0.0), 'down']
@@ -105,8 +136,9 @@ def test_a_tool_that_fails_is_laid_down(shown: Visualizer, capfd: Any) -> None:
         start_position=(1.0, 0.0, 0.0),
         end_position=(1.0, 1.0, 2.0),
         phase='update',
+        client_id=0,
     )
-    asyncio.run(shown.tools._ground._on_drag(event))
+    asyncio.run(shown.tools._pointer._on_drag(event))
     shown.context.queue.run()
     assert shown.tools.in_use is None
     assert "Tool 'Probe' failed: " in capfd.readouterr().err
@@ -126,3 +158,88 @@ def test_a_tool_that_fails_is_laid_down(shown: Visualizer, capfd: Any) -> None:
 def test_rays_meet_the_ground(origin: Any, direction: Any, point: Point | None) -> None:
     """A ray that goes up, or nearly along the ground, is nowhere."""
     assert ground_point(origin, direction) == point
+
+
+@pytest.fixture
+def probe(show: Show, monkeypatch: pytest.MonkeyPatch) -> tuple[Visualizer, ObjectProbe]:
+    """Show a file with a tool for objects, which is active."""
+    monkeypatch.setattr(
+        'rviz_common.visualizer.tool_box.load_plugin', lambda group, name: ObjectProbe
+    )
+    shown = show('Visualization Manager:\n  Tools:\n    - Class: a/O\n')
+    (tool,) = shown.tools.tools
+    assert isinstance(tool, ObjectProbe)
+    shown.tools.use(tool)
+    return shown, tool
+
+
+def test_tools_for_objects_get_rays(probe: tuple[Visualizer, ObjectProbe]) -> None:
+    """Also towards the sky; in the fixed frame, wherever the camera is."""
+    shown, tool = probe
+    shown.cameras._at = (10.0, 0.0, 0.0)
+    click = SimpleNamespace(ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.0, 0.0, 1.0))
+    asyncio.run(shown.tools._pointer._on_click(click))
+    drag = SimpleNamespace(
+        client=SimpleNamespace(camera=SimpleNamespace(position=(0.0, 0.0, 2.0))),
+        start_position=(0.0, 3.0, 2.0),
+        end_position=(5.0, 0.0, 2.0),
+        phase='start',
+        client_id=7,
+    )
+    asyncio.run(shown.tools._pointer._on_drag(drag))
+    shown.context.queue.run()
+    eye = (10.0, 0.0, 2.0)
+    assert tool.rays == [Ray(eye, (0.0, 0.0, 1.0))]
+    assert tool.drags == [Drag(Ray(eye, (0.0, 1.0, 0.0)), Ray(eye, (1.0, 0.0, 0.0)), False, 7)]
+
+
+def test_drags_turn_the_scene_unless_the_tool_takes_them(
+    probe: tuple[Visualizer, ObjectProbe], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing invisible is in the way of the pointer for a tool that is for clicks only."""
+    shown, tool = probe
+    body: Any = shown.context.scene.get_handle_by_name('/world/ground')
+    assert min(body.dimensions) > 1000.0 and body.side == 'double'
+    shown.frame()
+    assert tool.frames == 1
+    monkeypatch.setattr(ObjectProbe, 'TAKES_DRAGS', False)
+    shown.tools.use(tool)
+    assert shown.context.scene.get_handle_by_name('/world/ground') is None
+    assert tool.frames == 1
+
+
+def test_a_drag_ends_when_the_browser_no_longer_answers(
+    probe: tuple[Visualizer, ObjectProbe], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is not taken up again when the browser is back; a new one is."""
+    shown, tool = probe
+    lost: list[asyncio.Event] = []
+
+    async def wait_until_lost() -> None:
+        lost.append(asyncio.Event())
+        await lost[-1].wait()
+
+    async def drag(phase: str) -> None:
+        event = SimpleNamespace(
+            client=SimpleNamespace(camera=SimpleNamespace(position=(0.0, 0.0, 2.0))),
+            start_position=(0.0, 3.0, 2.0),
+            end_position=(5.0, 0.0, 2.0),
+            phase=phase,
+            client_id=7,
+        )
+        await shown.tools._pointer._on_drag(event)
+        await asyncio.sleep(0.0)
+
+    async def main() -> None:
+        for phase in ('start', 'update', 'end', 'start', 'update'):
+            await drag(phase)
+        lost[-1].set()
+        await asyncio.wait(shown.tools._pointer._watchdogs.values())
+        for phase in ('update', 'end', 'start'):
+            await drag(phase)
+
+    monkeypatch.setattr('rviz_common.visualizer.tool_box.wait_until_lost', wait_until_lost)
+    monkeypatch.setattr(ObjectProbe, 'drag_along', lambda tool, drag: tool.drags.append(drag))
+    asyncio.run(main())
+    shown.context.queue.run()
+    assert [drag.is_over for drag in tool.drags] == [False, False, True] * 2 + [False]

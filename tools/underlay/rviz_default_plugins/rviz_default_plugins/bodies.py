@@ -14,6 +14,7 @@ from rviz_common.canvas import Canvas
 from rviz_default_plugins.decoding.geometry import along_x, Triple
 
 __all__ = [
+    'HIGHLIGHT_COLOR',
     'Paint',
     'Surface',
     'add_arrow_to',
@@ -30,6 +31,9 @@ __all__ = [
 
 Paint = tuple[Sequence[int], float]
 """Red, green and blue from 0 to 255, and alpha from 0 to 1."""
+
+HIGHLIGHT_COLOR = (1.0, 0.8, 0.1, 0.55)
+"""Red, green, blue and opacity of what covers a selected object, from 0 to 1."""
 
 
 class Surface(NamedTuple):

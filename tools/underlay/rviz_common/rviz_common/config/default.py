@@ -13,6 +13,7 @@ def default_values() -> dict[str, Any]:
     return {
         'Panels': [
             {'Class': 'rviz_common/Displays', 'Name': 'Displays'},
+            {'Class': 'rviz_common/Selection', 'Name': 'Selection'},
             {'Class': 'rviz_common/Tool Properties', 'Name': 'Tool Properties'},
             {'Class': 'rviz_common/Views', 'Name': 'Views'},
             {'Class': 'rviz_common/Time', 'Name': 'Time'},
@@ -29,6 +30,7 @@ def default_values() -> dict[str, Any]:
             'Name': 'root',
             'Tools': [
                 {'Class': 'rviz_default_plugins/MoveCamera'},
+                {'Class': 'rviz_default_plugins/Select'},
                 {'Class': 'rviz_default_plugins/Measure', 'Line color': '128; 128; 0'},
                 {
                     'Class': 'rviz_default_plugins/SetInitialPose',

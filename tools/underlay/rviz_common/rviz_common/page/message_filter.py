@@ -33,6 +33,7 @@ __all__ = [
 ]
 
 SENT = (
+    _messages.CommandTriggerMessage,
     _messages.FileTransferPart,
     _messages.FileTransferPartAck,
     _messages.FileTransferStartUpload,

@@ -18,6 +18,7 @@ from rviz_common.page.address import PageSettings
 from rviz_common.page.connection_log import complain_about_task, LOGGER
 from rviz_common.page.gated_page import GatedPage, POLICY
 from rviz_common.page.message_filter import OptionsOf, Strained, Uploads
+from rviz_common.page.watchdog import serving
 import viser
 from viser._messages import FileTransferPartAck, FileTransferStartUpload, RemoveNotificationMessage
 import websockets.asyncio.server
@@ -221,7 +222,8 @@ def _routed(handler: Any, page: Page, options_of: OptionsOf) -> Any:
         if route is None or route.connect is None:
             strained = Strained(connection, page.uploads, options_of)
             try:
-                await handler(strained)
+                with serving(connection):
+                    await handler(strained)
             finally:
                 page.uploads.leave(strained)
         else:

@@ -16,7 +16,7 @@ from rviz_common.status import described_error, escaped
 
 __all__ = ['BUILT_IN', 'PanelTabs']
 
-BUILT_IN = ('rviz_common/Help', 'rviz_common/Selection', 'rviz_common/Transformation')
+BUILT_IN = ('rviz_common/Help', 'rviz_common/Transformation')
 """Panels of RViz that do not apply in a browser."""
 LOOK_S = 2.0
 

@@ -11,6 +11,7 @@ from typing import Any
 from rviz_common.context import Context
 from rviz_common.display import Display
 from rviz_common.plugins import DISPLAYS, load_plugin
+from rviz_common.selection import Hit, Ray
 from rviz_common.status import described_error, Level, Statuses
 from rviz_common.visualizer.display_tree import Entry, Group, UnknownEntry
 
@@ -124,6 +125,21 @@ class DisplayEntry(Entry):
         """Draw the next frame."""
         if self._is_running:
             self._guarded(self.display.update)
+
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find the first object of the display on a ray, if it runs.
+
+        Parameters
+        ----------
+        ray
+            As for `Entry.pick`.
+
+        """
+        found: list[Hit | None] = [None]
+        if self._is_running:
+            self._guarded(lambda: found.append(self.display.pick(ray)))
+        return found[-1]
 
     def to_file(self) -> dict[str, Any]:
         """Return the entry for the .rviz file."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 import copy
 from typing import Any
 
+from rviz_common.selection import Hit, nearest, Ray
 from rviz_common.status import Level, Statuses
 
 __all__ = ['Entry', 'Group', 'UnknownEntry']
@@ -61,6 +62,18 @@ class Entry(ABC):
     @abstractmethod
     def update(self) -> None:
         """Draw the next frame."""
+
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find the first object on a ray among those that the entry shows.
+
+        Parameters
+        ----------
+        ray
+            The ray, in the fixed frame.
+
+        """
+        return None
 
     @abstractmethod
     def to_file(self) -> dict[str, Any]:
@@ -139,6 +152,18 @@ class Group(Entry):
         """Draw the next frame of all displays."""
         for child in self.children:
             child.update()
+
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find the first object on a ray among those of all displays.
+
+        Parameters
+        ----------
+        ray
+            As for `Entry.pick`.
+
+        """
+        return nearest([child.pick(ray) for child in self.children])
 
     def add(self, entry: Entry) -> None:
         """

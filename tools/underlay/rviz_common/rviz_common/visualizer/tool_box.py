@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tools of a file, one of which may be active and gets the clicks and drags on the ground."""
+"""The tools of a file, one of which may be active and gets the clicks and drags."""
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Mapping, Sequence
 import copy
+from dataclasses import replace
 from typing import Any
 
 from rviz_common.context import Context
+from rviz_common.page.watchdog import wait_until_lost
 from rviz_common.plugins import load_plugin, TOOLS
+from rviz_common.selection import Ray
 from rviz_common.status import described_error
-from rviz_common.tool import Point, Tool
+from rviz_common.tool import Drag, ObjectTool, Point, Tool
 from rviz_common.view import WORLD
 
 __all__ = ['BUILT_IN', 'ToolBox', 'ground_point']
 
 BUILT_IN = tuple(
     f'rviz_default_plugins/{name}'
-    for name in ('Interact', 'MoveCamera', 'Select', 'FocusCamera', 'ZoomTool', 'FPSMotion')
+    for name in ('Interact', 'MoveCamera', 'FocusCamera', 'ZoomTool', 'FPSMotion')
 )
 """Tools of RViz that a browser has built in, or that do not apply there."""
 
@@ -60,7 +64,7 @@ class ToolBox:
             self._made(context, f'{WORLD}/tools/{number}', entry)
             for number, entry in enumerate(entries)
         ]
-        self._ground = _Ground(context, origin, self._click, self._drag)
+        self._pointer = _Pointer(context, origin, self._click, self._drag)
         self.in_use: Tool | None = None
         for tool in self.tools:
             tool.begin()
@@ -91,7 +95,11 @@ class ToolBox:
         self.in_use = tool
         if tool is not None:
             tool.take_up()
-        self._ground.watch(tool is not None)
+        self._pointer.watch(tool)
+
+    def update(self) -> None:
+        """Draw the next frame of the active tool."""
+        self._pass_on(_updated)
 
     def to_file(self) -> list[dict[str, Any]]:
         """Return the entry for the .rviz file."""
@@ -118,11 +126,11 @@ class ToolBox:
             return entry
         return tool
 
-    def _click(self, point: Point) -> None:
-        self._pass_on(lambda tool: tool.click(point))
+    def _click(self, ray: Ray) -> None:
+        self._pass_on(lambda tool: _clicked(tool, ray))
 
-    def _drag(self, start: Point, end: Point, is_over: bool) -> None:
-        self._pass_on(lambda tool: tool.drag(start, end, is_over))
+    def _drag(self, drag: Drag) -> None:
+        self._pass_on(lambda tool: _dragged(tool, drag))
 
     def _pass_on(self, work: Callable[[Tool], bool]) -> None:
         """Run a callable of the active tool; deactivate the tool when it is done or fails."""
@@ -138,11 +146,34 @@ class ToolBox:
             self.use(None)
 
 
-class _Ground:
-    """
-    An invisible plane below the scene, which reports clicks and drags.
+def _updated(tool: Tool) -> bool:
+    tool.update()
+    return False
 
-    It is only present while a tool is active; otherwise a drag turns the scene.
+
+def _clicked(tool: Tool, ray: Ray) -> bool:
+    """Pass a click on to a tool; return whether the tool is done."""
+    if isinstance(tool, ObjectTool):
+        return tool.click_along(ray)
+    point = ground_point(ray.origin, ray.direction)
+    return False if point is None else tool.click(point)
+
+
+def _dragged(tool: Tool, drag: Drag) -> bool:
+    """Pass a drag on to a tool; return whether the tool is done."""
+    if isinstance(tool, ObjectTool):
+        return tool.drag_along(drag)
+    start, end = (ground_point(ray.origin, ray.direction) for ray in (drag.start, drag.now))
+    return False if start is None else tool.drag(start, end or start, drag.is_over)
+
+
+class _Pointer:
+    """
+    Reports clicks anywhere in the scene, and drags on an invisible body, as the tool needs them.
+
+    The body is a plane below the scene, or a box around it. It is only present while a tool is
+    active that takes drags; otherwise a drag turns the scene. A drag in the box also ends when
+    the browser no longer answers.
 
     Parameters
     ----------
@@ -151,9 +182,9 @@ class _Ground:
     origin
         Returns the position of the camera's target frame, in m in the fixed frame.
     click
-        Called with the point of a click, in m in the fixed frame.
+        Called with the ray of a click.
     drag
-        Called for each movement of a drag with its start, current point, and whether it is over.
+        Called for each movement of a drag.
 
     """
 
@@ -161,67 +192,95 @@ class _Ground:
         self,
         context: Context,
         origin: Callable[[], Point],
-        click: Callable[[Point], None],
-        drag: Callable[[Point, Point, bool], None],
+        click: Callable[[Ray], None],
+        drag: Callable[[Drag], None],
     ) -> None:
         self._context = context
         self._origin = origin
         self._click = click
         self._drag = drag
-        self._plane: Any = None
+        self._body: Any = None
+        self._is_around = self._hears_clicks = False
+        self._watchdogs: dict[int, asyncio.Task[None]] = {}
         self._scene: Any = context.scene
 
-    def watch(self, is_wanted: bool) -> None:
+    def watch(self, tool: Tool | None) -> None:
         """
-        Add or remove the plane, which enables or disables reports of clicks and drags.
+        Report what a tool needs from now on.
 
         Parameters
         ----------
-        is_wanted
-            Whether clicks and drags are to be reported from now on.
+        tool
+            The active tool, None for none.
 
         """
-        if is_wanted and self._plane is None:
-            self._plane = self._add()
-            # Not of the plane: viser highlights clickable nodes under the pointer.
-            self._scene.on_click()(self._on_click)
-        elif not is_wanted and self._plane is not None:
-            self._scene.remove_click_callback(self._on_click)
-            self._plane.remove()
-            self._plane = None
+        if self._body is not None:
+            self._body.remove()
+            self._body = None
+        if tool is not None and (not isinstance(tool, ObjectTool) or tool.TAKES_DRAGS):
+            self._is_around = isinstance(tool, ObjectTool)
+            self._body = self._add()
+        if self._hears_clicks != (tool is not None):
+            self._hears_clicks = tool is not None
+            if self._hears_clicks:
+                # Not of the body: viser highlights clickable nodes under the pointer.
+                self._scene.on_click()(self._on_click)
+            else:
+                self._scene.remove_click_callback(self._on_click)
 
     def _add(self) -> Any:
-        plane = self._scene.add_box(
+        body = self._scene.add_box(
             f'{WORLD}/ground',
-            dimensions=(SIZE_M, SIZE_M, THICKNESS_M),
+            dimensions=(SIZE_M, SIZE_M, SIZE_M if self._is_around else THICKNESS_M),
             opacity=0.0,
+            side='double' if self._is_around else 'front',
             cast_shadow=False,
             receive_shadow=False,
         )
-        plane.on_drag('left')(self._on_drag)
-        return plane
+        body.on_drag('left')(self._on_drag)
+        return body
 
     # Callbacks of viser keep their order only if they are coroutines.
 
     async def _on_click(self, event: Any) -> None:
-        point = self._point(event.ray_origin, event.ray_direction)
-        if point is not None:
-            self._context.queue.post(lambda: self._click(point))
+        ray = Ray(self._moved(event.ray_origin), _floats(event.ray_direction))
+        self._context.queue.post(lambda: self._click(ray))
 
     async def _on_drag(self, event: Any) -> None:
-        eye = tuple(float(part) for part in event.client.camera.position)
-        start, end = (
-            self._point(eye, [b - a for a, b in zip(eye, position)])
+        eye = self._moved(event.client.camera.position)
+        start, now = (
+            Ray.through(eye, self._moved(position))
             for position in (event.start_position, event.end_position)
         )
-        is_over = event.phase == 'end'
-        if start is not None:
-            self._context.queue.post(lambda: self._drag(start, end or start, is_over))
+        drag = Drag(start, now, event.phase == 'end', event.client_id)
+        if not self._is_around or self._is_watched(drag, event.phase == 'start'):
+            self._context.queue.post(lambda: self._drag(drag))
 
-    def _point(self, origin: Sequence[float], direction: Sequence[float]) -> Point | None:
-        """Return the intersection of a ray of the scene with the ground, in the fixed frame."""
-        moved = [part + offset for part, offset in zip(origin, self._origin())]
-        return ground_point(moved, direction)
+    def _is_watched(self, drag: Drag, is_start: bool) -> bool:
+        """Watch the browser of a drag; return False if the drag has been ended, as it was lost."""
+        before = self._watchdogs.get(drag.browser)
+        if before is not None and (is_start or drag.is_over):
+            before.cancel()
+            del self._watchdogs[drag.browser]
+        if is_start:
+            watchdog = asyncio.create_task(self._end_when_lost(drag))
+            self._watchdogs[drag.browser] = watchdog
+        return is_start or before is not None
+
+    async def _end_when_lost(self, drag: Drag) -> None:
+        await wait_until_lost()
+        del self._watchdogs[drag.browser]
+        self._context.queue.post(lambda: self._drag(replace(drag, is_over=True)))
+
+    def _moved(self, point: Sequence[float]) -> Point:
+        """Convert a point of the scene, which follows the target frame, to the fixed frame."""
+        x, y, z = (float(part) + offset for part, offset in zip(point, self._origin()))
+        return x, y, z
+
+
+def _floats(vector: Sequence[float]) -> Point:
+    x, y, z = (float(part) for part in vector)
+    return x, y, z
 
 
 def ground_point(origin: Sequence[float], direction: Sequence[float]) -> Point | None:

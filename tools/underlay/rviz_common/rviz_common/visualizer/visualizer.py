@@ -15,6 +15,7 @@ from rviz_common.pace import Pace
 from rviz_common.panels.head import FileFolder, Head
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
+from rviz_common.selection import Selection
 from rviz_common.status import printable, Statuses
 from rviz_common.view import Background, Cameras, View, WORLD
 from rviz_common.visualizer.display_entry import Maker
@@ -67,6 +68,8 @@ class Visualizer:
         The global options.
     displays, tools, panels
         The displays, tools and panels that are shown.
+    selection
+        The object that is selected.
     cameras, saved_views
         The cameras of browsers, which show the current view; and the saved views.
     revision
@@ -133,12 +136,12 @@ class Visualizer:
         path = os.path.expanduser(path.strip())
         if not path.endswith('.rviz'):
             raise ConfigError(path or 'The file', None, 'The file name must end with .rviz.')
-        self.configuration.save(path, self._sections())
+        self.configuration.save(path, _sections(self))
         self.path = path
 
     def text(self) -> str:
         """Return the current configuration as the text of a .rviz file."""
-        return self.configuration.text(self._sections())
+        return self.configuration.text(_sections(self))
 
     def set_option(self, path: str, value: Any) -> None:
         """
@@ -217,6 +220,8 @@ class Visualizer:
                 self._background.update()
             self.cameras.update()
             self.displays.update()
+            self.selection.update()
+            self.tools.update()
             self.head.update()
             self.panels.update()
 
@@ -250,6 +255,7 @@ class Visualizer:
         self.cameras = Cameras(self.context, View(configuration.view))
         self.saved_views = [View(each) for each in configuration.saved_views]
         self.displays = Group({}, [self._maker.entry(each) for each in configuration.displays])
+        self.selection = Selection(self.displays.pick)
         self.tools = ToolBox(self.context, lambda: self.cameras.origin, configuration.tools)
         self.displays.appear(True)
         self.watch.update()
@@ -263,6 +269,7 @@ class Visualizer:
         self.panels.close()
         self.head.close()
         self.tools.close()
+        self.selection.choose(None)
         self.displays.appear(False)
         self.context.scene.remove_by_name(WORLD)
 
@@ -277,13 +284,14 @@ class Visualizer:
         else:
             self._background.choose(value)
 
-    def _sections(self) -> dict[Place, Any]:
-        """Return the sections of the file that may have changed."""
-        return {
-            DISPLAYS: [each.to_file() for each in self.displays.children],
-            OPTIONS_PLACE: self.options.to_file(),
-            PANELS: self.panels.to_file(),
-            SAVED_VIEWS: [view.to_file() for view in self.saved_views],
-            TOOLS: self.tools.to_file(),
-            VIEW: self.cameras.view.to_file(),
-        }
+
+def _sections(shown: Visualizer) -> dict[Place, Any]:
+    """Return the sections of the file that may have changed."""
+    return {
+        DISPLAYS: [each.to_file() for each in shown.displays.children],
+        OPTIONS_PLACE: shown.options.to_file(),
+        PANELS: shown.panels.to_file(),
+        SAVED_VIEWS: [view.to_file() for view in shown.saved_views],
+        TOOLS: shown.tools.to_file(),
+        VIEW: shown.cameras.view.to_file(),
+    }

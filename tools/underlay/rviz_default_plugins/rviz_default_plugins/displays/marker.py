@@ -7,9 +7,12 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from rviz_common.frames import FrameError, Frames, Pose
-from rviz_common.properties import Flags, topic_properties
+from rviz_common.properties import Flag, Flags, topic_properties
+from rviz_common.selection import Hit, Ray
 from rviz_common.status import Level, Statuses
 from rviz_common.topic_display import TopicDisplay
+from rviz_default_plugins.markers.inbox import Inbox, Key
+from rviz_default_plugins.markers.marker_object import pick_marker
 from rviz_default_plugins.markers.shown_marker import Coming, ShownMarker
 from visualization_msgs.msg import Marker as MarkerMessage
 from visualization_msgs.msg import MarkerArray as MarkerArrayMessage
@@ -17,6 +20,7 @@ from visualization_msgs.msg import MarkerArray as MarkerArrayMessage
 __all__ = ['NAMESPACES', 'Marker', 'MarkerArray', 'MarkerScene', 'Markers']
 
 NAMESPACES = Flags('Namespaces', {}, 'Which markers are shown, by their namespace.')
+WHOLE = Flag('Select Namespace', False, 'Whether a click selects all markers of a namespace.')
 
 
 class Markers(TopicDisplay):
@@ -72,6 +76,18 @@ class Markers(TopicDisplay):
     def redraw(self) -> None:
         """Do nothing: the next frame shows and hides namespaces."""
 
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find the first marker on a ray.
+
+        Parameters
+        ----------
+        ray
+            As for `Display.pick`.
+
+        """
+        return pick_marker(self._markers.shown, ray, self.name, self.values[WHOLE.path])
+
     def _now_ns(self) -> int:
         return int(self.context.node.get_clock().now().nanoseconds)
 
@@ -84,6 +100,7 @@ class Marker(Markers):
     PROPERTIES = (
         *topic_properties('visualization_msgs/msg/Marker', '/visualization_marker', depth=10),
         NAMESPACES,
+        WHOLE,
     )
 
     def markers_of(self, message: Any) -> Iterable[Any]:
@@ -107,6 +124,7 @@ class MarkerArray(Markers):
     PROPERTIES = (
         *topic_properties('visualization_msgs/msg/MarkerArray', '/visualization_marker_array'),
         NAMESPACES,
+        WHOLE,
     )
 
     def markers_of(self, message: Any) -> Iterable[Any]:
@@ -128,9 +146,6 @@ MOST = 5000
 MOST_PER_FRAME = 200
 """The maximum number drawn in one frame; the others follow in the next frames."""
 
-Key = tuple[str, int]
-"""The namespace of a marker, and its id."""
-
 
 class MarkerScene:
     """
@@ -147,12 +162,17 @@ class MarkerScene:
     status
         Receives the reasons why markers are not shown.
 
+    Attributes
+    ----------
+    shown
+        The markers, by namespace and id.
+
     """
 
     def __init__(self, scene: Any, frames: Frames, root: str, status: Statuses) -> None:
         self._scene, self._frames, self._root, self._status = scene, frames, root, status
-        self._shown: dict[Key, ShownMarker] = {}
-        self._inbox = _Inbox()
+        self.shown: dict[Key, ShownMarker] = {}
+        self._inbox = Inbox()
         self._left_out: set[Key] = set()
         self._serial = 0
         self._fixed_frame = frames.fixed_frame
@@ -174,7 +194,7 @@ class MarkerScene:
 
     def namespaces(self) -> set[str]:
         """Return the namespaces of the markers."""
-        return {namespace for namespace, _ in self._shown}
+        return {namespace for namespace, _ in self.shown}
 
     def update(self, now_ns: int, is_enabled: Callable[[str], bool]) -> None:
         """
@@ -188,16 +208,16 @@ class MarkerScene:
             Returns for a namespace whether its markers are shown.
 
         """
-        for marker in self._shown.values():
+        for marker in self.shown.values():
             marker.finish()
         self._take_inbox()
         self._end(now_ns)
         if self._frames.fixed_frame != self._fixed_frame:
             self._fixed_frame = self._frames.fixed_frame
-            for marker in self._shown.values():
+            for marker in self.shown.values():
                 marker.move_anew()
         self._follow()
-        for (namespace, _), marker in self._shown.items():
+        for (namespace, _), marker in self.shown.items():
             marker.show(marker.is_placed and is_enabled(namespace))
         self._say()
 
@@ -207,7 +227,7 @@ class MarkerScene:
         if inbox.deletes_all:
             inbox.deletes_all = False
             self._left_out.clear()
-            for key in self._shown.keys() - inbox.coming.keys():
+            for key in self.shown.keys() - inbox.coming.keys():
                 self._remove(key)
         for key, coming in inbox.take_some(MOST_PER_FRAME):
             if coming.marker.action == MarkerMessage.DELETE:
@@ -216,31 +236,31 @@ class MarkerScene:
                 self._set(key, coming)
 
     def _set(self, key: Key, coming: Coming) -> None:
-        shown = self._shown.get(key)
+        shown = self.shown.get(key)
         if shown is None:
-            if len(self._shown) >= MOST:
+            if len(self.shown) >= MOST:
                 self._left_out.add(key)
                 return
             self._serial += 1
             shown = ShownMarker(self._scene, f'{self._root}/{self._serial}')
-            self._shown[key] = shown
+            self.shown[key] = shown
             self._left_out.discard(key)
         shown.change(coming)
 
     def _remove(self, key: Key) -> None:
         self._left_out.discard(key)
-        shown = self._shown.pop(key, None)
+        shown = self.shown.pop(key, None)
         if shown is not None:
             shown.remove()
 
     def _end(self, now_ns: int) -> None:
-        for key in [key for key, shown in self._shown.items() if shown.is_over(now_ns)]:
+        for key in [key for key, shown in self.shown.items() if shown.is_over(now_ns)]:
             self._remove(key)
 
     def _follow(self) -> None:
         """Move the markers with their frames; each frame is looked up once."""
         poses: dict[tuple[str, int], Pose | FrameError] = {}
-        for marker in self._shown.values():
+        for marker in self.shown.values():
             if not marker.needs_pose:
                 continue
             asked = marker.frame_id, marker.stamp_ns
@@ -278,7 +298,7 @@ class MarkerScene:
     def _say_first(
         self, subject: str, level: Level, what: str, of: Callable[[ShownMarker], str]
     ) -> None:
-        said = [(key, of(shown)) for key, shown in self._shown.items() if of(shown)]
+        said = [(key, of(shown)) for key, shown in self.shown.items() if of(shown)]
         if not said:
             self._status.forget(subject)
             return
@@ -286,59 +306,3 @@ class MarkerScene:
         markers = '1 marker is' if len(said) == 1 else f'{len(said)} markers are'
         sentence = f'{markers} perhaps {what}' if level is Level.WARN else f'{markers} {what}'
         self._status.say(subject, level, f"{sentence}; '{namespace}/{number}': {reason}")
-
-
-class _Inbox:
-    """Queue of marker messages; a newer message replaces an older one of the same marker."""
-
-    def __init__(self) -> None:
-        self.deletes_all = False
-        self.coming: dict[Key, Coming] = {}
-        self.refusal = ''
-
-    def put(self, marker: Any, came_ns: int) -> None:
-        """
-        Queue a marker, replacing an older one with the same namespace and id.
-
-        Parameters
-        ----------
-        marker
-            The message, of the type `visualization_msgs/msg/Marker`. DELETEALL also drops
-            the queued ones.
-        came_ns
-            Its time of reception, in ns of the node's clock.
-
-        """
-        if marker.action == MarkerMessage.DELETEALL:
-            self.deletes_all = True
-            self.coming = {}
-        elif marker.action in (
-            MarkerMessage.ADD,
-            MarkerMessage.DELETE,
-        ):  # MODIFY has the same value as ADD
-            key = marker.ns, marker.id
-            self.coming.pop(key, None)
-            self.coming[key] = Coming(marker, came_ns)
-        else:
-            self.refusal = (
-                f'The marker {marker.ns}/{marker.id} is left out: its action {marker.action} is '
-                'not known.'
-            )
-
-    def take_some(self, most: int) -> list[tuple[Key, Coming]]:
-        """
-        Remove and return the oldest markers in the queue; the rest wait for the next frame.
-
-        Parameters
-        ----------
-        most
-            The maximum number of markers to return.
-
-        Returns
-        -------
-        list[tuple[Key, Coming]]
-            The markers to add, change or delete, with their namespaces and ids.
-
-        """
-        keys = list(self.coming)[:most]
-        return [(key, self.coming.pop(key)) for key in keys]

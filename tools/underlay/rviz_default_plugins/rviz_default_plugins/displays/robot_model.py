@@ -10,17 +10,14 @@ from typing import Any
 from rviz_common.display import Display
 from rviz_common.frames import Frames, Pose
 from rviz_common.properties import Choice, Flag, Number, qos_of, Text, topic_properties
+from rviz_common.selection import Hit, Ray
 from rviz_common.status import Level
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.description import DescriptionTopic, read_description
 from rviz_default_plugins.robot.mesh_loading import MeshShelf
-from rviz_default_plugins.robot.robot_scene import (
-    Look,
-    MAX_SHAPES,
-    PoseOf,
-    RobotScene,
-    say_missing,
-)
+from rviz_default_plugins.robot.missing_links import say_missing
+from rviz_default_plugins.robot.robot_link import pick_link
+from rviz_default_plugins.robot.robot_scene import Look, MAX_SHAPES, PoseOf, RobotScene
 from urdf import Joint, Mesh, parse_urdf, UrdfError
 from urdf import RobotModel as Robot
 
@@ -102,6 +99,18 @@ class RobotModel(Display):
         if now_s >= self._next_reasons_s:
             self._next_reasons_s = now_s + REASONS_S
             self.say_reasons(robot.model, root, unknown)
+
+    def pick(self, ray: Ray) -> Hit | None:
+        """
+        Find the first link on a ray.
+
+        Parameters
+        ----------
+        ray
+            As for `Display.pick`.
+
+        """
+        return None if self._robot is None else pick_link(self._robot, ray, self.prefix)
 
     def on_change(self, path: str) -> None:
         """
@@ -220,13 +229,7 @@ class RobotModel(Display):
         self._shelf = shelf
         self._robot = RobotScene(self.context.scene, self.root, model, look, shelf.meshes)
         self.say('Meshes', ' '.join(shelf.complaints))
-        too_many = self._robot.left_out
-        self.say(
-            'Bodies',
-            f'{MAX_SHAPES + too_many} bodies are too many: {MAX_SHAPES} are shown.'
-            if too_many
-            else '',
-        )
+        self.say('Bodies', _too_many(self._robot.left_out))
 
     def _remove(self) -> None:
         if self._robot is not None:
@@ -279,6 +282,12 @@ class RobotModel(Display):
             self.status.say(subject, level, sentence)
         else:
             self.status.forget(subject)
+
+
+def _too_many(left_out: int) -> str:
+    if not left_out:
+        return ''
+    return f'{MAX_SHAPES + left_out} bodies are too many: {MAX_SHAPES} are shown.'
 
 
 def _check_size(model: Robot, source: str) -> None:

@@ -19,7 +19,7 @@ from rviz_default_plugins.markers.look import Look
 from rviz_default_plugins.robot.mesh_file import find_mesh
 from rviz_default_plugins.robot.mesh_loading import DrawnMesh, load_mesh
 
-__all__ = ['MeshIsBeingRead', 'draw_mesh', 'glb_of']
+__all__ = ['MeshIsBeingRead', 'draw_mesh', 'glb_of', 'mesh_of']
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 ONE_AT_A_TIME = Lock()
@@ -57,7 +57,7 @@ def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
     resource, has_own_colors = look.mesh
     if not resource:
         raise ValueError('its mesh_resource is empty.')
-    mesh = _mesh(resource)
+    mesh = mesh_of(resource)
     for index, surface in enumerate(mesh.surfaces):
         path = f'{name}_{index}'
         if has_own_colors and surface.glb is not None:
@@ -80,8 +80,23 @@ def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
         )
 
 
-def _mesh(resource: str) -> DrawnMesh:
-    """Return a mesh, or raise ValueError, of which MeshError is a subclass."""
+def mesh_of(resource: str) -> DrawnMesh:
+    """
+    Return the mesh that a marker names; the file is read in the background.
+
+    Parameters
+    ----------
+    resource
+        The name of the file.
+
+    Raises
+    ------
+    ValueError
+        The mesh cannot be found or read.
+    MeshIsBeingRead
+        It has not been read yet. This is also a ValueError.
+
+    """
     path = find_mesh(resource)
     try:
         changed_ns = path.stat().st_mtime_ns

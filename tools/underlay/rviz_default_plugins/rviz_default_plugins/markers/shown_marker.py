@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
 from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
-from rviz_default_plugins.decoding.geometry import joined, position, Quaternion, rotated, rotation
+from rviz_common.selection import Ray
+from rviz_default_plugins.decoding.geometry import position, Quaternion, rotation
 from rviz_default_plugins.markers.drawing import draw_look
+from rviz_default_plugins.markers.hits import highlighted, hit_look
 from rviz_default_plugins.markers.look import Look, look_of
 from rviz_default_plugins.markers.mesh import MeshIsBeingRead
 
@@ -55,7 +56,8 @@ class ShownMarker:
         self._node: Any = None
         self._look: Look | None = None
         self._is_placed = self._is_shown = False
-        self._own = self._frame = Pose()
+        self._own = self._frame = self._pose = Pose()
+        self._is_highlighted = False
         self._end_ns: int | None = None
         self._unfinished: Coming | None = None
         self.problem = ''
@@ -130,10 +132,8 @@ class ShownMarker:
         if self._is_placed and frame == self._frame:
             return
         self._is_placed, self._frame = True, frame
-        offset = rotated(np.array([self._own.position]), frame.wxyz)[0]
-        at = tuple(float(a + b) for a, b in zip(offset, frame.position))
-        self._node.position = at
-        self._node.wxyz = joined(frame.wxyz, self._own.wxyz)
+        self._pose = frame.of(self._own)
+        self._node.position, self._node.wxyz = self._pose
 
     def move_anew(self) -> None:
         """Request a new placement, since the fixed frame has changed."""
@@ -151,6 +151,45 @@ class ShownMarker:
         """
         if self._node is not None and self._is_shown != is_shown:
             self._is_shown = self._node.visible = is_shown
+
+    @property
+    def pose(self) -> Pose | None:
+        """The pose in the fixed frame, None if it is not shown."""
+        return self._pose if self._is_shown else None
+
+    def hit(self, ray: Ray) -> float | None:
+        """
+        Intersect a ray with the marker.
+
+        Parameters
+        ----------
+        ray
+            The ray, in the fixed frame.
+
+        Returns
+        -------
+        float | None
+            How many times the direction it is from the origin of the ray; None if the ray passes
+            it by, or it is not shown.
+
+        """
+        if not self._is_shown or self._look is None:
+            return None
+        return hit_look(ray.seen_from(self._pose), self._look)
+
+    def highlight(self, is_highlighted: bool) -> None:
+        """
+        Cover the marker with a translucent colour, or uncover it.
+
+        Parameters
+        ----------
+        is_highlighted
+            Whether it is to be covered, also when it changes.
+
+        """
+        self._is_highlighted = is_highlighted
+        if self._node is not None:
+            self._cover()
 
     @property
     def is_placed(self) -> bool:
@@ -185,6 +224,14 @@ class ShownMarker:
         if self._node is None:
             self._node = self._scene.add_frame(self._place, show_axes=False, visible=False)
             self._canvas = Canvas(self._scene, self._place)
+            self._highlight = Canvas(self._scene, f'{self._place}/highlight')
         with self._canvas.anew():
             draw_look(self._canvas, look)
         self._look = look
+        self._cover()
+
+    def _cover(self) -> None:
+        """Draw the marker again, in the colour of highlighted ones."""
+        with self._highlight.anew():
+            if self._is_highlighted and self._look is not None:
+                draw_look(self._highlight, highlighted(self._look))

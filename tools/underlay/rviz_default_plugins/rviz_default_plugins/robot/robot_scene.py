@@ -1,32 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The links of a robot in the scene, and reports on those that no transform places."""
+"""The links of a robot in the scene."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Optional, TYPE_CHECKING
 from urllib.parse import quote
 
 from rviz_common.frames import Pose
-from rviz_common.status import Level, Statuses
+from rviz_default_plugins.bodies import HIGHLIGHT_COLOR
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.mesh_loading import DrawnMesh
 from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated
-from urdf import Color, Joint, Link, RobotModel, Shape
+from urdf import Color, Joint, Link, Mesh, RobotModel, Shape
 
 if TYPE_CHECKING:
     from viser import FrameHandle, SceneApi
 
-__all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene', 'say_missing']
+__all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene']
 
 PoseOf = Callable[[Joint], Optional[Pose]]
 
 MAX_SHAPES = 3000
 AXES_M = 0.1
 
-MAX_SENTENCES = 20
-SUBJECT = 'Link '
+HIGHLIGHT = 'highlight'
+HIGHLIGHT_MARGIN_M = 0.002
 
 
 @dataclass(frozen=True)
@@ -91,6 +91,8 @@ class RobotScene:
     ----------
     left_out
         The number of bodies that are not drawn, since there are more than `MAX_SHAPES`.
+    is_removed
+        Whether the nodes have been removed.
 
     """
 
@@ -104,11 +106,12 @@ class RobotScene:
     ) -> None:
         self.model = model
         self.left_out = 0
+        self.is_removed = False
         self._drawn = 0
         self._scene, self._look, self._meshes = scene, look, meshes
         self._top = scene.add_frame(path, show_axes=False)
-        links = {link.name: link for link in model.links}
-        paths = {model.root: f'{path}/{_named(model.root)}'}
+        self._links = links = {link.name: link for link in model.links}
+        self._paths = paths = {model.root: f'{path}/{_named(model.root)}'}
         self._root = self._add(links[model.root], paths[model.root])
         self._below: list[tuple[Joint, _LinkNode]] = []
         for joint in _downwards(model):
@@ -141,9 +144,56 @@ class RobotScene:
                 unknown.append(joint)
         return unknown
 
+    def poses(self) -> dict[str, Pose]:
+        """Compute the pose in the fixed frame of each link that is visible, by its name."""
+        root = self._root.pose
+        poses = {} if root is None else {self.model.root: root}
+        for joint, node in self._below:
+            above, pose = poses.get(joint.parent), node.pose
+            if above is not None and pose is not None:
+                poses[joint.child] = above.of(pose)
+        return poses
+
+    def bodies(self, link: str) -> list[tuple[Shape, DrawnMesh | None]]:
+        """
+        Return the bodies of a link that are shown, those of meshes with the mesh.
+
+        Parameters
+        ----------
+        link
+            The name of the link.
+
+        """
+        shapes = [shape for _, shape in self._look.shapes(self._links[link])]
+        files = [each.geometry.file if isinstance(each.geometry, Mesh) else '' for each in shapes]
+        return [(shape, self._meshes.get(file)) for shape, file in zip(shapes, files)]
+
+    def highlight(self, link: str, is_highlighted: bool) -> None:
+        """
+        Cover a link with a translucent colour, or uncover it.
+
+        Parameters
+        ----------
+        link
+            The name of the link.
+        is_highlighted
+            Whether it is to be covered.
+
+        """
+        path = f'{self._paths[link]}/{HIGHLIGHT}'
+        self._scene.remove_by_name(path)
+        if not is_highlighted:
+            return
+        self._scene.add_frame(path, show_axes=False)
+        for index, (shape, _) in enumerate(self.bodies(link)):
+            body = inflated(shape, HIGHLIGHT_MARGIN_M)
+            part = f'{path}/{index}'
+            draw_shape(self._scene, part, body, 1.0, self._meshes, HIGHLIGHT_COLOR)
+
     def remove(self) -> None:
         """Remove the nodes."""
         self._top.remove()
+        self.is_removed = True
 
     def _add(self, link: Link, path: str) -> _LinkNode:
         has_axes = self._look.links.has_axes(link.name)
@@ -211,6 +261,11 @@ class _LinkNode:
         self._pose = Pose()
         self._is_visible = False
 
+    @property
+    def pose(self) -> Pose | None:
+        """The pose relative to the parent node, None if it is unknown."""
+        return self._pose if self._is_visible else None
+
     def place(self, pose: Pose | None) -> None:
         """
         Move the node, and show it; hide it and all nodes below it if its pose is unknown.
@@ -231,70 +286,3 @@ class _LinkNode:
         if pose.wxyz != self._pose.wxyz:
             self._handle.wxyz = pose.wxyz
         self._pose = pose
-
-
-def say_missing(
-    status: Statuses,
-    unknown: Sequence[Joint],
-    model: RobotModel,
-    frames: Iterable[str],
-    prefix: str,
-) -> None:
-    """
-    Report the links of a robot without a transform in the status, replacing earlier reports.
-
-    Parameters
-    ----------
-    status
-        The status of the display.
-    unknown
-        The joints whose pose is unknown.
-    model
-        The robot.
-    frames
-        The names of the known frames, used to detect a wrong prefix.
-    prefix
-        The prefix of the links in the names of frames, with a trailing slash, or ''.
-
-    """
-    for subject, _, _ in status.items():
-        if subject.startswith(SUBJECT):
-            status.forget(subject)
-    for link, sentence in _sentences(unknown, model, frames, prefix):
-        status.say(SUBJECT + link, Level.ERROR, sentence)
-
-
-def _sentences(
-    unknown: Sequence[Joint], model: RobotModel, frames: Iterable[str], prefix: str
-) -> Iterator[tuple[str, str]]:
-    if unknown and len(unknown) == len(model.joints):
-        yield '...', _nobody(unknown[0], frames, prefix)
-        return
-    for joint in unknown[:MAX_SENTENCES]:
-        yield joint.child, f'{_no_transform(joint, prefix)}: {_reason(joint)}'
-    if len(unknown) > MAX_SENTENCES:
-        yield '...', f'{len(unknown) - MAX_SENTENCES} more links have no transform.'
-
-
-def _no_transform(joint: Joint, prefix: str) -> str:
-    return f'No transform from [{prefix}{joint.child}] to [{prefix}{joint.parent}]'
-
-
-def _reason(joint: Joint) -> str:
-    if not joint.moves:
-        return f"robot_state_publisher publishes that of joint '{joint.name}'. Is it running?"
-    master = joint.mimic.joint if joint.mimic else joint.name
-    return (
-        f"robot_state_publisher has received no joint state for '{master}' yet. Start the node "
-        'that publishes joint_states.'
-    )
-
-
-def _nobody(joint: Joint, frames: Iterable[str], prefix: str) -> str:
-    """Suggest a remedy if there is no transform at all: a publisher, or another prefix."""
-    what = f'{_no_transform(joint, prefix)}, nor of any other link: no node publishes them.'
-    for name in sorted(frames):
-        if name.endswith(f'/{joint.child}') and name != prefix + joint.child:
-            meant = name[: -len(joint.child) - 1]
-            return f"{what} There is [{name}], though: set 'TF Prefix' to '{meant}'."
-    return f'{what} Start robot_state_publisher, and a publisher of joint_states.'
