@@ -44,5 +44,6 @@ setup(
             'robot_console/Topics = robot_console.panels.topics:Topics',
         ],
         'rviz_common.panels_on_demand': [COMMAND, OBJECTS],
+        'rviz_common.tools': ['robot_console/Push = robot_console.push:Push'],
     },
 )

@@ -75,7 +75,12 @@ def simulators_among(services: Iterable[tuple[str, Sequence[str]]]) -> dict[str,
     return found
 
 
-def choose_simulator(found: Collection[str], wanted: str, namespace: str) -> str:
+def choose_simulator(
+    found: Collection[str],
+    wanted: str,
+    namespace: str,
+    owner: str = "panel 'robot_console/Robot'",
+) -> str:
     """
     Choose the simulator of a robot.
 
@@ -87,6 +92,8 @@ def choose_simulator(found: Collection[str], wanted: str, namespace: str) -> str
         The name of the one that the user has chosen; '' for the only one that is running.
     namespace
         The namespace of the robot: one simulator below it has priority over others.
+    owner
+        What has the property `Simulator`, for the message.
 
     Raises
     ------
@@ -105,7 +112,7 @@ def choose_simulator(found: Collection[str], wanted: str, namespace: str) -> str
     if len(candidates) > 1:
         raise ValueError(
             f'There are several simulators: {", ".join(candidates)}. Name one in the property '
-            "'Simulator' of the panel 'robot_console/Robot'."
+            f"'Simulator' of the {owner}."
         )
     return candidates[0]
 
