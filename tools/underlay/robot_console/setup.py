@@ -32,6 +32,7 @@ setup(
             COMMAND,
             'robot_console/Diagnostics = robot_console.panels.diagnostics:Diagnostics',
             'robot_console/Drive = robot_console.panels.drive:Drive',
+            'robot_console/Gestures = robot_console.panels.gestures:Gestures',
             'robot_console/Joints = robot_console.panels.joints_panel:JointsPanel',
             'robot_console/Log = robot_console.panels.log:Log',
             OBJECTS,

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-import os
-from pathlib import Path
 from typing import Any
 
 from joint_state_publisher.joint_state_publisher import Extra, JointStatePublisher
@@ -13,6 +11,7 @@ from joint_state_publisher.merged_joints import MergedJoints
 from joint_state_publisher.settings import checked
 from joint_state_publisher_gui.board import Board
 from joint_state_publisher_gui.joint_page import JointPage
+from joint_state_publisher_gui.poses import poses_folder
 from rclpy.clock import Clock, ClockType
 from rviz_common.inputs import WorkQueue
 from rviz_common.page import Page, PortError
@@ -65,7 +64,7 @@ class JointStatePublisherGui(JointStatePublisher):
                 "The parameter 'num_rows' has no effect here: the page scrolls."
             )
         self.page = _serve(values)
-        self.joint_page = JointPage(self.page.viser, self._make_queue(), _poses_folder())
+        self.joint_page = JointPage(self.page.viser, self._make_queue(), poses_folder())
         if self._board is not None:
             self.joint_page.show(self._board)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -119,11 +118,6 @@ def _serve(values: Mapping[str, Any]) -> Page:
         return Page(PROGRAM, _page_settings_of(values))
     except PortError as error:
         raise ValueError(str(error)) from error
-
-
-def _poses_folder() -> Path:
-    """Return the folder of the saved poses."""
-    return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / PROGRAM
 
 
 def _page_settings_of(values: Mapping[str, Any]) -> PageSettings:

@@ -17,7 +17,7 @@ import yaml
 if TYPE_CHECKING:
     from viser import GuiApi
 
-__all__ = ['Pose', 'PoseError', 'PoseFolder', 'Poses', 'pose_file']
+__all__ = ['Pose', 'PoseError', 'PoseFolder', 'Poses', 'pose_file', 'poses_folder']
 
 Pose = Mapping[str, float]
 """Positions in rad or m by joint name."""
@@ -29,6 +29,11 @@ NONE = '(none saved)'
 
 class PoseError(ValueError):
     """Raised if poses cannot be read or saved."""
+
+
+def poses_folder() -> Path:
+    """Return the folder of the pose files of all robots."""
+    return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / 'joint_state_publisher_gui'
 
 
 def pose_file(robot: str, folder: Path) -> Path:

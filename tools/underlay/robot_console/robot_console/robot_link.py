@@ -206,6 +206,18 @@ class People:
             self._names[key] = f'browser {self._count} ({address})'
         return self._names[key]
 
+    def name(self, key: str) -> str:
+        """
+        Look up the name of a page; '' if it is not connected.
+
+        Parameters
+        ----------
+        key
+            The identifier, as for `arrive`.
+
+        """
+        return self._names.get(key, '')
+
     def leave(self, key: str) -> None:
         """
         Unregister a connection of a page; the name is released with the last one.

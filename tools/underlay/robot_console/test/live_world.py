@@ -20,6 +20,7 @@ from rclpy.node import Node
 from robot_console.live_panel import LivePanel
 from robot_console.panels.command import Command
 from robot_console.panels.diagnostics import Diagnostics
+from robot_console.panels.gestures import Gestures
 from robot_console.panels.log import Log
 from robot_console.panels.objects import Objects
 from robot_console.panels.parameters import Parameters
@@ -36,7 +37,7 @@ __all__ = ['PANELS', 'LiveWorld', 'live_world']
 
 PANELS = {'log': Log, 'diagnostics': Diagnostics, 'topics': Topics}
 PANELS |= {'command': Command, 'objects': Objects, 'parameters': Parameters, 'robot': Robot}
-PANELS |= {'services': Services}
+PANELS |= {'gestures': Gestures, 'services': Services}
 
 
 class LiveWorld:
