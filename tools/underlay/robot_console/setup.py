@@ -46,5 +46,8 @@ setup(
         ],
         'rviz_common.panels_on_demand': [COMMAND, OBJECTS],
         'rviz_common.tools': ['robot_console/Push = robot_console.push:Push'],
+        'rviz_common.tools': [
+            'robot_console/WalkHere = robot_console.walk_here.walk_here:WalkHere',
+        ],
     },
 )

@@ -256,6 +256,8 @@ class RobotLink:
         The state of the emergency stop.
     people
         The names of the users who have a page of the robot open.
+    mover
+        The session that publishes velocities, or did last.
     stop_topic, state_topic
         The topics of the emergency stop (Bool) and of the robot's stop state (String).
 
@@ -266,6 +268,7 @@ class RobotLink:
         self.control = Control()
         self.stop = EmergencyStop()
         self.people = People()
+        self.mover: object = None
         self.stop_topic = below(namespace, 'emergency_stop')
         self.state_topic = below(namespace, 'stop_state')
         self.holds_because = ''

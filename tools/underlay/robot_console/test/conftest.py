@@ -7,8 +7,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 import sys
 from typing import Any
+from unittest import mock
 
 import pytest
+from robot_console import control_page, small_page
+from robot_console.small_page import page_text
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.append(str(Path(__file__).parents[3] / 'test'))
@@ -46,3 +49,26 @@ def open_tab(browser: Any) -> Iterator[Callable[[int, int], Any]]:
     for tab in tabs:
         tab.close()
     assert failures == []
+
+
+@pytest.fixture
+def patience() -> Iterator[None]:
+    """
+    Let pages be silent for long, as they are on a machine that runs many tests at once.
+
+    Else a robot that is driven is stopped, which is right, but not what is looked at here.
+    """
+    limits = ('LOST_MS = 800', 'this.heardAt > 3000')
+
+    def patient_text(name: str, settings: dict[str, Any], package: str) -> str:
+        text = page_text(name, settings, package)
+        for limit in limits:
+            assert limit in text
+            text = text.replace(limit, f'{limit}000')
+        return text
+
+    with (
+        mock.patch.object(control_page, 'SILENCE_S', 100.0),
+        mock.patch.object(small_page, 'page_text', patient_text),
+    ):
+        yield

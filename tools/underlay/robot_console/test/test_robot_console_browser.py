@@ -5,15 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any
-from unittest import mock
 
 from console_world import World, world_of
 import pytest
-from robot_console import control_page, small_page
 from robot_console.panels.safety import Safety
 from robot_console.recordings.play_folder import Badge
 from robot_console.robot_link import LATCHED
-from robot_console.small_page import page_text
 from rviz_common.page import Route
 from std_msgs.msg import Bool
 
@@ -31,29 +28,6 @@ def world() -> Iterator[World]:
 def tab(open_tab: Any) -> Any:
     """Open a tab."""
     return open_tab(300, 420)
-
-
-@pytest.fixture
-def patience() -> Iterator[None]:
-    """
-    Let pages be silent for long, as they are on a machine that runs many tests at once.
-
-    Else a robot that is driven is stopped, which is right, but not what is looked at here.
-    """
-    limits = ('LOST_MS = 800', 'this.heardAt > 3000')
-
-    def patient_text(name: str, settings: dict[str, Any], package: str) -> str:
-        text = page_text(name, settings, package)
-        for limit in limits:
-            assert limit in text
-            text = text.replace(limit, f'{limit}000')
-        return text
-
-    with (
-        mock.patch.object(control_page, 'SILENCE_S', 100.0),
-        mock.patch.object(small_page, 'page_text', patient_text),
-    ):
-        yield
 
 
 def stall(tab: Any) -> None:

@@ -168,6 +168,7 @@ class DriveSession(Session):
             self._stop()
         else:
             self._velocity = velocity
+            self.link.mover = self
             self._say(velocity)
 
     def _why_not(self) -> str:
