@@ -45,8 +45,8 @@ setup(
             'robot_console/Topics = robot_console.panels.topics:Topics',
         ],
         'rviz_common.panels_on_demand': [COMMAND, OBJECTS],
-        'rviz_common.tools': ['robot_console/Push = robot_console.push:Push'],
         'rviz_common.tools': [
+            'robot_console/Push = robot_console.push:Push',
             'robot_console/WalkHere = robot_console.walk_here.walk_here:WalkHere',
         ],
     },

@@ -8,20 +8,35 @@ from collections.abc import Iterable, Mapping
 import re
 from typing import TYPE_CHECKING
 
-from rviz_common.properties import ColorOf, Number, Text
+from rviz_common.properties import ColorOf, Flag, Number, Text
 from rviz_common.status import Level, Statuses
 
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rviz_common.frames import Frames
 
-__all__ = ['BACKGROUND', 'FIXED_FRAME', 'FRAME_RATE', 'OPTIONS', 'UNUSED_OPTIONS', 'FrameWatch']
+__all__ = [
+    'BACKGROUND',
+    'FIXED_FRAME',
+    'FRAME_RATE',
+    'GROUND',
+    'OPTIONS',
+    'UNUSED_OPTIONS',
+    'FrameWatch',
+]
 
 BACKGROUND, FIXED_FRAME, FRAME_RATE = 'Background Color', 'Fixed Frame', 'Frame Rate'
+GROUND = 'Ground and Sky'
 OPTIONS = (
     ColorOf(BACKGROUND, (48, 48, 48), 'The background color.'),
     Text(FIXED_FRAME, 'map', 'The frame that stays fixed on the screen.'),
     Number(FRAME_RATE, 30.0, 'Maximum number of frames drawn per second; at most 60.', 1),
+    Flag(
+        GROUND,
+        False,
+        'Instead of the background, draw the ground at z = 0 of the fixed frame, a soft shadow '
+        'below each robot, and a sky.',
+    ),
 )
 UNUSED_OPTIONS = ('Default Light',)
 

@@ -17,7 +17,7 @@ from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.selection import Selection
 from rviz_common.status import printable, Statuses
-from rviz_common.view import Background, Cameras, View, WORLD
+from rviz_common.view import Cameras, View, WORLD
 from rviz_common.visualizer.display_entry import Maker
 from rviz_common.visualizer.display_tree import Entry, Group
 from rviz_common.visualizer.frame_loop import Attention, FrameLoop
@@ -26,9 +26,11 @@ from rviz_common.visualizer.global_options import (
     FIXED_FRAME,
     FRAME_RATE,
     FrameWatch,
+    GROUND,
     OPTIONS,
 )
 from rviz_common.visualizer.reports import surprises
+from rviz_common.visualizer.surroundings import Surroundings
 from rviz_common.visualizer.tool_box import ToolBox
 from tf2_ros import Buffer
 
@@ -98,7 +100,6 @@ class Visualizer:
         self._logger = node.get_logger()
         self._pace, self._slow = Pace(), Pace(1.0)
         self._maker = Maker(self.context, f'{WORLD}/displays')
-        self._background = Background(page.viser)
         self._open(configuration, path)
         self._files = FileFolder(self.context)
         page.viser.on_client_connect(lambda _: self._loop.rouse())
@@ -217,7 +218,7 @@ class Visualizer:
             self.watch.update()
         with self.context.server.atomic():
             if not self._loop.rests:
-                self._background.update()
+                self._surroundings.update()
             self.cameras.update()
             self.displays.update()
             self.selection.update()
@@ -250,6 +251,7 @@ class Visualizer:
         self.configuration, self.path = configuration, path
         self.revision = 0
         self.options = Values(OPTIONS, configuration.options)
+        self._surroundings = Surroundings(self.context.scene)
         for option in (BACKGROUND, FIXED_FRAME):
             self._apply(option)
         self.cameras = Cameras(self.context, View(configuration.view))
@@ -271,6 +273,7 @@ class Visualizer:
         self.tools.close()
         self.selection.choose(None)
         self.displays.appear(False)
+        self._surroundings.remove()
         self.context.scene.remove_by_name(WORLD)
 
     def _apply(self, option: str) -> None:
@@ -282,7 +285,7 @@ class Visualizer:
         elif option == FRAME_RATE:
             self._loop.set_rate(value)
         else:
-            self._background.choose(value)
+            self._surroundings.choose(self.options[BACKGROUND], self.options[GROUND])
 
 
 def _sections(shown: Visualizer) -> dict[Place, Any]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from rviz_common.canvas import Canvas
+from rviz_common.glb import glb_of
 from rviz_default_plugins.bodies import (
     add_copies,
     add_lines,
@@ -21,7 +22,7 @@ from rviz_default_plugins.bodies import (
 )
 from rviz_default_plugins.decoding.geometry import along_x, Points
 from rviz_default_plugins.markers.look import Look
-from rviz_default_plugins.markers.mesh import draw_mesh, glb_of
+from rviz_default_plugins.markers.mesh import draw_mesh
 from visualization_msgs.msg import Marker
 
 __all__ = ['draw_look']

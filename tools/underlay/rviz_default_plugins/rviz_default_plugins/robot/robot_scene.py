@@ -11,6 +11,7 @@ from urllib.parse import quote
 from rviz_common.frames import Pose
 from rviz_default_plugins.bodies import HIGHLIGHT_COLOR
 from rviz_default_plugins.parts import Parts
+from rviz_default_plugins.robot.contact_shadow import ContactShadow
 from rviz_default_plugins.robot.mesh_loading import DrawnMesh
 from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated
 from urdf import Color, Joint, Link, Mesh, RobotModel, Shape
@@ -23,6 +24,8 @@ __all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene']
 PoseOf = Callable[[Joint], Optional[Pose]]
 
 MAX_SHAPES = 3000
+SOLID = 0.5
+"""The opacity from which on a robot has a shadow."""
 AXES_M = 0.1
 
 HIGHLIGHT = 'highlight'
@@ -41,6 +44,11 @@ class Look:
     margin_m: float = 0.0
     """The inflation of all bodies, on each side."""
     links: Parts = field(default_factory=lambda: Parts(None))
+
+    @property
+    def has_shadow(self) -> bool:
+        """Whether there is a shadow below the robot: not below what is hardly seen."""
+        return self.alpha >= SOLID and (self.visuals or self.collisions)
 
     def shapes(self, link: Link) -> list[tuple[str, Shape]]:
         """
@@ -110,6 +118,7 @@ class RobotScene:
         self._drawn = 0
         self._scene, self._look, self._meshes = scene, look, meshes
         self._top = scene.add_frame(path, show_axes=False)
+        self._shadow = ContactShadow(scene, path) if look.has_shadow else None
         self._links = links = {link.name: link for link in model.links}
         self._paths = paths = {model.root: f'{path}/{_named(model.root)}'}
         self._root = self._add(links[model.root], paths[model.root])
@@ -136,6 +145,8 @@ class RobotScene:
 
         """
         self._root.place(root)
+        if self._shadow is not None:
+            self._shadow.place(root)
         unknown = []
         for joint, node in self._below:
             pose = pose_of(joint)
@@ -194,6 +205,8 @@ class RobotScene:
         """Remove the nodes."""
         self._top.remove()
         self.is_removed = True
+        if self._shadow is not None:
+            self._shadow.remove()
 
     def _add(self, link: Link, path: str) -> _LinkNode:
         has_axes = self._look.links.has_axes(link.name)

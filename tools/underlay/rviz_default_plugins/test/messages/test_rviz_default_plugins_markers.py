@@ -11,7 +11,6 @@ import pytest
 from rviz_default_plugins.displays import marker as marker_module
 from rviz_default_plugins.displays.marker import Marker, MarkerArray
 from rviz_default_plugins.markers.look import look_of, MOST
-from rviz_default_plugins.markers.mesh import glb_of
 from std_msgs.msg import ColorRGBA
 import trimesh
 from visualization_msgs.msg import Marker as Message
@@ -149,14 +148,6 @@ def test_triangles(message_stage):
         mesh = trimesh.load_scene(io.BytesIO(glb), file_type='glb').to_mesh()
         assert np.sort(mesh.vertices, axis=0).tolist() == np.sort(points, axis=0).tolist()
         assert glb.endswith(np.array([65535, 0, 0, 65535], np.uint16).tobytes() * 3)
-
-
-def test_colours_of_triangles_are_those_of_other_markers():
-    """A file has light, not values of a screen: half of the value is a fifth of the light."""
-    glb = glb_of(np.zeros((3, 3), np.float32), np.array([[128, 255, 10, 128]] * 3, np.uint8))
-    red, green, blue, alpha = np.frombuffer(glb[-8:], np.uint16) / 65535.0
-    assert (red, green) == pytest.approx((0.2159, 1.0), abs=1e-4)
-    assert (blue, alpha) == pytest.approx((10 / 255 / 12.92, 128 / 255), abs=1e-4)
 
 
 def test_mesh(message_stage, tmp_path):

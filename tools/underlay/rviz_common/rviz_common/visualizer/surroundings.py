@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is around the displays: the background color, or the ground below a sky."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from rviz_common.glb import glb_of
+from rviz_common.view import WORLD
+
+if TYPE_CHECKING:
+    from viser import SceneApi
+
+__all__ = ['CONTACTS', 'DARK', 'Palette', 'Surroundings', 'surface_of']
+
+SKY = '/sky'
+GROUND = f'{WORLD}/plain'
+CONTACTS = f'{WORLD}/contacts'
+"""The node below which displays draw the shadows of robots on the ground."""
+
+Rgb = tuple[int, int, int]
+
+SKY_M, PLAIN_M = 150.0, 140.0
+BELOW_M = -0.05
+"""The height of the ground, below maps, which are slightly below z = 0 themselves."""
+SEGMENTS = 32
+ELEVATIONS_DEG = (-90.0, -2.0, 0.0, 4.0, 10.0, 20.0, 40.0, 90.0)
+BLUENESS = (0.0, 0.0, 0.0, 0.25, 0.5, 0.75, 0.95, 1.0)
+RADII_M = (0.0, 8.0, 20.0, 40.0, 80.0, PLAIN_M)
+HAZE = (0.0, 0.0, 0.25, 0.6, 0.9, 1.0)
+
+
+@dataclass(frozen=True)
+class Palette:
+    """The colors of the ground, of the sky at the zenith, and of the haze between them."""
+
+    ground: Rgb
+    haze: Rgb
+    zenith: Rgb
+
+
+DARK = Palette(ground=(78, 82, 86), haze=(56, 64, 76), zenith=(14, 20, 32))
+
+
+class Surroundings:
+    """
+    The background color; and, if wanted, a plain at z = 0 of the fixed frame, and a sky above it.
+
+    The background is an image, for which viser loads a library of 15 MB: all of this waits until
+    a page is open.
+
+    Parameters
+    ----------
+    scene
+        The scene of the server of the page.
+
+    """
+
+    def __init__(self, scene: SceneApi) -> None:
+        self._scene = scene
+        self._wanted: tuple[Rgb, bool] | None = None
+        self._drawn: tuple[Rgb, bool] | None = None
+
+    def choose(self, color: Rgb, has_ground: bool) -> None:
+        """
+        Set what the next `update` draws.
+
+        Parameters
+        ----------
+        color
+            The color of the background: red, green and blue, each from 0 to 255.
+        has_ground
+            Whether to draw the ground and the sky, which hide the background.
+
+        """
+        self._wanted = color, has_ground
+
+    def update(self) -> None:
+        """Draw what is chosen, unless it is already drawn."""
+        if self._wanted is None or self._wanted == self._drawn:
+            return
+        color, has_ground = self._wanted
+        before = self._drawn
+        self._drawn = self._wanted
+        if before is None or before[0] != color:
+            picture = np.full((1, 1, 3), color, np.uint8)
+            self._scene.set_background_image(picture, format='png')
+        self._scene.add_frame(CONTACTS, show_axes=False, visible=has_ground)
+        if has_ground:
+            draw_ground(self._scene, DARK)
+        else:
+            self.remove()
+
+    def remove(self) -> None:
+        """Remove the ground and the sky; the background stays."""
+        for name in (GROUND, SKY):
+            if self._scene.get_handle_by_name(name) is not None:
+                self._scene.remove_by_name(name)
+
+
+def draw_ground(scene: SceneApi, palette: Palette) -> None:
+    """
+    Draw the ground and the sky, instead of those that are there.
+
+    Parameters
+    ----------
+    scene
+        The scene of all browsers, or of one.
+    palette
+        The colors.
+
+    """
+    ground, sky = _files(palette)
+    place = (0.0, 0.0, BELOW_M)
+    scene.add_glb(GROUND, ground, position=place, cast_shadow=False, receive_shadow=False)
+    scene.add_glb(SKY, sky, cast_shadow=False, receive_shadow=False)
+
+
+@lru_cache(maxsize=4)
+def _files(palette: Palette) -> tuple[bytes, bytes]:
+    """Return the ground and the sky as GLB files."""
+    plain = [(radius, 0.0) for radius in RADII_M]
+    angles = np.radians(ELEVATIONS_DEG)
+    dome = list(zip(SKY_M * np.cos(angles), SKY_M * np.sin(angles)))
+    ground = _mixed(palette.ground, palette.haze, HAZE)
+    sky = _mixed(palette.haze, palette.zenith, BLUENESS)
+    return (
+        glb_of(*surface_of(plain, ground), is_lit=False),
+        glb_of(*surface_of(dome, sky), is_lit=False),
+    )
+
+
+def _mixed(first: Rgb, second: Rgb, shares: Sequence[float]) -> NDArray[np.uint8]:
+    """Blend two colors by some shares of the second; opaque."""
+    share = np.array(shares)[:, None]
+    mixed = (1.0 - share) * np.array([*first, 255]) + share * np.array([*second, 255])
+    return np.asarray(mixed.round(), dtype=np.uint8)
+
+
+def surface_of(
+    profile: Sequence[tuple[float, float]], colors: NDArray[np.uint8], segments: int = SEGMENTS
+) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
+    """
+    Compute a surface of revolution about the z axis, with a color for each ring.
+
+    Parameters
+    ----------
+    profile
+        The radius and the height of each of N rings. Triangles are seen from the left of the way
+        from the first ring to the last one: from above if radii increase, from inside if heights
+        do.
+    colors
+        Red, green, blue and alpha of each ring (N, 4).
+    segments
+        The number of segments of a ring.
+
+    Returns
+    -------
+    tuple[NDArray[np.float32], NDArray[np.uint8]]
+        The vertices (M, 3), in m, each three of which form a triangle, and their colors (M, 4).
+
+    """
+    radii, heights = np.array(profile, np.float32).T
+    angles = np.linspace(0.0, 2.0 * np.pi, segments + 1)
+    points = np.empty((len(profile), segments + 1, 3), np.float32)
+    points[..., 0] = radii[:, None] * np.cos(angles)
+    points[..., 1] = radii[:, None] * np.sin(angles)
+    points[..., 2] = heights[:, None]
+    paints = np.broadcast_to(colors[:, None], (len(profile), segments + 1, 4))
+    return _triangles(points), _triangles(paints)
+
+
+def _triangles(corners: NDArray) -> NDArray:  # type: ignore[type-arg]
+    """Return the values at the corners of the triangles between neighboring rings."""
+    a, b = corners[:-1, :-1], corners[1:, :-1]
+    c, d = corners[1:, 1:], corners[:-1, 1:]
+    return np.stack([a, b, c, a, c, d], axis=2).reshape(-1, corners.shape[-1])
