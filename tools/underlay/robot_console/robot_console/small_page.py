@@ -3,27 +3,17 @@
 
 from __future__ import annotations
 
-from html import escape
 from importlib.resources import files
-import json
 from typing import Any, Protocol
-from urllib.parse import quote
 
 from rviz_common.context import Context
 from rviz_common.page import Route
+from rviz_common.page.web_files import filled, frame_text
 from websockets.asyncio.server import ServerConnection
 
 __all__ = ['SmallPage', 'Talks', 'page_text']
 
 COMMON = ('common.css', 'link.js', 'live.css', 'live.js', 'stay.js')
-# The main page dims and blocks its widgets when its connection is lost; embedded pages have
-# another connection.
-STYLE = 'display: block; width: 100%; border: 0; color-scheme: dark; pointer-events: auto'
-# As wide as widgets of HTML: without the margins, and beyond the 95 %, of those of Markdown.
-WIDE = (
-    'width: calc((100% + 2 * var(--mantine-spacing-sm)) / 0.95); '
-    'margin: 0 calc(-1 * var(--mantine-spacing-sm)) calc(-1 * var(--mantine-spacing-xs))'
-)
 
 
 class Talks(Protocol):
@@ -94,7 +84,7 @@ class SmallPage:
                 'There is already such a panel for this robot. Remove one of them from the file, '
                 "or give it another 'Namespace'."
             ) from None
-        self._frame = context.gui.add_markdown(_frame_text(self._path, name), order=order)
+        self._frame = context.gui.add_markdown(frame_text(self._path, name), order=order)
 
     def close(self) -> None:
         """Remove the page, and close its connections."""
@@ -121,15 +111,4 @@ def page_text(name: str, settings: dict[str, Any], package: str = 'robot_console
     text = (files(package) / 'web' / f'{name}.html').read_text(encoding='utf-8')
     for part in COMMON:
         text = text.replace(f'/* {part} */', (folder / part).read_text(encoding='utf-8'))
-    return text.replace('/* settings */ {}', json.dumps(settings).replace('<', '\\u003c'))
-
-
-def _frame_text(path: str, title: str) -> str:
-    """
-    Build the Markdown of an embedded page that loads only once.
-
-    HTML widgets are recreated, and thus reloaded, whenever adjacent widgets are added or removed;
-    elements of Markdown widgets remain.
-    """
-    frame = f'<iframe src="{escape(quote(path))}" title="{escape(title)}" style="{STYLE}">'
-    return f'<div style="{WIDE}">{frame}</iframe></div>'
+    return filled(text, settings)

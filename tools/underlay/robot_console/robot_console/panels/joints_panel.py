@@ -44,9 +44,11 @@ linear-gradient(rgba(128,128,128,.16) 0 0);background-size:100% 4px;
 background-repeat:no-repeat;background-position:0 100%}
 .joints .b{background:linear-gradient(90deg,var(--c,#4dabf7) var(--p),rgba(128,128,128,.16) 0)
 no-repeat 0 100%/100% 4px}
-.joints .w{--c:#fab005;color:#fab005}.joints .e{--c:#ff6b6b;color:#ff6b6b;font-weight:700}
+.joints .w{--c:light-dark(#8a5300,#fab005);color:var(--c)}
+.joints .e{--c:light-dark(#c62828,#ff6b6b);color:var(--c);font-weight:700}
 .joints .s{opacity:.4}
-.joint-notes{margin:0 12px 4px;font-size:11px;line-height:1.4}.joint-notes .w{color:#fab005}
+.joint-notes{margin:0 12px 4px;font-size:11px;line-height:1.4}
+.joint-notes .w{color:light-dark(#8a5300,#fab005)}
 </style>"""
 
 HEAD = (

@@ -21,22 +21,23 @@ if TYPE_CHECKING:
 __all__ = ['STYLE', 'PlotChart', 'legend_html']
 
 COLORS = (
-    '#4dabf7',
-    '#ffa94d',
-    '#69db7c',
-    '#ff8787',
-    '#b197fc',
-    '#ffe066',
-    '#66d9e8',
-    '#faa2c1',
+    '#228be6',
+    '#e8590c',
+    '#2f9e44',
+    '#e64980',
+    '#845ef7',
+    '#a98300',
+    '#0c8fa5',
+    '#e03131',
 )
+"""They can be told from a white and from a dark background."""
 STYLE = """<style>
 .plot-legend{margin:0 12px 8px;font-size:11px;line-height:1.45}
 .plot-legend div{display:flex;gap:6px;align-items:baseline}
 .plot-legend b{flex:none;width:9px;height:9px;border-radius:2px}
 .plot-legend span{flex:1;overflow-wrap:anywhere}
 .plot-legend i{flex:none;font-style:normal;font-variant-numeric:tabular-nums}
-.plot-legend p{margin:0 0 0 15px;color:#fab005}
+.plot-legend p{margin:0 0 0 15px;color:light-dark(#8a5300,#fab005)}
 </style>"""
 EMPTY = (
     '<div class=plot-legend>Nothing is plotted yet. Choose a preset or a field, or write a path '

@@ -32,7 +32,7 @@ STYLE = (
     'color: #fff; font-size: 0.9em; line-height: 1.35; text-align: center; '
     'overflow-wrap: anywhere; background: '
 )
-COLORS = {RECORDED: '#7048e8', MIXED: '#e8590c'}
+COLORS = {RECORDED: '#7048e8', MIXED: '#c04a06'}
 
 PLAY, PAUSE, STOP = 'Play', 'Pause', 'Stop'
 SPEEDS = ('0.1', '0.25', '0.5', '1', '2', '5', '10')

@@ -10,7 +10,7 @@ function stay() {
   const height = all.reduce((sum, each) => sum + each.offsetHeight, 0);
   const missing = Math.max(0, height - 0.6 * around.clientHeight);
   const top = Math.max(0, around.scrollTop - missing);
-  const boxShadow = all[0] === window.frameElement ? '0 -12px #242424' : '';
+  const boxShadow = all[0] === window.frameElement ? '0 -12px var(--mantine-color-body)' : '';
   Object.assign(box.style, { position: 'relative', top: `${top}px`, zIndex: 10, boxShadow });
 }
 

@@ -28,16 +28,18 @@ PAGE = string.Template("""<!doctype html>
 <meta name="viewport" content="width=device-width">
 <title>$title: token needed</title>
 <style>
-  :root { color-scheme: dark; }
-  body { margin: 0; background: #1a1b1e; color: #c9cbcf; font: 16px/1.5 system-ui, sans-serif; }
+  :root { color-scheme: light dark; --text: light-dark(#111, #fff); }
+  body { margin: 0; background: light-dark(#fff, #1a1b1e);
+    color: light-dark(#33373d, #c9cbcf); font: 16px/1.5 system-ui, sans-serif; }
   main { max-width: 36rem; margin: 12vh auto 0; padding: 0 1.5rem; }
-  h1 { color: #fff; font-size: 1.5rem; }
-  code { color: #fff; background: #2c2e33; border-radius: 4px; padding: .1em .35em; }
+  h1 { color: var(--text); font-size: 1.5rem; }
+  code { color: var(--text); background: light-dark(#eceef1, #2c2e33); }
+  code { border-radius: 4px; padding: .1em .35em; }
   code { overflow-wrap: anywhere; }
   form { display: flex; gap: .5rem; margin: 1.5rem 0; }
   input { flex: 1; min-width: 0; }
   input, button { font: inherit; padding: .5rem .75rem; border-radius: 4px; }
-  input { color: #fff; background: #25262b; border: 1px solid #5c5f66; }
+  input { color: var(--text); background: light-dark(#fff, #25262b); border: 1px solid #868e96; }
   button { color: #fff; background: #1971c2; border: 0; cursor: pointer; }
 </style>
 </head>

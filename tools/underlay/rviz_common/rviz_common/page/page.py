@@ -25,7 +25,7 @@ import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
-__all__ = ['Page']
+__all__ = ['Page', 'set_theme']
 
 
 class Page(GatedPage):
@@ -63,12 +63,7 @@ class Page(GatedPage):
             self.viser = viser.ViserServer(
                 host=self.settings.host, port=self.port, label=title, verbose=False
             )
-        self.viser.gui.configure_theme(
-            control_width='large',
-            dark_mode=True,
-            show_logo=False,
-            show_share_button=False,
-        )
+        set_theme(self.viser.gui, is_dark=True)
         self.viser.gui.main_panel.dock_right()
         # Shadows halve the frame rate with software rendering.
         self.viser.scene.configure_default_lights(cast_shadow=False)
@@ -141,6 +136,26 @@ class Page(GatedPage):
         """Stop serving the page."""
         self._is_closed = True
         self.viser.stop()
+
+
+def set_theme(gui: viser.GuiApi, is_dark: bool) -> None:
+    """
+    Set the theme of the widgets.
+
+    Parameters
+    ----------
+    gui
+        The widgets of all browsers, or of one.
+    is_dark
+        Whether the theme is dark.
+
+    """
+    gui.configure_theme(
+        control_width='large',
+        dark_mode=is_dark,
+        show_logo=False,
+        show_share_button=False,
+    )
 
 
 # Larger than the chunks of half a megabyte in which browsers send files.

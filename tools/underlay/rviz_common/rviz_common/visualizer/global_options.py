@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 import re
 from typing import TYPE_CHECKING
 
-from rviz_common.properties import ColorOf, Flag, Number, Text
+from rviz_common.properties import Choice, ColorOf, Flag, Number, Text
 from rviz_common.status import Level, Statuses
 
 if TYPE_CHECKING:
@@ -21,12 +21,13 @@ __all__ = [
     'FRAME_RATE',
     'GROUND',
     'OPTIONS',
+    'THEME',
     'UNUSED_OPTIONS',
     'FrameWatch',
 ]
 
 BACKGROUND, FIXED_FRAME, FRAME_RATE = 'Background Color', 'Fixed Frame', 'Frame Rate'
-GROUND = 'Ground and Sky'
+GROUND, THEME = 'Ground and Sky', 'Theme'
 OPTIONS = (
     ColorOf(BACKGROUND, (48, 48, 48), 'The background color.'),
     Text(FIXED_FRAME, 'map', 'The frame that stays fixed on the screen.'),
@@ -36,6 +37,12 @@ OPTIONS = (
         False,
         'Instead of the background, draw the ground at z = 0 of the fixed frame, a soft shadow '
         'below each robot, and a sky.',
+    ),
+    Choice(
+        THEME,
+        'Browser',
+        'The theme of the page; Browser: that of the system. Each browser can choose another one.',
+        ('Browser', 'Dark', 'Light'),
     ),
 )
 UNUSED_OPTIONS = ('Default Light',)

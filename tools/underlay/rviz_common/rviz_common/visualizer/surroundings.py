@@ -16,7 +16,7 @@ from rviz_common.view import WORLD
 if TYPE_CHECKING:
     from viser import SceneApi
 
-__all__ = ['CONTACTS', 'DARK', 'Palette', 'Surroundings', 'surface_of']
+__all__ = ['CONTACTS', 'DARK', 'LIGHT', 'Palette', 'Surroundings', 'surface_of']
 
 SKY = '/sky'
 GROUND = f'{WORLD}/plain'
@@ -45,6 +45,7 @@ class Palette:
 
 
 DARK = Palette(ground=(78, 82, 86), haze=(56, 64, 76), zenith=(14, 20, 32))
+LIGHT = Palette(ground=(205, 203, 196), haze=(222, 231, 238), zenith=(104, 160, 214))
 
 
 class Surroundings:
@@ -80,10 +81,10 @@ class Surroundings:
         """
         self._wanted = color, has_ground
 
-    def update(self) -> None:
-        """Draw what is chosen, unless it is already drawn."""
+    def update(self) -> bool:
+        """Draw what is chosen, in dark colors; return False if it is already drawn."""
         if self._wanted is None or self._wanted == self._drawn:
-            return
+            return False
         color, has_ground = self._wanted
         before = self._drawn
         self._drawn = self._wanted
@@ -92,29 +93,42 @@ class Surroundings:
             self._scene.set_background_image(picture, format='png')
         self._scene.add_frame(CONTACTS, show_axes=False, visible=has_ground)
         if has_ground:
-            draw_ground(self._scene, DARK)
+            _draw_ground(self._scene, DARK)
         else:
-            self.remove()
+            _remove_ground(self._scene)
+        return True
 
     def remove(self) -> None:
-        """Remove the ground and the sky; the background stays."""
-        for name in (GROUND, SKY):
-            if self._scene.get_handle_by_name(name) is not None:
-                self._scene.remove_by_name(name)
+        """Remove the ground and the sky; the next `update` draws everything again."""
+        _remove_ground(self._scene)
+        self._drawn = None
+
+    def recolor(self, scene: SceneApi, palette: Palette) -> None:
+        """
+        Draw the ground and the sky in other colors for one browser, if they are drawn.
+
+        Parameters
+        ----------
+        scene
+            The scene of the browser.
+        palette
+            The colors; `DARK` are those of all browsers without others.
+
+        """
+        if self._drawn is not None and self._drawn[1] and palette != DARK:
+            _draw_ground(scene, palette)
+        else:
+            _remove_ground(scene)
 
 
-def draw_ground(scene: SceneApi, palette: Palette) -> None:
-    """
-    Draw the ground and the sky, instead of those that are there.
+def _remove_ground(scene: SceneApi) -> None:
+    for name in (GROUND, SKY):
+        if scene.get_handle_by_name(name) is not None:
+            scene.remove_by_name(name)
 
-    Parameters
-    ----------
-    scene
-        The scene of all browsers, or of one.
-    palette
-        The colors.
 
-    """
+def _draw_ground(scene: SceneApi, palette: Palette) -> None:
+    """Draw the ground and the sky, instead of those that the scene has."""
     ground, sky = _files(palette)
     place = (0.0, 0.0, BELOW_M)
     scene.add_glb(GROUND, ground, position=place, cast_shadow=False, receive_shadow=False)

@@ -28,10 +28,11 @@ from rviz_common.visualizer.global_options import (
     FrameWatch,
     GROUND,
     OPTIONS,
+    THEME,
 )
 from rviz_common.visualizer.reports import surprises
-from rviz_common.visualizer.surroundings import Surroundings
 from rviz_common.visualizer.tool_box import ToolBox
+from rviz_common.visualizer.viewers import Viewers
 from tf2_ros import Buffer
 
 if TYPE_CHECKING:
@@ -100,6 +101,7 @@ class Visualizer:
         self._logger = node.get_logger()
         self._pace, self._slow = Pace(), Pace(1.0)
         self._maker = Maker(self.context, f'{WORLD}/displays')
+        self._viewers = Viewers(self.context)
         self._open(configuration, path)
         self._files = FileFolder(self.context)
         page.viser.on_client_connect(lambda _: self._loop.rouse())
@@ -218,7 +220,7 @@ class Visualizer:
             self.watch.update()
         with self.context.server.atomic():
             if not self._loop.rests:
-                self._surroundings.update()
+                self._viewers.update()
             self.cameras.update()
             self.displays.update()
             self.selection.update()
@@ -245,13 +247,13 @@ class Visualizer:
         self._loop.close()
         self._close()
         self._files.close()
+        self._viewers.close()
         self._listener.unregister()
 
     def _open(self, configuration: Configuration, path: str) -> None:
         self.configuration, self.path = configuration, path
         self.revision = 0
         self.options = Values(OPTIONS, configuration.options)
-        self._surroundings = Surroundings(self.context.scene)
         for option in (BACKGROUND, FIXED_FRAME):
             self._apply(option)
         self.cameras = Cameras(self.context, View(configuration.view))
@@ -273,7 +275,7 @@ class Visualizer:
         self.tools.close()
         self.selection.choose(None)
         self.displays.appear(False)
-        self._surroundings.remove()
+        self._viewers.clear()
         self.context.scene.remove_by_name(WORLD)
 
     def _apply(self, option: str) -> None:
@@ -285,7 +287,8 @@ class Visualizer:
         elif option == FRAME_RATE:
             self._loop.set_rate(value)
         else:
-            self._surroundings.choose(self.options[BACKGROUND], self.options[GROUND])
+            look = (self.options[each] for each in (THEME, BACKGROUND, GROUND))
+            self._viewers.choose(*look)
 
 
 def _sections(shown: Visualizer) -> dict[Place, Any]:

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the page looks in a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+import sys
+from typing import Any
+
+import pytest
+from rviz_common.page import Page
+from rviz_common.visualizer import Visualizer
+from rviz_common.visualizer.surroundings import SKY
+
+sys.path.append(str(Path(__file__).parents[3] / 'test'))
+
+from browser import chromium  # noqa: E402
+
+WITH_GROUND = 'Visualization Manager: {Global Options: {Ground and Sky: true}}'
+SCHEME = "document.documentElement.getAttribute('data-mantine-color-scheme')"
+
+
+@pytest.fixture
+def tab() -> Iterator[Any]:
+    """Return a tab of a browser whose system prefers light, in which no script may fail."""
+    with chromium() as browser:
+        tab = browser.new_page(viewport={'width': 700, 'height': 500}, color_scheme='light')
+        failures: list[str] = []
+        tab.on('pageerror', lambda error: failures.append(str(error)))
+        yield tab
+        assert failures == []
+
+
+def test_each_browser_has_its_own_theme(
+    page: Page, show: Callable[..., Visualizer], spin_until: Any, tab: Any
+) -> None:
+    """It begins as the system prefers; what is chosen then is remembered, by this browser only."""
+    show(WITH_GROUND)
+    tab.goto(f'http://127.0.0.1:{page.port}/?fixedDpr=0.5', wait_until='commit')
+    spin_until(page.viser.get_clients, 'a browser')
+    (client,) = page.viser.get_clients().values()
+    spin_until(lambda: client.scene.get_handle_by_name(SKY), 'a bright sky')
+    spin_until(lambda: tab.evaluate(SCHEME) == 'light', 'the light theme')
+    look = tab.frame_locator('iframe[title=look]')
+    assert look.locator('html').get_attribute('data-theme') == 'light'
+    look.locator('#theme').select_option('dark')
+    spin_until(lambda: tab.evaluate(SCHEME) == 'dark', 'the dark theme')
+    spin_until(lambda: look.locator('html').get_attribute('data-theme') == 'dark', 'a dark frame')
+    assert client.scene.get_handle_by_name(SKY) is None
+    tab.reload(wait_until='commit')
+    spin_until(look.locator('#theme').is_visible, 'the choice')
+    assert look.locator('#theme').input_value() == 'dark'
+    spin_until(lambda: tab.evaluate(SCHEME) == 'dark', 'the dark theme again')
