@@ -11,13 +11,14 @@ from typing import Any
 import pytest
 from rviz_common.page import Page
 from rviz_common.visualizer import Visualizer
-from rviz_common.visualizer.surroundings import SKY
+from rviz_common.visualizer.surroundings import EVEN_LIGHT, SHADOWS, SKY
 
 sys.path.append(str(Path(__file__).parents[3] / 'test'))
 
 from browser import chromium  # noqa: E402
 
 WITH_GROUND = 'Visualization Manager: {Global Options: {Ground and Sky: true}}'
+RATIO = 'window.__viserTestpoints?.devSettings.get().fixedDpr'
 SCHEME = "document.documentElement.getAttribute('data-mantine-color-scheme')"
 
 
@@ -52,3 +53,28 @@ def test_each_browser_has_its_own_theme(
     spin_until(look.locator('#theme').is_visible, 'the choice')
     assert look.locator('#theme').input_value() == 'dark'
     spin_until(lambda: tab.evaluate(SCHEME) == 'dark', 'the dark theme again')
+
+
+def test_each_browser_draws_as_much_as_it_can(
+    page: Page, show: Callable[..., Visualizer], spin_until: Any, tab: Any
+) -> None:
+    """Without a graphics card it casts no shadows, and says so, unless its user wants them."""
+    show(WITH_GROUND)
+    tab.goto(f'http://127.0.0.1:{page.port}/', wait_until='commit')
+    look = tab.frame_locator('iframe[title=look]')
+    told = look.locator('#told')
+    spin_until(told.is_visible, 'a sentence')
+    assert 'without a graphics card' in (look.locator('#sentence').text_content() or '')
+    (client,) = page.viser.get_clients().values()
+    assert client.scene.get_handle_by_name(SHADOWS) is None
+    look.locator('#undo').click()
+    spin_until(lambda: client.scene.get_handle_by_name(SHADOWS), 'shadows')
+    assert not told.is_visible()
+    look.locator('#quality').select_option('Coarse')
+    spin_until(lambda: tab.evaluate(RATIO) == 0.6, 'fewer pixels')
+    assert client.scene.get_handle_by_name(EVEN_LIGHT) is not None
+    tab.reload(wait_until='commit')
+    spin_until(look.locator('#quality').is_visible, 'the choice')
+    assert look.locator('#quality').input_value() == '2'
+    look.locator('#quality').select_option('Automatic')
+    spin_until(lambda: told.is_visible() and tab.evaluate(RATIO) is None, 'all pixels again')

@@ -7,10 +7,58 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
+from rviz_common.page import Page
 from rviz_common.visualizer import Visualizer
-from rviz_common.visualizer.surroundings import CONTACTS, GROUND, SKY, surface_of
+from rviz_common.visualizer.surroundings import (
+    CONTACTS,
+    DARK,
+    EVEN_LIGHT,
+    GROUND,
+    LIGHT,
+    Palette,
+    SHADOWS,
+    SKY,
+    surface_of,
+    Surroundings,
+)
 
 WHITE = np.full((3, 4), 255, np.uint8)
+
+
+class SceneOfOne:
+    """The scene of one browser, as far as it is used."""
+
+    def __init__(self) -> None:
+        self.nodes: dict[str, Any] = {}
+        self.has_shadows = False
+        self.places: list[str | None] = []
+
+    def add_glb(self, name: str, data: bytes, **look: Any) -> None:
+        self.nodes[name] = look
+
+    def add_light_hemisphere(self, name: str, **look: Any) -> None:
+        self.nodes[name] = look
+
+    def get_handle_by_name(self, name: str) -> Any:
+        return self.nodes.get(name)
+
+    def remove_by_name(self, name: str) -> None:
+        del self.nodes[name]
+
+    def configure_default_lights(self, cast_shadow: bool) -> None:
+        self.has_shadows = cast_shadow
+
+    def configure_environment_map(self, place: str | None) -> None:
+        self.places.append(place)
+
+
+def surroundings(page: Page, has_ground: bool) -> Surroundings:
+    """Return what is around, drawn already."""
+    around = Surroundings(page.viser.scene)
+    around.choose((1, 2, 3), has_ground)
+    assert around.update() and not around.update()
+    return around
 
 
 def normals(profile: list[tuple[float, float]]) -> tuple[Any, Any]:
@@ -66,3 +114,43 @@ def test_another_file_starts_anew(show: Callable[..., Visualizer]) -> None:
     shown.load(type(shown.configuration).default())
     shown.frame()
     assert shown.context.scene.get_handle_by_name(SKY) is None
+
+
+@pytest.mark.parametrize(
+    ('palette', 'has_shadows', 'own'),
+    [
+        (DARK, False, []),
+        (LIGHT, False, [GROUND, SKY]),
+        (DARK, True, [SHADOWS]),
+        (LIGHT, True, [GROUND, SKY, SHADOWS]),
+    ],
+)
+def test_one_browser_has_other_colors_and_shadows(
+    page: Page, palette: Palette, has_shadows: bool, own: list[str]
+) -> None:
+    """It has nodes of its own only if they differ from those of all."""
+    around, scene = surroundings(page, has_ground=True), SceneOfOne()
+    for _ in range(2):
+        around.adapt(scene, palette, has_shadows, has_reflections=True)
+    around.remove()
+    assert list(scene.nodes) == own
+    assert scene.has_shadows is has_shadows
+    assert scene.places == []
+
+
+def test_without_a_ground_there_are_no_shadows(page: Page) -> None:
+    """They cost time, and there would be nothing to see them on."""
+    around, scene = surroundings(page, has_ground=False), SceneOfOne()
+    around.adapt(scene, LIGHT, has_shadows=True, has_reflections=True)
+    assert scene.nodes == {} and not scene.has_shadows
+
+
+def test_one_browser_has_a_light_that_takes_less_time(page: Page) -> None:
+    """It is not sent again as long as it stays, and goes when it is not wanted any more."""
+    around, scene = surroundings(page, has_ground=False), SceneOfOne()
+    for _ in range(2):
+        around.adapt(scene, DARK, has_shadows=False, has_reflections=False)
+    assert scene.places == [None] and list(scene.nodes) == [EVEN_LIGHT]
+    for _ in range(2):
+        around.adapt(scene, DARK, has_shadows=False, has_reflections=True)
+    assert scene.places == [None, 'city'] and scene.nodes == {}

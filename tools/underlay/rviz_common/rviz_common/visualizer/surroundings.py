@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import Any, Final, TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,15 @@ Rgb = tuple[int, int, int]
 SKY_M, PLAIN_M = 150.0, 140.0
 BELOW_M = -0.05
 """The height of the ground, below maps, which are slightly below z = 0 themselves."""
+SHADOWS = f'{WORLD}/shadows'
+SHADOWS_M, SHADOWED_M = -0.003, 30.0
+"""The height and the radius of the shadows that are cast: above maps, and below all else."""
+EVEN_LIGHT = '/even_light'
+FROM_BELOW, BRIGHTNESS = (150, 150, 150), 1.6
+OF_VISER: Final = 'city'
+"""The place whose light viser shows first."""
+SHADOW = 0.35
+"""The opacity of shadows that are cast."""
 SEGMENTS = 32
 ELEVATIONS_DEG = (-90.0, -2.0, 0.0, 4.0, 10.0, 20.0, 40.0, 90.0)
 BLUENESS = (0.0, 0.0, 0.0, 0.25, 0.5, 0.75, 0.95, 1.0)
@@ -67,6 +76,11 @@ class Surroundings:
         self._wanted: tuple[Rgb, bool] | None = None
         self._drawn: tuple[Rgb, bool] | None = None
 
+    @property
+    def has_ground(self) -> bool:
+        """Whether the ground and the sky are drawn."""
+        return self._drawn is not None and self._drawn[1]
+
     def choose(self, color: Rgb, has_ground: bool) -> None:
         """
         Set what the next `update` draws.
@@ -91,11 +105,10 @@ class Surroundings:
         if before is None or before[0] != color:
             picture = np.full((1, 1, 3), color, np.uint8)
             self._scene.set_background_image(picture, format='png')
+        _remove_ground(self._scene)
         self._scene.add_frame(CONTACTS, show_axes=False, visible=has_ground)
         if has_ground:
             _draw_ground(self._scene, DARK)
-        else:
-            _remove_ground(self._scene)
         return True
 
     def remove(self) -> None:
@@ -103,9 +116,11 @@ class Surroundings:
         _remove_ground(self._scene)
         self._drawn = None
 
-    def recolor(self, scene: SceneApi, palette: Palette) -> None:
+    def adapt(
+        self, scene: SceneApi, palette: Palette, has_shadows: bool, has_reflections: bool
+    ) -> None:
         """
-        Draw the ground and the sky in other colors for one browser, if they are drawn.
+        Draw the ground, the sky and the light differently for one browser.
 
         Parameters
         ----------
@@ -113,22 +128,46 @@ class Surroundings:
             The scene of the browser.
         palette
             The colors; `DARK` are those of all browsers without others.
+        has_shadows
+            Whether all that is above the ground casts a shadow on it, if the ground is drawn.
+        has_reflections
+            Whether the light comes from a picture of a place, instead of evenly from above and
+            below, which takes less time.
 
         """
-        if self._drawn is not None and self._drawn[1] and palette != DARK:
+        has_shadows = has_shadows and self.has_ground
+        scene.configure_default_lights(cast_shadow=has_shadows)
+        _remove_ground(scene)
+        _reflect(scene, has_reflections)
+        if self.has_ground and palette != DARK:
             _draw_ground(scene, palette)
-        else:
-            _remove_ground(scene)
+        if has_shadows:
+            at = (0.0, 0.0, SHADOWS_M)
+            scene.add_glb(
+                SHADOWS, _unseen(), position=at, cast_shadow=False, receive_shadow=SHADOW
+            )
 
 
 def _remove_ground(scene: SceneApi) -> None:
-    for name in (GROUND, SKY):
+    for name in (GROUND, SHADOWS, SKY):
         if scene.get_handle_by_name(name) is not None:
             scene.remove_by_name(name)
 
 
+def _reflect(scene: SceneApi, has_reflections: bool) -> None:
+    """Choose the light from all around, unless the scene has it already."""
+    if has_reflections is (scene.get_handle_by_name(EVEN_LIGHT) is None):
+        return
+    if has_reflections:
+        scene.remove_by_name(EVEN_LIGHT)
+        scene.configure_environment_map(OF_VISER)
+    else:
+        scene.add_light_hemisphere(EVEN_LIGHT, ground_color=FROM_BELOW, intensity=BRIGHTNESS)
+        scene.configure_environment_map(None)
+
+
 def _draw_ground(scene: SceneApi, palette: Palette) -> None:
-    """Draw the ground and the sky, instead of those that the scene has."""
+    """Draw the ground and the sky."""
     ground, sky = _files(palette)
     place = (0.0, 0.0, BELOW_M)
     scene.add_glb(GROUND, ground, position=place, cast_shadow=False, receive_shadow=False)
@@ -147,6 +186,13 @@ def _files(palette: Palette) -> tuple[bytes, bytes]:
         glb_of(*surface_of(plain, ground), is_lit=False),
         glb_of(*surface_of(dome, sky), is_lit=False),
     )
+
+
+@lru_cache(maxsize=1)
+def _unseen() -> bytes:
+    """Return a disc of which only the shadows are seen that fall on it, as a GLB file."""
+    nothing = np.zeros((2, 4), np.uint8)
+    return glb_of(*surface_of([(0.0, 0.0), (SHADOWED_M, 0.0)], nothing), is_lit=False)
 
 
 def _mixed(first: Rgb, second: Rgb, shares: Sequence[float]) -> NDArray[np.uint8]:
@@ -189,7 +235,7 @@ def surface_of(
     return _triangles(points), _triangles(paints)
 
 
-def _triangles(corners: NDArray) -> NDArray:  # type: ignore[type-arg]
+def _triangles(corners: NDArray[Any]) -> NDArray[Any]:
     """Return the values at the corners of the triangles between neighboring rings."""
     a, b = corners[:-1, :-1], corners[1:, :-1]
     c, d = corners[1:, 1:], corners[:-1, 1:]

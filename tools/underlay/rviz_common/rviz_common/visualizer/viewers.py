@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the page looks in each browser: its theme."""
+"""How the page looks in each browser: its theme, and how much is drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import itertools
+import time
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.context import Context
@@ -14,6 +15,7 @@ from rviz_common.page.channel import Channel, Viewer
 from rviz_common.page.page import set_theme
 from rviz_common.page.web_files import filled, frame_text, web_file
 from rviz_common.panel import LOOK_ORDER
+from rviz_common.visualizer.quality import COARSE, FULL, Quality, SIMPLE
 from rviz_common.visualizer.surroundings import DARK, LIGHT, Surroundings
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ __all__ = ['Viewers', 'is_dark_theme']
 PATHS = (f'/look/{number}' for number in itertools.count())
 """The paths of the small pages: several visualizers can share a page."""
 OF_BROWSER = 'Browser'
+STEPS = range(FULL, COARSE + 1)
 CHOICES = ('', 'dark', 'light')
 """The themes that a user can choose; '' for that of the file."""
 
@@ -35,13 +38,15 @@ class _Look:
     choice: str = ''
     system: str = ''
     is_dark: bool | None = None
+    quality: Quality = field(default_factory=Quality)
 
 
 class Viewers:
     """
-    The browsers that show the page, each with its own theme.
+    The browsers that show the page, each with its own theme and quality.
 
-    Each gets a small page among its widgets, which knows what its user and its system prefer.
+    Each gets a small page among its widgets, which knows what its user and its system prefer,
+    and measures how fast the browser draws.
 
     Parameters
     ----------
@@ -56,7 +61,12 @@ class Viewers:
         self._of_file = OF_BROWSER
         self._looks: dict[int, _Look] = {}
         self._is_over = False
-        self._channel = Channel(context.queue, lambda viewer: None, {'theme': self._take_theme})
+        actions = {
+            'theme': self._take_theme,
+            'quality': self._take_quality,
+            'rate': self._take_rate,
+        }
+        self._channel = Channel(context.queue, lambda viewer: None, actions)
         route = Route(filled(web_file('look.html'), {}), self._channel.talk)
         self._path = next(PATHS)
         context.page.routes.add(self._path, route)
@@ -122,6 +132,30 @@ class Viewers:
         look.choice, look.system = choice, system
         self._apply(client, look)
 
+    def _take_quality(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        """Take what a browser can draw, and what its user wants, or raise ValueError."""
+        client, look = self._find(message)
+        choice, reached = message.get('choice'), message.get('reached')
+        if choice not in (None, *STEPS) or reached not in STEPS:
+            raise ValueError(f"There is no quality '{choice}' or '{reached}'.")
+        look.quality.begin(choice, reached, bool(message.get('has_card')))
+        self._apply_quality(viewer, client, look)
+
+    def _take_rate(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        """Take a measured frame rate, or raise ValueError."""
+        client, look = self._find(message)
+        rate_hz = message.get('hz')
+        if not isinstance(rate_hz, (int, float)):
+            raise ValueError(f"The frame rate '{rate_hz}' is not a number.")
+        if look.quality.report(rate_hz, time.monotonic()):
+            self._apply_quality(viewer, client, look)
+
+    def _apply_quality(self, viewer: Viewer, client: ClientHandle, look: _Look) -> None:
+        step, sentence = look.quality.step, look.quality.sentence
+        is_same = step == SIMPLE and not self._surroundings.has_ground  # nothing has a shadow
+        viewer.tell(step=step, sentence='' if is_same else sentence)
+        self._apply(client, look)
+
     def _find(self, message: Mapping[str, Any]) -> tuple[ClientHandle, _Look]:
         """Find the browser that a message is from, or raise ValueError."""
         key = message.get('viewer')
@@ -135,7 +169,8 @@ class Viewers:
         if is_dark is not look.is_dark:
             look.is_dark = is_dark
             set_theme(client.gui, is_dark)
-        self._surroundings.recolor(client.scene, DARK if is_dark else LIGHT)
+        palette, step = DARK if is_dark else LIGHT, look.quality.step
+        self._surroundings.adapt(client.scene, palette, step == FULL, step != COARSE)
 
 
 def is_dark_theme(choice: str, of_file: str, system: str) -> bool:

@@ -13,7 +13,7 @@ from rviz_default_plugins.bodies import HIGHLIGHT_COLOR
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.contact_shadow import ContactShadow
 from rviz_default_plugins.robot.mesh_loading import DrawnMesh
-from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated
+from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated, SOLID
 from urdf import Color, Joint, Link, Mesh, RobotModel, Shape
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ __all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene']
 PoseOf = Callable[[Joint], Optional[Pose]]
 
 MAX_SHAPES = 3000
-SOLID = 0.5
-"""The opacity from which on a robot has a shadow."""
 AXES_M = 0.1
 
 HIGHLIGHT = 'highlight'

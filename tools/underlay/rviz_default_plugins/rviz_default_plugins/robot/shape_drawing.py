@@ -15,9 +15,11 @@ from urdf.kinematics import rotation_of
 if TYPE_CHECKING:
     from viser import SceneApi
 
-__all__ = ['draw_shape', 'inflated']
+__all__ = ['SOLID', 'draw_shape', 'inflated']
 
 GREY: Color = (0.7, 0.7, 0.7, 1.0)
+SOLID = 0.5
+"""The opacity from which on something has a shadow."""
 
 MESH_SIZE_M = 0.3
 """The assumed size of meshes, whose actual size is only known once they are read."""
@@ -72,11 +74,12 @@ def draw_shape(
 
 
 def _look(color: Color, alpha: float) -> dict[str, Any]:
-    """Return colour and opacity, None if opaque, which is drawn faster."""
+    """Return colour, shadow and opacity, None if opaque, which is drawn faster."""
     opacity = color[3] * alpha
     return {
         'color': tuple(round(255 * part) for part in color[:3]),
         'opacity': None if opacity >= 1.0 else opacity,
+        'cast_shadow': opacity >= SOLID,
     }
 
 

@@ -219,7 +219,9 @@ def test_ghost(stage: Stage) -> None:
     stage.show(RobotModel, {'Alpha': 0.5, 'Collision Enabled': True})
     stage.describe(URDF)
     assert stage.node_at(f'{BASE}/visual_0').opacity == 0.25
+    assert not stage.node_at(f'{BASE}/visual_0').cast_shadow  # it can hardly be seen
     assert stage.node_at(f'{UPPER}/visual_0').opacity == 0.5
+    assert stage.node_at(f'{UPPER}/visual_0').cast_shadow
     assert stage.node_at(f'{BASE}/collision_0').radius == 0.5
 
 
