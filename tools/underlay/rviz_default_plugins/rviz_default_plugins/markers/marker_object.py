@@ -46,9 +46,10 @@ class MarkerObject(SceneObject):
         return self._markers.get(self._key) is self._marker
 
     @property
-    def entity(self) -> tuple[str, str]:
-        """The name of the object: the namespace of its markers."""
-        return self._key[0], ''
+    def entity(self) -> tuple[str, str] | None:
+        """The name of the object: the namespace of its markers; None if they have none."""
+        namespace = self._key[0]
+        return (namespace, '') if namespace else None
 
     def pose(self) -> Pose | None:
         """Return the pose of the marker that was clicked; None if it is not shown."""

@@ -65,6 +65,13 @@ def test_bodies_are_met_where_they_are(
     assert display.pick(along_x(y=8.0)) is None
 
 
+def test_without_a_namespace_it_is_no_object_of_a_simulator(message_stage: MessageStage) -> None:
+    """There, the empty name is that of a robot, which must not be pushed instead."""
+    message = marker(Message.CUBE)
+    message.ns = ''
+    assert shown(message_stage, message).pick(along_x()).found.entity is None
+
+
 def test_lines_are_not_met(message_stage: MessageStage) -> None:
     """A pointer could hardly be on one."""
     points = [(0.0, -1.0, 0.0), (0.0, 1.0, 0.0)]
