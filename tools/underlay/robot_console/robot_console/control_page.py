@@ -107,9 +107,12 @@ class Session:
 
     def _beat(self) -> None:
         """Publish a heartbeat; the release of control is repeated, since messages may be lost."""
-        if self.link.control.holds(self):
+        control = self.link.control
+        if control.person or control.lost:  # a farewell must not follow a loss of control
+            self._farewells = 0
+        if control.holds(self):
             self.link.beat(True)
-        elif self._farewells and not self.link.control.person:
+        elif self._farewells:
             self._farewells -= 1
             self.link.beat(False)
 

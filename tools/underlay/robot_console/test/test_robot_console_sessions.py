@@ -169,6 +169,19 @@ def test_no_farewell_while_another_is_in_control(link: Link) -> None:
     assert link.beats == [True, False, True]
 
 
+def test_no_farewell_after_another_was_lost(link: Link) -> None:
+    """Nor does the first one for itself: a farewell is over once somebody takes control."""
+    ann, bob = link.safety('ann'), link.safety('bob')
+    for page in (ann, bob):
+        ann.take({'do': 'take'})
+        ann.take({'do': 'give'})
+        page.take({'do': 'take'})
+        page.lose()
+        link.beats.clear()
+        ann.take({'do': 'beat'})
+        assert link.beats == []
+
+
 def test_drive_and_watch_together(link: Link) -> None:
     """A person in control may drive; letting go of the stick does not end the control."""
     safety, drive = link.safety('ann'), link.drive('ann')
