@@ -125,6 +125,21 @@ class WalkHere(Tool):
         node.destroy_subscription(self._state)
         node.destroy_publisher(self._publisher)
 
+    def on_change(self, path: str) -> None:
+        """
+        Apply a property that was changed, which stops a robot that walks.
+
+        Parameters
+        ----------
+        path
+            As for `Tool.on_change`.
+
+        """
+        is_up = self._is_up
+        super().on_change(path)
+        if is_up:
+            self.take_up()
+
     def take_up(self) -> None:
         """Activate the tool, and find out where the robot is."""
         self._is_up = True

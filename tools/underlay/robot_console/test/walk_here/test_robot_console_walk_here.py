@@ -137,6 +137,17 @@ def test_it_refuses(world: LiveWorld, tool: WalkHere) -> None:
     assert 'Use the tool 2D Goal Pose' in page.ask(do='beat')['goal']['text']
 
 
+def test_it_stays_active_when_a_property_changes(world: LiveWorld, tool: WalkHere) -> None:
+    """It has the new topic, and finds out where the robot is."""
+    tool.values['Odometry Topic'] = '/robot1/odom'
+    tool.on_change('Odometry Topic')
+    Walker(world.robot)
+    world.wait_until(lambda: tool._now is not None, 'no odometry')
+    tool.lay_down()
+    tool.on_change('Odometry Topic')
+    assert tool._odometry is None, 'nobody wants to walk'
+
+
 def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab: Any) -> None:
     """The page in which somebody has just clicked walks, and stops when it is told to."""
     walker, tab = Walker(world.robot), open_tab(360, 100)
