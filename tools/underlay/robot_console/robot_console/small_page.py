@@ -81,8 +81,8 @@ class SmallPage:
             )
         except ValueError:
             raise ValueError(
-                'There is already such a panel for this robot. Remove one of them from the file, '
-                "or give it another 'Namespace'."
+                f"This robot already has the page '{self._path}'. Remove one of the two from the "
+                "file, or give it another 'Namespace'."
             ) from None
         self._frame = context.gui.add_markdown(frame_text(self._path, name), order=order)
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
+from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from robot_console.control_page import Connections
 from robot_console.namespaces import below, NAMESPACE, topic_of_robot
@@ -90,7 +91,7 @@ class WalkHere(Tool):
                 for name in ('Topic', 'Odometry Topic')
             ]
         except ValueError as error:
-            node.get_logger().error(f"Tool '{self.NAME}' cannot be used: {error}")
+            self._report(error)
             return
         link = link_of(self.context, namespace)
         limits = SpeedLimits(self.values['Max Forward Speed'], 0.0, self.values['Max Turn Speed'])
@@ -112,18 +113,21 @@ class WalkHere(Tool):
             link.people,
             lambda person: WalkSession(link, person, limits, say, self._goal, lambda: self._now),
         )
-        self._page = SmallPage(self.context, 'walk_here', namespace, {}, talks, ORDER)
+        try:
+            self._page = SmallPage(self.context, 'walk_here', namespace, {}, talks, ORDER)
+        except ValueError as error:
+            self._report(error)
+            self._destroy()
 
     def close(self) -> None:
         """Remove the page, which stops a robot that walks."""
         if self._page is None:
             return
         self._page.close()
+        self._publisher.wait_for_all_acked(Duration(seconds=0.2))
         self._page, self._goals, self._is_up = None, [], False
         self._rest()
-        node = self.context.node
-        node.destroy_subscription(self._state)
-        node.destroy_publisher(self._publisher)
+        self._destroy()
 
     def on_change(self, path: str) -> None:
         """
@@ -178,6 +182,14 @@ class WalkHere(Tool):
         if is_over:
             self._send(start, yaw)
         return is_over
+
+    def _report(self, reason: ValueError) -> None:
+        self.context.node.get_logger().error(f"Tool '{self.NAME}' cannot be used: {reason}")
+
+    def _destroy(self) -> None:
+        """Destroy the publisher and the subscription of `begin`."""
+        self.context.node.destroy_subscription(self._state)
+        self.context.node.destroy_publisher(self._publisher)
 
     def _goal(self) -> WalkGoal | None:
         """Return the goal that pages show."""

@@ -148,6 +148,19 @@ def test_it_stays_active_when_a_property_changes(world: LiveWorld, tool: WalkHer
     assert tool._odometry is None, 'nobody wants to walk'
 
 
+def test_a_robot_has_one_such_tool(world: LiveWorld, tool: WalkHere, capfd: Any) -> None:
+    """A second one says so, and has nothing that would be left behind."""
+    before = [*world.node.subscriptions], [*world.node.publishers]
+    other = WalkHere(tool.context, '/world/tools/1', {'Namespace': 'robot1'})
+    other.begin()
+    assert ([*world.node.subscriptions], [*world.node.publishers]) == before
+    assert "This robot already has the page '/walk_here/robot1'." in capfd.readouterr().err
+    other.close()
+    other.take_up()
+    other.lay_down()
+    assert [*world.node.subscriptions] == before[0]
+
+
 def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab: Any) -> None:
     """The page in which somebody has just clicked walks, and stops when it is told to."""
     walker, tab = Walker(world.robot), open_tab(360, 100)
