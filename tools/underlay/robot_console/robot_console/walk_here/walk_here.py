@@ -125,7 +125,7 @@ class WalkHere(Tool):
             return
         self._page.close()
         self._publisher.wait_for_all_acked(Duration(seconds=0.2))
-        self._page, self._goals, self._is_up = None, [], False
+        self._page, self._goals, self._is_up, self._walking = None, [], False, ''
         self._rest()
         self._destroy()
 
@@ -241,8 +241,7 @@ class WalkHere(Tool):
 
     def _rest(self) -> None:
         """Unsubscribe from the odometry while nobody wants to walk."""
-        goal = self._goal()
-        if self._is_up or (goal is not None and not goal.text):
+        if self._is_up or any(goal.is_open for goal in self._goals):
             return
         self._arrow.hide()
         if self._odometry is not None:

@@ -97,6 +97,11 @@ class WalkGoal:
             self.text = NOT_TAKEN
         return not self.text
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it is not over: a page carries it out, or may take it."""
+        return self.is_waiting or not self.text
+
 
 def present_goal(goals: Iterable[WalkGoal]) -> WalkGoal | None:
     """

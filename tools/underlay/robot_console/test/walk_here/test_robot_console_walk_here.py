@@ -122,6 +122,19 @@ def test_it_walks_there(world: LiveWorld, tool: WalkHere) -> None:
     assert abs(math.remainder(walker.yaw_rad - math.pi / 2.0, math.tau)) < 0.2
 
 
+def test_nobody_takes_the_click(
+    world: LiveWorld, tool: WalkHere, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Then the odometry is not subscribed any more, though no page is open."""
+    Walker(world.robot)
+    world.wait_until(lambda: tool._now is not None, 'no odometry')
+    tool.click((1.0, 0.0, 0.0))
+    tool.lay_down()
+    assert tool._odometry is not None
+    monkeypatch.setattr(walk_session, 'TAKE_S', -1.0)
+    world.wait_until(lambda: tool._odometry is None, 'it still listens')
+
+
 def test_it_refuses(world: LiveWorld, tool: WalkHere) -> None:
     """Without odometry nobody knows where the robot is; with navigation, that knows the way."""
     page = Page(world, 'ann')
