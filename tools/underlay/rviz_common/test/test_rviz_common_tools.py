@@ -243,3 +243,33 @@ def test_a_drag_ends_when_the_browser_no_longer_answers(
     asyncio.run(main())
     shown.context.queue.run()
     assert [drag.is_over for drag in tool.drags] == [False, False, True] * 2 + [False]
+
+
+def test_a_lost_browser_does_not_end_a_drag_of_another_tool(
+    probe: tuple[Visualizer, ObjectProbe], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The end of a drag is a command for some tools, such as to send a robot to a place."""
+    shown, tool = probe
+    lost = asyncio.Event()
+    event = SimpleNamespace(
+        client=SimpleNamespace(camera=SimpleNamespace(position=(0.0, 0.0, 2.0))),
+        start_position=(0.0, 3.0, 2.0),
+        end_position=(5.0, 0.0, 2.0),
+        phase='start',
+        client_id=7,
+    )
+
+    async def main() -> None:
+        await shown.tools._pointer._on_drag(event)
+        await asyncio.sleep(0.0)
+        shown.context.queue.run()
+        shown.tools.use(None)
+        shown.tools.use(tool)
+        lost.set()
+        await asyncio.wait(shown.tools._pointer._watchdogs.values())
+
+    monkeypatch.setattr('rviz_common.visualizer.tool_box.wait_until_lost', lost.wait)
+    asyncio.run(main())
+    shown.context.queue.run()
+    assert [drag.is_over for drag in tool.drags] == [False]
+    assert shown.tools.in_use is tool

@@ -253,24 +253,30 @@ class _Pointer:
             for position in (event.start_position, event.end_position)
         )
         drag = Drag(start, now, event.phase == 'end', event.client_id)
-        if not self._is_around or self._is_watched(drag, event.phase == 'start'):
-            self._context.queue.post(lambda: self._drag(drag))
+        body = self._body
+        if not self._is_around or self._is_watched(drag, event.phase == 'start', body):
+            self._context.queue.post(lambda: self._pass_on(drag, body))
 
-    def _is_watched(self, drag: Drag, is_start: bool) -> bool:
+    def _pass_on(self, drag: Drag, body: Any) -> None:
+        """Report a drag, unless another tool is active by now, for which it would be a command."""
+        if body is not None and body is self._body:
+            self._drag(drag)
+
+    def _is_watched(self, drag: Drag, is_start: bool, body: Any) -> bool:
         """Watch the browser of a drag; return False if the drag has been ended, as it was lost."""
         before = self._watchdogs.get(drag.browser)
         if before is not None and (is_start or drag.is_over):
             before.cancel()
             del self._watchdogs[drag.browser]
         if is_start:
-            watchdog = asyncio.create_task(self._end_when_lost(drag))
+            watchdog = asyncio.create_task(self._end_when_lost(drag, body))
             self._watchdogs[drag.browser] = watchdog
         return is_start or before is not None
 
-    async def _end_when_lost(self, drag: Drag) -> None:
+    async def _end_when_lost(self, drag: Drag, body: Any) -> None:
         await wait_until_lost()
         del self._watchdogs[drag.browser]
-        self._context.queue.post(lambda: self._drag(replace(drag, is_over=True)))
+        self._context.queue.post(lambda: self._pass_on(replace(drag, is_over=True), body))
 
     def _moved(self, point: Sequence[float]) -> Point:
         """Convert a point of the scene, which follows the target frame, to the fixed frame."""
