@@ -157,7 +157,7 @@ class WalkSession(Session):
         self._limits, self._say = limits, say
         self._goal, self._robot = goal, robot
         self._mine: WalkGoal | None = None
-        self._refusal = ''
+        self._refused: WalkGoal | None = None
 
     @property
     def actions(self) -> Mapping[str, Callable[[Mapping[str, Any]], None]]:
@@ -175,12 +175,18 @@ class WalkSession(Session):
 
     def state(self) -> dict[str, Any]:
         """Return the state that the page shows."""
-        goal = self._mine or self._goal()
-        state = {**super().state(), 'goal': None, 'refusal': self._refusal}
+        newest, refused = self._goal(), self._refused
+        goal = self._mine or newest
+        state = {
+            **super().state(),
+            'goal': None,
+            'waiting': newest.number if newest is not None and newest.is_waiting else 0,
+            'refused': refused.number if refused is not None else 0,
+            'refusal': refused.text if refused is not None else '',
+        }
         if goal is not None:
             state['goal'] = {
                 'number': goal.number,
-                'isWaiting': goal.is_waiting,
                 'text': goal.text,
                 'who': goal.owner.person if goal.owner is not None else '',
                 'distance': goal.walk.distance_m if goal.walk is not None else None,
@@ -225,10 +231,10 @@ class WalkSession(Session):
             return
         person = self.link.control.person
         if person and person != self.person:
-            goal.text = self._refusal = f'{person} is in control.'
-            goal.is_refused = True
+            goal.text, goal.is_refused = f'{person} is in control.', True
+            self._refused = goal
             return
-        self._refusal = ''
+        self._refused = None
         goal.owner, self._mine, self.link.mover = self, goal, self
 
     def _why_not(self, walk: StraightWalk, walking: str) -> str:

@@ -108,8 +108,9 @@ def test_it_walks_there(world: LiveWorld, tool: WalkHere) -> None:
         place = (x_m, y_m, 0.0)
         assert tool.click(place) if end is None else tool.drag(place, end, True)
         tool.lay_down()
-        goal = page.ask(do='beat')['goal']
-        assert goal['isWaiting'] and not goal['text']
+        state = page.ask(do='beat')
+        goal = state['goal']
+        assert state['waiting'] == goal['number'] and not goal['text']
 
         def has_ended(number: int = goal['number']) -> bool:
             return bool(page.ask(do='walk', number=number)['goal']['text'])
@@ -175,7 +176,7 @@ def test_a_robot_has_one_such_tool(world: LiveWorld, tool: WalkHere, capfd: Any)
 
 
 def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab: Any) -> None:
-    """The page in which somebody has just clicked walks, and stops when it is told to."""
+    """The page in which somebody clicks walks, elsewhere too, and stops when it is told to."""
     walker, tab = Walker(world.robot), open_tab(360, 100)
     tab.goto(f'http://127.0.0.1:{world.page.port}/walk_here/robot1')
     assert tab.locator('#row').is_hidden()
@@ -188,6 +189,13 @@ def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab
 
     world.wait_until(is_walking, 'no walk')
     world.wait_until(lambda: walker.x_m > 0.1, 'it does not walk')
+    tool.click((0.0, 1000.0, 0.0))
+
+    def has_turned() -> bool:
+        tab.mouse.click(5, 90)
+        return walker.y_m > 0.5
+
+    world.wait_until(has_turned, 'it does not walk to the other place')
     tab.get_by_role('button', name='Stop walking').click()
     world.wait_until(lambda: tab.locator('#what').text_content() == 'Stopped.', 'no stop')
     world.wait_until(lambda: walker.commands[-1] == Twist(), 'no zero')

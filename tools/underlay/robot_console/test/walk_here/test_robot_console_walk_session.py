@@ -61,8 +61,9 @@ def test_to_the_end(world: World) -> None:
     page = world.page('ann')
     assert page.take({'do': 'beat'})['goal'] is None
     walk = world.click()
-    assert page.take({'do': 'beat'})['goal']['isWaiting']
+    assert page.take({'do': 'beat'})['waiting'] == walk['number']
     state = page.take(walk)
+    assert state['waiting'] == 0
     assert state['goal']['distance'] == 2.0 and state['goal']['who'] == 'ann'
     assert world.said == [Velocity(0.3, 0.0, 0.0)] and world.control.person == 'ann'
     assert page.is_watched and world.beats == [True]
@@ -135,18 +136,24 @@ def test_two_people(world: World) -> None:
     walk = world.click()
     ann.take(walk)
     assert bob.take(walk)['goal']['who'] == 'ann', 'it is taken'
-    assert bob.take(world.click())['refusal'] == 'ann is in control.'
+    refused = world.click()
+    state = bob.take(refused)
+    assert state['refusal'] == 'ann is in control.' and state['refused'] == refused['number']
+    assert state['goal']['number'] == walk['number'], 'bob still sees how far ann is'
     assert ann.take(walk)['goal']['text'] == '' and world.said[-1].forward_m_s
     bob.take({'do': 'cancel'})
     assert ann.take(walk)['goal']['text'] == 'Stopped.'
     assert world.said[-1] == STILL and world.control.person == ''
+    assert bob.take(world.click())['refused'] == 0
 
 
 def test_another_click(world: World) -> None:
-    """The person who walks may choose another place meanwhile."""
+    """The person who walks is told of another click meanwhile, and may walk there instead."""
     page, walk = world.page('ann'), world.click()
     page.take(walk)
     other = world.click()
+    state = page.take(walk)
+    assert state['goal']['number'] == walk['number'] and state['waiting'] == other['number']
     state = page.take(other)
     assert state['goal']['number'] == other['number'] and state['goal']['text'] == ''
     assert world.goals[0].text and world.said[-1].forward_m_s
