@@ -95,7 +95,7 @@ class SceneObject(ABC):
         Parameters
         ----------
         is_highlighted
-            Whether it is to be highlighted.
+            Whether it is to be highlighted. False has no effect on what is no longer in the scene.
 
         """
 
@@ -165,7 +165,7 @@ class Selection:
             The object, None to select nothing.
 
         """
-        if self.chosen is not None and self.chosen.is_present:
+        if self.chosen is not None:
             self.chosen.highlight(False)
         self.chosen = chosen
         if chosen is not None:
@@ -174,4 +174,4 @@ class Selection:
     def update(self) -> None:
         """Deselect an object that is no longer in the scene."""
         if self.chosen is not None and not self.chosen.is_present:
-            self.chosen = None
+            self.choose(None)

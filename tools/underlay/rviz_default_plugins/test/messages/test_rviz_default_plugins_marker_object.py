@@ -8,7 +8,7 @@ from typing import Any
 from geometry_msgs.msg import Point
 from message_stage import MessageStage
 import pytest
-from rviz_common.selection import Ray
+from rviz_common.selection import Ray, Selection
 from rviz_default_plugins.displays.marker import MarkerArray
 from rviz_default_plugins.tools.select import Select
 from visualization_msgs.msg import Marker as Message
@@ -103,9 +103,10 @@ def test_a_namespace_is_one_object_if_the_file_says_so(message_stage: MessageSta
     """All its markers are covered; what changes stays covered, what is deleted is gone."""
     markers = marker(Message.CUBE), marker(Message.SPHERE, 1, x=3.0)
     display = shown(message_stage, *markers, **{'Select Namespace': True})
-    found = display.pick(along_x()).found
+    selection = Selection(display.pick)
+    selection.choose(display.pick(along_x()).found)
+    found = selection.chosen
     assert (found.name, found.details()) == ('mug', [('Display', 'Things'), ('Markers', '2')])
-    found.highlight(True)
     covers = {'1/highlight/marker', '2/highlight/marker'}
     assert covers <= set(message_stage.drawn(display))
     changed = marker(Message.CYLINDER, 1, x=4.0)
@@ -115,6 +116,9 @@ def test_a_namespace_is_one_object_if_the_file_says_so(message_stage: MessageSta
     gone = marker(Message.CUBE, action=Message.DELETE)
     message_stage.tell(display, ArrayMessage(markers=[gone]))
     assert not found.is_present
+    selection.update()
+    assert selection.chosen is None
+    assert not covers & set(message_stage.drawn(display)), 'the rest is covered still'
 
 
 def test_escape_is_the_key_of_the_tool(message_stage: MessageStage) -> None:
