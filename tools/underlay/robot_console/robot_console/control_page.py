@@ -12,7 +12,8 @@ import time
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from robot_console.robot_link import People, RobotLink
+from robot_console.control import People
+from robot_console.robot_link import RobotLink
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from robot_console.control import Control
 from robot_console.panels.drive import (
     AGAIN,
     DriveSession,
@@ -17,7 +18,7 @@ from robot_console.panels.drive import (
     Velocity,
 )
 from robot_console.panels.safety import Facts, SafetySession
-from robot_console.robot_link import Control, EmergencyStop
+from robot_console.robot_link import EmergencyStop
 
 
 class Link:

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from robot_console.control import Control, People
 from robot_console.namespaces import below, NAMESPACE
 from robot_console.panels.drive import SpeedLimits
 from robot_console.panels.safety import (
@@ -20,7 +21,7 @@ from robot_console.panels.safety import (
     STALE_S,
     UNKNOWN,
 )
-from robot_console.robot_link import Control, EmergencyStop, People
+from robot_console.robot_link import EmergencyStop
 from std_msgs.msg import Float64
 
 LIMITS = SpeedLimits(0.5, 0.3, 2.0)

@@ -8,8 +8,9 @@ import time
 from typing import Any
 
 import pytest
+from robot_console.control import Control
 from robot_console.panels.drive import DriveSession, SpeedLimits, STILL, STOPPED, Velocity
-from robot_console.robot_link import Control, EmergencyStop
+from robot_console.robot_link import EmergencyStop
 from robot_console.walk_here import walk_session
 from robot_console.walk_here.straight_walk import Place, Target
 from robot_console.walk_here.walk_session import present_goal, RobotNow, WalkGoal, WalkSession
