@@ -21,6 +21,10 @@ from rviz_common.frames import Frames
 from tf2_ros import Buffer
 from websockets.sync.client import connect
 
+HIDE = """
+Object.defineProperty(document, 'hidden', { value: true });
+document.dispatchEvent(new Event('visibilitychange'));
+"""
 TICK_S, PERIOD_S = 0.1, 0.02
 """The robot's time goes faster than that of the test."""
 
@@ -176,7 +180,7 @@ def test_a_robot_has_one_such_tool(world: LiveWorld, tool: WalkHere, capfd: Any)
 
 
 def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab: Any) -> None:
-    """The page in which somebody clicks walks, elsewhere too, and stops when it is told to."""
+    """The page in which somebody clicks walks, elsewhere too, until it is stopped or hidden."""
     walker, tab = Walker(world.robot), open_tab(360, 100)
     tab.goto(f'http://127.0.0.1:{world.page.port}/walk_here/robot1')
     assert tab.locator('#row').is_hidden()
@@ -201,3 +205,8 @@ def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab
     world.wait_until(lambda: walker.commands[-1] == Twist(), 'no zero')
     tab.get_by_role('button', name='Close').click()
     world.wait_until(lambda: tab.locator('#row').is_hidden(), 'still shown')
+    tool.click((100.0, 0.0, 0.0))
+    world.wait_until(is_walking, 'no second walk')
+    tab.evaluate(HIDE)
+    world.wait_until(lambda: tab.locator('#what').text_content() == 'Stopped.', 'it walks on')
+    world.wait_until(lambda: walker.commands[-1] == Twist(), 'no second zero')
