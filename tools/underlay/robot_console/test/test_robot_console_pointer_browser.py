@@ -17,7 +17,8 @@ from robot_console import push
 from rviz_common.config import Configuration
 from rviz_common.guarded_node import GuardedNode
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.visualizer import Visualizer
+from rviz_common.page.watchdog import wait_until_lost
+from rviz_common.visualizer import tool_box, Visualizer
 
 URDF = """<robot name="crate"><link name="base"><inertial><mass value="4.5"/></inertial>
 <visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>"""
@@ -66,8 +67,9 @@ class Link:
 
 @pytest.fixture
 def shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Visualizer]:
-    """Show a crate, in a thread of its own."""
+    """Show a crate, in a thread of its own; a browser may take long to answer."""
     monkeypatch.setattr(push, 'WrenchLink', Link)
+    monkeypatch.setattr(tool_box, 'wait_until_lost', lambda: wait_until_lost(100.0))
     file = tmp_path / 'crate.urdf'
     file.write_text(URDF)
     with domain_id() as domain, Page('test', PageSettings(token=NO_TOKEN)) as page:

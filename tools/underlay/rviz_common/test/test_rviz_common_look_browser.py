@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from rviz_common.page import Page
-from rviz_common.visualizer import Visualizer
+from rviz_common.visualizer import quality, Visualizer
 from rviz_common.visualizer.surroundings import EVEN_LIGHT, SHADOWS, SKY
 
 sys.path.append(str(Path(__file__).parents[3] / 'test'))
@@ -56,9 +56,14 @@ def test_each_browser_has_its_own_theme(
 
 
 def test_each_browser_draws_as_much_as_it_can(
-    page: Page, show: Callable[..., Visualizer], spin_until: Any, tab: Any
+    page: Page,
+    show: Callable[..., Visualizer],
+    spin_until: Any,
+    tab: Any,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Without a graphics card it casts no shadows, and says so, unless its user wants them."""
+    monkeypatch.setattr(quality, 'SLOW_HZ', 0.0)  # nor do other tests make it slow
     show(WITH_GROUND)
     tab.goto(f'http://127.0.0.1:{page.port}/', wait_until='commit')
     look = tab.frame_locator('iframe[title=look]')
