@@ -175,17 +175,19 @@ class Push(ObjectTool):
             self._say(f"'{hit.found.name}' cannot be pushed: the simulator does not know it.")
             return
         self._ignored.discard(drag.browser)
-        self._pull = self._begun(drag, hit, found, pose)
+        self._pull = self._begun(drag, hit, found, pose, Pulses(link.now_s))
         if entity[1]:
             self._pull.body_point = self._pull.grip.local
         else:
             self._ask_for_object(link, self._pull, entity[0])
 
-    def _begun(self, drag: Drag, hit: Hit, found: SceneObject, pose: Pose) -> _Pull:
+    def _begun(
+        self, drag: Drag, hit: Hit, found: SceneObject, pose: Pose, pulses: Pulses
+    ) -> _Pull:
         kind = '' if found.entity and found.entity[1] else 'Object '
         spring = Spring(self.values[f'{kind}Stiffness'], self.values[f'{kind}Largest Force'])
         grip = Grip.on(drag.start, hit.distance, pose)
-        return _Pull(drag.browser, found, grip, spring, grip.at, Pulses(), None)
+        return _Pull(drag.browser, found, grip, spring, grip.at, pulses, None)
 
     def _ask_for_object(self, link: WrenchLink, pull: _Pull, entity: str) -> None:
         """Ask where the object is: a marker may be a part of it, with a pose of its own."""

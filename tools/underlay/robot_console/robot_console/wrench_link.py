@@ -85,14 +85,21 @@ class Pulses:
     How long forces act that are renewed as simulated time goes on.
 
     Each lasts as long as has passed since the one before, so that together they have the right
-    impulse at any real-time factor, and end by themselves soon after the last one.
+    impulse at any real-time factor, and end by themselves soon after the last one. There is none
+    while the time stands still: it would act later, when nobody pushes.
+
+    Parameters
+    ----------
+    begin_s
+        The simulated time at the beginning, in s; None if it is not known yet.
+
     """
 
-    FIRST_S = 0.05
+    SHORTEST_S = 0.05
     LONGEST_S = 0.2
 
-    def __init__(self) -> None:
-        self._last_s: float | None = None
+    def __init__(self, begin_s: float | None) -> None:
+        self._last_s = begin_s
 
     def due(self, now_s: float) -> float:
         """
@@ -106,9 +113,9 @@ class Pulses:
         """
         if self._last_s is None or now_s < self._last_s:
             self._last_s = now_s
-            return self.FIRST_S
+            return 0.0
         passed_s = now_s - self._last_s
-        if passed_s < self.FIRST_S:
+        if passed_s < self.SHORTEST_S:
             return 0.0
         self._last_s = now_s
         return min(passed_s, self.LONGEST_S)

@@ -48,13 +48,15 @@ def test_the_grip_stays_at_the_body() -> None:
 
 def test_forces_last_as_long_as_time_has_passed() -> None:
     """Their durations add up to the simulated time; none is added while time stands still."""
-    pulses = Pulses()
-    assert pulses.due(10.0) == Pulses.FIRST_S
+    pulses = Pulses(10.0)
     assert [pulses.due(10.0), pulses.due(10.02)] == [0.0, 0.0]
     assert pulses.due(10.07) == pytest.approx(0.07)
     assert pulses.due(10.15) == pytest.approx(0.08)
     assert pulses.due(90.0) == Pulses.LONGEST_S
-    assert pulses.due(1.0) == Pulses.FIRST_S  # the simulator has started anew
+    assert pulses.due(1.0) == 0.0  # the simulator has started anew
+    assert pulses.due(1.1) == pytest.approx(0.1)
+    unknown = Pulses(None)
+    assert [unknown.due(10.0), unknown.due(10.1)] == [0.0, pytest.approx(0.1)]
 
 
 def test_the_simulator_says_whether_it_can_push() -> None:
@@ -189,7 +191,7 @@ def test_a_link_is_pulled_until_the_button_is_released(scene: Scene) -> None:
     assert entity == ('', 'left_hand')
     assert force_n == pytest.approx((0.0, 30.0, 0.0))
     assert point == pytest.approx((-1.0, 0.0, 0.0))
-    assert duration_s == Pulses.FIRST_S
+    assert duration_s == pytest.approx(0.1)
     assert scene.drawn['force']['text'] == '30 N'
     scene.drag(3.0)
     assert scene.link.pushes[1][1] == pytest.approx((0.0, 60.0, 0.0))
@@ -265,11 +267,14 @@ def test_what_cannot_be_pushed_is_said_once(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_a_paused_simulation_is_said(scene: Scene) -> None:
-    """While simulated time stands still, a force would only wait."""
-    scene.drag(1.2)
+    """While simulated time stands still, a force would only wait, and act when nobody pushes."""
+    start = Ray((1.0, -5.0, 0.0), (0.0, 1.0, 0.0))
+    scene.tool.drag_along(Drag(start, start, False, 1))
     for _ in range(2 * STILL_FRAMES):
         scene.tool.update()
     assert scene.said == [STILL]
+    assert scene.link.pushes == []
+    scene.frame()
     assert len(scene.link.pushes) == 1
 
 
