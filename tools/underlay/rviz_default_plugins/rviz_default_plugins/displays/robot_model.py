@@ -160,8 +160,7 @@ class RobotModel(Display):
             The path of the property, without `/Value`.
 
         """
-        topic: str = self.values[f'{path}/Value']
-        return topic
+        return str(self.values[f'{path}/Value'])
 
     @property
     def prefix(self) -> str:
@@ -177,10 +176,8 @@ class RobotModel(Display):
         except ValueError as error:
             self.say('URDF', str(error), Level.ERROR)
             return
-        self.say(
-            'URDF',
-            f'No description received on {topic} yet; robot_state_publisher publishes it.',
-        )
+        missing = f'No description received on {topic} yet; robot_state_publisher publishes it.'
+        self.say('URDF', missing)
 
     def _read_file(self) -> None:
         name = self.values['Description File']
@@ -209,8 +206,7 @@ class RobotModel(Display):
         self._awaited = awaited = object()
         self._model, look = model, self.look()
         shelf = MeshShelf(self._shelf)
-        names = _mesh_names(model, look)
-        if not names:
+        if not (names := _mesh_names(model, look)):
             self._draw(model, look, shelf)
             return
 
