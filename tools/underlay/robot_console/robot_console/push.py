@@ -89,8 +89,9 @@ class Push(ObjectTool):
             self._say(self._link.problem)
 
     def lay_down(self) -> None:
-        """Release what is pulled, and forget the simulator."""
+        """Release what is pulled, and forget the simulator, and drags that were ignored."""
         self._release()
+        self._ignored.clear()
         if self._link is not None:
             self._link.close()
             self._link = None

@@ -286,6 +286,16 @@ def test_laying_the_tool_down_ends_the_pull(scene: Scene) -> None:
     assert scene.link.is_closed and len(scene.link.pushes) == 1
 
 
+def test_a_drag_without_an_end_does_not_spoil_the_next(scene: Scene) -> None:
+    """Another tool may have been activated before the button was released."""
+    up, start = Ray((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), Ray((1.0, -5.0, 0.0), (0.0, 1.0, 0.0))
+    scene.tool.drag_along(Drag(up, up, False, 1))
+    scene.tool.lay_down()
+    scene.tool.take_up()
+    scene.tool.drag_along(Drag(start, start, False, 1))
+    assert scene.tool._pull is not None
+
+
 def test_a_late_answer_does_not_end_the_next_pull(scene: Scene) -> None:
     """It is about a force of the pull before."""
     scene.drag(1.2)
