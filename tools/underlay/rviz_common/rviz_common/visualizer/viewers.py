@@ -135,7 +135,7 @@ class Viewers:
     def _take_quality(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
         """Take what a browser can draw, and what its user wants, or raise ValueError."""
         client, look = self._find(message)
-        choice, reached = message.get('choice'), message.get('reached')
+        choice, reached = message.get('choice'), message.get('reached', -1)
         if choice not in (None, *STEPS) or reached not in STEPS:
             raise ValueError(f"There is no quality '{choice}' or '{reached}'.")
         look.quality.begin(choice, reached, bool(message.get('has_card')))
