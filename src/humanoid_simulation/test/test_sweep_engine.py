@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 import json
 from pathlib import Path
 import signal
@@ -88,8 +89,7 @@ def sweep(record: Record, say: Callable[[str, bool], None] = lambda line, stays:
 
 def test_crashes_are_retried_once_and_reported(fake: Path) -> None:
     """Killed once: done. Twice, or a bug: named, and the others are done all the same."""
-    from fake_runs import work  # type: ignore[import-not-found]
-
+    work = import_module('fake_runs').work
     # Any object is a run to the engine; these need no imports in the processes.
     outcomes = [*LocalProcesses(work, 1).outcomes([*range(5)])]
     assert sorted(each.run for each in outcomes if isinstance(each, Done)) == [0, 1, 4]
@@ -137,8 +137,7 @@ def test_after_kill_9_no_finished_run_is_repeated(fake: Path) -> None:
     with (fake / NAME).open('a') as stream:
         stream.write('{"version":"v1","key":"00000')
     (fake / 'go').touch()
-    from fake_runs import patient
-
+    patient = import_module('fake_runs').patient
     with Record(fake) as record:
         sweep(record).run(LocalProcesses(patient, 1))
     assert [json.loads(line)['key'] for line in lines(fake / NAME)] == [run.key for run in RUNS]

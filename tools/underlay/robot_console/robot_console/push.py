@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 import math
 from typing import Any
@@ -11,6 +12,7 @@ from robot_console.namespaces import NAMESPACE
 from robot_console.spring import Grip, Spring
 from robot_console.wrench_link import Pulses, WrenchLink
 from rviz_common.canvas import Canvas
+from rviz_common.context import Context
 from rviz_common.frames import Pose
 from rviz_common.properties import Number, Text
 from rviz_common.selection import Hit, Point, SceneObject
@@ -71,8 +73,10 @@ class Push(ObjectTool):
         NAMESPACE,
     )
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
-        super().__init__(*arguments, **options)
+    def __init__(
+        self, context: Context, root: str, given: Mapping[str, Any] | None = None
+    ) -> None:
+        super().__init__(context, root, given)
         self._canvas = Canvas(self.context.scene, self.root)
         self._link: WrenchLink | None = None
         self._pull: _Pull | None = None

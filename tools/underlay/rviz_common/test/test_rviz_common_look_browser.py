@@ -74,7 +74,7 @@ def test_each_browser_draws_as_much_as_it_can(
     assert client.scene.get_handle_by_name(SHADOWS) is None
     look.locator('#undo').click()
     spin_until(lambda: client.scene.get_handle_by_name(SHADOWS), 'shadows')
-    assert not told.is_visible()
+    spin_until(lambda: not told.is_visible(), 'no sentence')
     look.locator('#quality').select_option('Coarse')
     spin_until(lambda: tab.evaluate(RATIO) == 0.6, 'fewer pixels')
     assert client.scene.get_handle_by_name(EVEN_LIGHT) is not None
