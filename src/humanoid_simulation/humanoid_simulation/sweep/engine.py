@@ -11,6 +11,7 @@ import multiprocessing
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnContext
 from multiprocessing.process import BaseProcess
+from multiprocessing.resource_tracker import ensure_running
 import os
 import signal
 import threading
@@ -28,6 +29,7 @@ Work = Callable[['Run'], RunResult]
 ATTEMPTS = 2
 """How often a run is tried whose process crashes."""
 _PATIENCE_S = 2.0
+_ENDING = {signal.SIGINT, signal.SIGTERM}
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,7 @@ class _Worker:
         self._process: BaseProcess = context.Process(
             target=_serve, args=(theirs, work), daemon=True
         )
-        with _environment():
+        with _environment(), _uninterrupted():
             self._process.start()
         theirs.close()
         self.has_ended = False
@@ -182,6 +184,26 @@ def _environment() -> Iterator[None]:
                 os.environ[name] = value
 
 
+@contextlib.contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Defer Ctrl-C and SIGTERM while a process starts: one that half starts leaves a traceback."""
+    ensure_running()  # when Python starts this process of its own, it lets all signals through
+    arrived: list[int] = []
+    handlers = {
+        number: signal.signal(number, lambda number, frame: arrived.append(number))
+        for number in _ENDING
+    }
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)  # the new process has it, too
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for taken in arrived:
+            signal.raise_signal(taken)
+
+
 def _ending(exit_code: int | None) -> str:
     """Describe how a process ended."""
     if exit_code is not None and exit_code < 0:
@@ -192,6 +214,7 @@ def _ending(exit_code: int | None) -> str:
 def _serve(connection: Connection, work: Work) -> None:
     """Do runs until the connection is closed; the body of a worker process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)  # see _uninterrupted
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(EOFError, OSError):
         while True:
