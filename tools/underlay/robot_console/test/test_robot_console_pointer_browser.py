@@ -124,6 +124,7 @@ def test_a_crate_is_selected_and_pushed(
     tab.get_by_role('button', name='Push', exact=True).click()
     wait_until(lambda: shown.tools.in_use.NAME == 'Push', 'no other tool')
     tool: Any = shown.tools.in_use
+    tab.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/world/ground']")
     tab.mouse.move(*middle)
     tab.mouse.down()
     tab.mouse.move(middle[0], middle[1] - 60, steps=4)
