@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
 from typing import Any, Protocol
 
+from robot_console import phone_page
+from robot_console.page_text import page_text, path_of
 from rviz_common.context import Context
 from rviz_common.page import Route
-from rviz_common.page.web_files import filled, frame_text
+from rviz_common.page.web_files import frame_text
 from websockets.asyncio.server import ServerConnection
 
-__all__ = ['SmallPage', 'Talks', 'page_text']
-
-COMMON = ('common.css', 'link.js', 'live.css', 'live.js', 'stay.js')
+__all__ = ['SmallPage', 'Talks']
 
 
 class Talks(Protocol):
@@ -74,7 +73,8 @@ class SmallPage:
     ) -> None:
         self._context = context
         self._connections = connections
-        self._path = f'/{name}/{namespace}' if namespace else f'/{name}'
+        self._name, self._namespace = name, namespace
+        self._path = path_of(name, namespace)
         try:
             context.page.routes.add(
                 self._path, Route(page_text(name, settings, package), connections.talk)
@@ -84,31 +84,12 @@ class SmallPage:
                 f"This robot already has the page '{self._path}'. Remove one of the two from the "
                 "file, or give it another 'Namespace'."
             ) from None
+        phone_page.join(context.page, name, namespace, settings)
         self._frame = context.gui.add_markdown(frame_text(self._path, name), order=order)
 
     def close(self) -> None:
         """Remove the page, and close its connections."""
+        phone_page.leave(self._context.page, self._name, self._namespace)
         self._context.page.routes.remove(self._path)
         self._connections.end()
         self._frame.remove()
-
-
-def page_text(name: str, settings: dict[str, Any], package: str = 'robot_console') -> str:
-    """
-    Read the HTML of an embedded page, and insert shared styles, scripts and settings.
-
-    Parameters
-    ----------
-    name
-        The name of the file in the folder `web`, without `.html`.
-    settings
-        The value of `settings` in the scripts of the page; must be serializable as JSON.
-    package
-        The package that contains the file.
-
-    """
-    folder = files('robot_console') / 'web'
-    text = (files(package) / 'web' / f'{name}.html').read_text(encoding='utf-8')
-    for part in COMMON:
-        text = text.replace(f'/* {part} */', (folder / part).read_text(encoding='utf-8'))
-    return filled(text, settings)

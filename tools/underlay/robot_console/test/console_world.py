@@ -24,6 +24,7 @@ from robot_console.robot_link import LATCHED
 from rviz_common.context import Context
 from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
+from rviz_common.panel import Panel
 from std_msgs.msg import Bool
 from websockets.sync.client import ClientConnection, connect
 
@@ -49,9 +50,9 @@ class World:
         self.executor = SingleThreadedExecutor(context=self.ros)
         for node in (self.node, self.robot):
             self.executor.add_node(node)
-        context = Context(self.node, page, None, WorkQueue())  # type: ignore[arg-type]
+        self.context = Context(self.node, page, None, WorkQueue())  # type: ignore[arg-type]
         given = {'Namespace': namespace}
-        self.panels = [Safety(context, given), Drive(context, given)]
+        self.panels: list[Panel] = [Safety(self.context, given), Drive(self.context, given)]
         for panel in self.panels:
             panel.start()
 
@@ -78,6 +79,7 @@ class World:
         while not predicate():
             assert time.monotonic() < end_s, f'{what}; heard: {self.heard}'
             self.executor.spin_once(timeout_sec=0.02)
+            self.context.queue.run()
             for panel in self.panels:
                 panel.update()
 

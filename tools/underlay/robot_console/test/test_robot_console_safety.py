@@ -14,8 +14,8 @@ from console_world import World, world_of
 from geometry_msgs.msg import Twist
 import pytest
 import rclpy
+from robot_console.page_text import page_text
 from robot_console.robot_link import LATCHED
-from robot_console.small_page import page_text
 from std_msgs.msg import Bool, String
 from websockets.exceptions import ConnectionClosed, ConnectionClosedError
 

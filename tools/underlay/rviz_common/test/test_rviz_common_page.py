@@ -79,6 +79,13 @@ def test_name_and_icon() -> None:
         page.present('closed')
 
 
+def test_small_screens(page: Page) -> None:
+    """The page names the one for small screens, whose path cannot end the script."""
+    assert b'path = "";' in ask(page).read()
+    page.lead_small_screens('/</script>')
+    assert b'path = "/\\u003c/script>";' in ask(page).read()
+
+
 def test_listens_here_only(page: Page) -> None:
     """No other address of the machine serves the page."""
     other = socket.create_server(('127.0.0.2', page.port))
@@ -178,6 +185,9 @@ def test_reachable_addresses(monkeypatch: pytest.MonkeyPatch) -> None:
     assert address.reachable('::') == ['::1']
     with Page('test', PageSettings(host='0.0.0.0', token='mine')) as page:
         assert page.urls == [f'http://127.0.0.1:{page.port}/?token=mine']
+        assert page.shared_url == ''
+        monkeypatch.setattr(address, 'read_interfaces', lambda: iter(interfaces))
+        assert page.shared_url == page.url == f'http://10.1.0.2:{page.port}/?token=mine'
 
 
 def test_own_token() -> None:

@@ -155,7 +155,11 @@ class Robot(LivePanel):
 
     def settings(self) -> dict[str, Any]:
         """Return the initial settings of the page."""
-        return {'namespace': self.values['Namespace'], 'steps': self.values['Steps']}
+        return {
+            'namespace': self.values['Namespace'],
+            'steps': self.values['Steps'],
+            'title': self.values['Title'],
+        }
 
     def actions(self) -> Mapping[str, Action]:
         """Return the actions that the page may request."""

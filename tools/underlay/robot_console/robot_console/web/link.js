@@ -10,7 +10,8 @@ const me = (outer.robotConsoleKey ??= Array.from(
 
 class Link {
   // `beat` returns the sign of life: a page that moves the robot goes on with that.
-  constructor(onState, onConnection, beat = () => ({ do: 'beat' })) {
+  constructor(path, onState, onConnection, beat = () => ({ do: 'beat' })) {
+    this.path = path;
     this.onState = onState;
     this.onConnection = onConnection;
     this.beat = beat;
@@ -28,7 +29,7 @@ class Link {
     this.triedAt = now;
     this.socket?.close();
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = new WebSocket(`${scheme}://${location.host}${location.pathname}?me=${me}`);
+    const socket = new WebSocket(`${scheme}://${location.host}${this.path}?me=${me}`);
     socket.onopen = () => this.send(this.beat());
     socket.onmessage = (event) => { if (socket === this.socket) this.hear(JSON.parse(event.data)); };
     this.socket = socket;
@@ -50,6 +51,8 @@ class Link {
   }
 
   watch() {
+    const frame = window.frameElement;
+    if (!this.socket && frame && !frame.getClientRects().length) return; // it has not been shown yet
     const now = performance.now();
     // What came while this page was busy has not been heard yet: that is no silence.
     this.silentMs += Math.min(now - this.watchedAt, BUSY_MS);

@@ -7,10 +7,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import replace
 from http import HTTPStatus
+import ipaddress
 import secrets
 from types import TracebackType
 from typing import TYPE_CHECKING
-from urllib.parse import urlencode
+from urllib.parse import urlencode, urlsplit
 
 from rviz_common.page.address import listen, NO_TOKEN, PageSettings, reachable
 from rviz_common.page.admission import Admission, Refusal, sign_in_page, without_token
@@ -82,6 +83,12 @@ class GatedPage(ABC):
     def url(self) -> str:
         """The URL to open."""
         return self.urls[0]
+
+    @property
+    def shared_url(self) -> str:
+        """The URL to open on another machine, such as a phone; '' if no other one reaches it."""
+        host = ipaddress.ip_address(urlsplit(self.url).hostname or '')
+        return '' if host.is_loopback else self.url
 
     @abstractmethod
     def close(self) -> None:

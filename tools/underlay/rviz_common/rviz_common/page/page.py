@@ -7,14 +7,11 @@ import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
 import functools
-import gzip
-from html import escape
-import re
 from typing import Any
-from urllib.parse import quote
 
 import rich
 from rviz_common.page.address import PageSettings
+from rviz_common.page.client_html import adapted
 from rviz_common.page.connection_log import complain_about_task, LOGGER
 from rviz_common.page.gated_page import GatedPage, POLICY
 from rviz_common.page.message_filter import OptionsOf, Strained, Uploads
@@ -55,7 +52,7 @@ class Page(GatedPage):
 
     def __init__(self, title: str, settings: PageSettings | None = None) -> None:
         super().__init__(title, settings)
-        self._name, self._icon = title, ''
+        self._name, self._icon, self._small_page = title, '', ''
         self._is_closed = False
         rich.get_console().quiet = True  # viser prints addresses, but not the token
         self.uploads = Uploads()
@@ -109,9 +106,23 @@ class Page(GatedPage):
         if not self._is_closed:
             self.viser.gui.set_panel_label(name)
 
-    def entitle(self, response: Response) -> None:
+    def lead_small_screens(self, path: str) -> None:
         """
-        Put the name and the icon into a response; responses that are not HTML stay as they are.
+        Lead browsers with a small screen to another page, from when they load this one.
+
+        Parameters
+        ----------
+        path
+            The path of the page for small screens; '' if they stay here.
+
+        """
+        self._small_page = path
+
+    def adapt(self, response: Response) -> None:
+        """
+        Put the name, the icon and the way to the page for small screens into a response.
+
+        Responses that are not HTML stay as they are.
 
         Parameters
         ----------
@@ -122,7 +133,9 @@ class Page(GatedPage):
         if not response.headers.get('Content-Type', '').startswith('text/html'):
             return
         is_packed = response.headers.get('Content-Encoding') == 'gzip'
-        response.body = _entitled(bytes(response.body), self._name, self._icon, is_packed)
+        response.body = adapted(
+            bytes(response.body), self._name, self._icon, self._small_page, is_packed
+        )
         del response.headers['Content-Length']
         response.headers['Content-Length'] = str(len(response.body))
 
@@ -160,8 +173,6 @@ def set_theme(gui: viser.GuiApi, is_dark: bool) -> None:
 
 # Larger than the chunks of half a megabyte in which browsers send files.
 LARGEST_BYTES = 2_000_000
-OF_VISER = b'<title>Viser</title>'
-ICON_OF_VISER = re.compile(rb'(<link\s+rel="icon"\s+href=")[^"]*"')
 
 
 @contextmanager
@@ -220,7 +231,7 @@ def _answering(page: Page, answer: Any) -> Any:
             response: Response | None = answer(connection, request)
             if response is not None:
                 response.headers['Content-Security-Policy'] = POLICY
-                page.entitle(response)
+                page.adapt(response)
             return response
 
         return page.response_to(request, of_viser)
@@ -245,13 +256,3 @@ def _routed(handler: Any, page: Page, options_of: OptionsOf) -> Any:
             await route.connect(connection)
 
     return talk
-
-
-@functools.lru_cache(maxsize=4)
-def _entitled(body: bytes, name: str, icon: str, is_packed: bool) -> bytes:
-    text = gzip.decompress(body) if is_packed else body
-    text = text.replace(OF_VISER, f'<title>{escape(name)}</title>'.encode())
-    if icon:
-        data = f'data:image/svg+xml,{quote(icon)}'.encode()
-        text = ICON_OF_VISER.sub(lambda found: found[1] + data + b'"', text, count=1)
-    return gzip.compress(text, 6) if is_packed else text

@@ -14,6 +14,7 @@ from rviz_common.frames import FrameListener, Frames
 from rviz_common.pace import Pace
 from rviz_common.panels.head import FileFolder, Head
 from rviz_common.panels.panel_tabs import PanelTabs
+from rviz_common.panels.phone_folder import PhoneFolder
 from rviz_common.properties import topic_path, Values
 from rviz_common.selection import Selection
 from rviz_common.status import printable, Statuses
@@ -104,6 +105,7 @@ class Visualizer:
         self._viewers = Viewers(self.context)
         self._open(configuration, path)
         self._files = FileFolder(self.context)
+        self._phone = PhoneFolder(self.context)
         page.viser.on_client_connect(lambda _: self._loop.rouse())
 
     def load(self, configuration: Configuration, path: str = '') -> None:
@@ -247,6 +249,7 @@ class Visualizer:
         self._loop.close()
         self._close()
         self._files.close()
+        self._phone.close()
         self._viewers.close()
         self._listener.unregister()
 
