@@ -6,7 +6,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Hashable
 
-__all__ = ['Control', 'People']
+__all__ = ['Control', 'People', 'place_of', 'stopped_by']
+
+NAMED = 3
 
 
 class Control:
@@ -161,3 +163,41 @@ class People:
         self._connections[key] -= 1
         if not self._connections[key]:
             del self._connections[key], self._names[key]
+
+
+def place_of(person: str, viewer: str) -> str:
+    """
+    Describe where a user is, as seen by another one: `in this page`, or in which browser.
+
+    Parameters
+    ----------
+    person, viewer
+        The names of the user and of the one who is told, as from `People`.
+
+    """
+    if person == viewer:
+        return 'in this page'
+    address = person.partition('(')[2].rstrip(')')
+    is_near = not address or address == viewer.partition('(')[2].rstrip(')')
+    return 'in another browser' if is_near else f'in a browser at {address}'
+
+
+def stopped_by(person: str, viewer: str, publishers: set[str]) -> str:
+    """
+    Describe who has pressed the emergency stop, or in which browser.
+
+    Parameters
+    ----------
+    person
+        The user of this console who did; '' if it was another node.
+    viewer
+        The user who is told; '' if it is not known.
+    publishers
+        The other nodes that publish the emergency stop.
+
+    """
+    if person:
+        return place_of(person, viewer)
+    names = sorted(publishers)
+    more = f' and {len(names) - NAMED} more' if len(names) > NAMED else ''
+    return f'by {", ".join(names[:NAMED]) + more or "someone who has left"}'

@@ -10,10 +10,10 @@ import secrets
 import threading
 import time
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
 
 from robot_console.control import People
 from robot_console.robot_link import RobotLink
+from rviz_common.page.channel import key_of
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
@@ -187,7 +187,7 @@ class Connections:
 
     async def _serve(self, connection: ServerConnection) -> None:
         """Serve a connection with a new session."""
-        key = _key(connection.request.path if connection.request else '')
+        key = key_of(connection) or secrets.token_hex(8)
         session = self._begin(self._people.arrive(key, str(connection.remote_address[0])))
         try:
             await _exchange(connection, session)
@@ -229,8 +229,3 @@ async def _next(connection: ServerConnection, is_watched: bool) -> str | bytes:
         return await asyncio.wait_for(connection.recv(), SILENCE_S)
     except asyncio.TimeoutError:
         return await asyncio.wait_for(connection.recv(), READING_S)
-
-
-def _key(path: str) -> str:
-    """Return the identifier that a page sends in its URL, or a random one."""
-    return parse_qs(urlsplit(path).query).get('me', [''])[0][:40] or secrets.token_hex(8)

@@ -10,7 +10,7 @@ from rviz_common.page.web_files import filled
 
 __all__ = ['page_text', 'path_of']
 
-COMMON = ('common.css', 'link.js', 'live.css', 'live.js', 'stay.js')
+COMMON = ('common.css', 'link.js', 'live.css', 'live.js', 'person.js', 'stay.js')
 OF_SAFETY = ('safety.css', 'safety.js', 'stop.html')
 OF_DRIVE = ('drive.css', 'drive.js', 'stick.html')
 

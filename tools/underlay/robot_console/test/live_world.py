@@ -33,7 +33,7 @@ from rviz_common.page import NO_TOKEN, Page, PageSettings
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-__all__ = ['PANELS', 'LiveWorld', 'live_world']
+__all__ = ['PANELS', 'Browser', 'LiveWorld', 'live_world']
 
 PANELS = {'log': Log, 'diagnostics': Diagnostics, 'topics': Topics}
 PANELS |= {'command': Command, 'objects': Objects, 'parameters': Parameters, 'robot': Robot}

@@ -14,7 +14,11 @@ from robot_console.robot_link import LATCHED
 from rviz_common.page import Route
 from std_msgs.msg import Bool
 
-FRAMES = '<input><iframe src="/safety" title="safety"></iframe><iframe src="/safety/b"></iframe>'
+FRAMES = (
+    '<input id="text"><select><option>a<option>b</select><input type="checkbox" checked>'
+    '<input aria-haspopup="listbox" value="a">'
+    '<iframe src="/safety" title="safety"></iframe><iframe src="/safety/b"></iframe>'
+)
 
 
 @pytest.fixture
@@ -82,7 +86,7 @@ def test_stop_and_release(world: World, tab: Any) -> None:
     shows(world, tab, '#link', 'connected')
     tab.click('#stop')
     world.wait_until(lambda: world.stops() == [True], 'no stop')
-    shows(world, tab, '#hint', 'by you')
+    shows(world, tab, '#hint', 'in this page')
     tab.click('#release')
     shows(world, tab, '#release', 'Release?')
     assert world.stops() == [True]
@@ -106,7 +110,7 @@ def test_lost_and_back(world: World, tab: Any) -> None:
 
 
 def test_space_bar_stops_all_robots(world: World, tab: Any) -> None:
-    """The space bar stops all robots of a page, but not where somebody writes."""
+    """The space bar stops all robots, also from what one chooses, not where somebody writes."""
     other = Safety(world.panels[0].context, {'Namespace': 'b'})
     other.start()
     stops: list[bool] = []
@@ -120,12 +124,18 @@ def test_space_bar_stops_all_robots(world: World, tab: Any) -> None:
         world.wait_until(
             lambda frame=frame: frame.locator('#link').text_content() == 'connected', 'no frame'
         )
-    tab.locator('input').focus()
+    tab.locator('#text').focus()
     tab.keyboard.press('Space')
-    assert tab.locator('input').input_value() == ' '
+    assert tab.locator('#text').input_value() == ' '
     tab.evaluate('document.activeElement.blur()')
     tab.keyboard.press('Space')
     world.wait_until(lambda: world.stops() == [True] and stops == [True], 'not all stop')
+    for count, chooser in enumerate(('select', '[type=checkbox]', '[aria-haspopup]'), 2):
+        tab.locator(chooser).focus()
+        tab.keyboard.press('Space')
+        world.wait_until(lambda count=count: len(world.stops()) == count, f'no stop: {chooser}')
+    assert tab.locator('[type=checkbox]').is_checked()
+    assert tab.locator('[aria-haspopup]').input_value() == 'a'
     other.close()
 
 

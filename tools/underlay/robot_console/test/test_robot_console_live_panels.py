@@ -14,7 +14,7 @@ from unittest import mock
 
 from audio_common_msgs.msg import AudioData
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from live_world import live_world, LiveWorld, PANELS
+from live_world import Browser, live_world, LiveWorld, PANELS
 import pytest
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 import rclpy
@@ -25,6 +25,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from robot_console import simulator_link
 from robot_console.panels.command import Command
 from robot_console.panels.objects import Objects
+from robot_console.robot_link import link_of
 from robot_console.service_calls import ServiceCalls
 from robot_console.simulator_link import SimulatorLink
 from simulation_interfaces.msg import Resource, Result, SimulationState, WorldResource
@@ -554,6 +555,20 @@ def test_robot_that_is_as_it_was(world: LiveWorld) -> None:
     world.wait_until(lambda: panel._walking == 'stand', 'still fallen')
     panel.refresh()
     page.wait_for('words', said('Ready'))
+
+
+def test_where_the_robot_was_stopped(world: LiveWorld) -> None:
+    """Each page says whether it was this page or another browser that stopped the robot."""
+    world.start('robot')
+    link = link_of(world.context, '')
+    ann = link.people.arrive('ann', '10.0.0.1')
+    link.people.arrive('ben', '10.0.0.1')
+    link.say_stop(True, ann)
+    address = f'ws://127.0.0.1:{world.page.port}/robot'
+    for key, words in (('ann', 'in this page'), ('ben', 'in another browser')):
+        page = Browser(world, f'{address}?me={key}')
+        pressed = f'Stop pressed {words}; the robot has not confirmed it'
+        page.wait_for('words', said(pressed))
 
 
 def test_title_of_the_page(world: LiveWorld) -> None:

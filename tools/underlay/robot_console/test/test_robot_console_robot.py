@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import pytest
-from robot_console.panels.robot import slowness, stopped_by, words
+from robot_console.control import stopped_by
+from robot_console.panels.robot import slowness, words
 from robot_console.simulator_link import choose_simulator, failure_of, simulators_among
 from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import ResetSimulation
@@ -20,12 +21,12 @@ PLAYING, PAUSED = SimulationState.STATE_PLAYING, SimulationState.STATE_PAUSED
         ('walk', '', '', PLAYING, 'Walking'),
         ('fallen', '', '', PLAYING, 'Fallen: press Stand up'),
         ('stand', '', '', PAUSED, 'Paused'),
-        ('stand', 'ann', 'the emergency stop is pressed', PLAYING, 'Stopped by ann'),
+        ('stand', 'by ann', 'the emergency stop is pressed', PLAYING, 'Stopped by ann'),
         ('stand', '', 'the console is lost', PLAYING, 'Holds still: the console is lost'),
-        ('fallen', 'ann', 'it fell', PAUSED, 'Paused; Stopped by ann; Fallen: press Stand up'),
+        ('fallen', 'by ann', 'it fell', PAUSED, 'Paused; Stopped by ann; Fallen: press Stand up'),
         ('swing', '', '', None, "Does not walk: mode 'swing'"),
         (None, '', '', PLAYING, 'The robot does not report its state'),
-        (None, 'ann', '', None, 'Stop pressed by ann; the robot has not confirmed it'),
+        (None, 'by ann', '', None, 'Stop pressed by ann; the robot has not confirmed it'),
     ],
 )
 def test_words(
@@ -43,11 +44,14 @@ def test_a_fallen_robot_that_no_service_can_lift() -> None:
 
 
 def test_stopped_by() -> None:
-    """A person is named, else the nodes that may have done it."""
-    assert stopped_by('ann', {'/a'}) == 'ann'
-    assert stopped_by('', {'/b', '/a'}) == '/a, /b'
-    assert stopped_by('', set('/abcd')) == '/, a, b and 2 more'
-    assert stopped_by('', set()) == 'someone who has left'
+    """A user is told in which browser it was, or the other nodes that publish, not too many."""
+    ann, ben, eve = 'browser 1 (10.0.0.1)', 'browser 2 (10.0.0.1)', 'browser 3 (10.0.0.3)'
+    assert stopped_by(ann, ann, {'/a'}) == 'in this page'
+    assert stopped_by(ben, ann, {'/a'}) == 'in another browser'
+    assert stopped_by(eve, ann, {'/a'}) == 'in a browser at 10.0.0.3'
+    assert stopped_by('', ann, {'/b', '/a'}) == 'by /a, /b'
+    assert stopped_by('', ann, set('/abcd')) == 'by /, a, b and 2 more'
+    assert stopped_by('', ann, set()) == 'by someone who has left'
 
 
 @pytest.mark.parametrize(('factor', 'is_slow'), [(None, False), (0.49, True), (0.5, False)])

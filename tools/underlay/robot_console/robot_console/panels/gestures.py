@@ -183,10 +183,10 @@ class Gestures(LivePanel):
             'said': self._said,
         }
 
-    def _check_person(self, message: Mapping[str, Any]) -> None:
+    def _check_person(self, viewer: Viewer) -> None:
         """Raise ValueError if another person is in control."""
         control = self._link.control.person
-        if control and control != self._link.people.name(str(message.get('me', ''))):
+        if control and control != self._link.people.name(viewer.key):
             raise ValueError(f'{control} is in control.')
 
     def _play(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
@@ -198,7 +198,7 @@ class Gestures(LivePanel):
             return
         if running is not None:
             raise ValueError(f"'{running.gesture.name}' is running. Cancel it first.")
-        self._check_person(message)
+        self._check_person(viewer)
         if not isinstance(button, str) or button not in self._book.gestures:
             raise ValueError('There is no longer such a gesture.')
         gesture = self._book.gestures[button]

@@ -8,6 +8,7 @@ from importlib.resources import files
 import time
 from typing import Any
 
+from robot_console.control import stopped_by
 from robot_console.live_panel import LivePanel
 from robot_console.namespaces import NAMESPACE
 from robot_console.panels.safety import RealTimeFactor
@@ -28,7 +29,7 @@ from simulation_interfaces.srv import (
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-__all__ = ['Robot', 'slowness', 'stopped_by', 'words']
+__all__ = ['Robot', 'slowness', 'words']
 
 WALKING = {
     'stand': ('Ready', 'good'),
@@ -55,31 +56,11 @@ TOO_SLOW = (
     'simulation was slowed down on purpose.'
 )
 NO_STAND_UP = "Nothing can stand this robot up: there is no service '{}'. A simulator offers it."
-NAMED = 3
 LOAD_S = 60.0
 """The time that a simulator may take to load a scene."""
 
 Word = tuple[str, str]
 """A text, and how it looks: `good`, `warn`, `bad` or `dim`."""
-
-
-def stopped_by(person: str, publishers: set[str]) -> str:
-    """
-    Name who has pressed the emergency stop.
-
-    Parameters
-    ----------
-    person
-        The user of this console who did; '' if it was another node.
-    publishers
-        The other nodes that publish the emergency stop.
-
-    """
-    if person:
-        return person
-    names = sorted(publishers)
-    more = f' and {len(names) - NAMED} more' if len(names) > NAMED else ''
-    return ', '.join(names[:NAMED]) + more or 'someone who has left'
 
 
 def words(
@@ -93,7 +74,7 @@ def words(
     walking
         The walking state; None if no node publishes it.
     stopped
-        Who has pressed the emergency stop; '' while it is not pressed.
+        By whom or where the emergency stop was pressed; '' while it is not pressed.
     holds_because
         Why the robot holds still, as it reports; '' if it moves or does not report it.
     simulation
@@ -106,9 +87,9 @@ def words(
     if simulation in SIMULATION:
         found.append(SIMULATION[simulation])
     if stopped and holds_because:
-        found.append((f'Stopped by {stopped}', 'bad'))
+        found.append((f'Stopped {stopped}', 'bad'))
     elif stopped:
-        found.append((f'Stop pressed by {stopped}; the robot has not confirmed it', 'bad'))
+        found.append((f'Stop pressed {stopped}; the robot has not confirmed it', 'bad'))
     elif holds_because:
         found.append((f'Holds still: {holds_because}', 'warn'))
     if walking is None:
@@ -186,7 +167,6 @@ class Robot(LivePanel):
         self._walking = ''
         self._can_rise = self._is_told = False
         self._pending: set[str] = set()
-        self._told: dict[str, Any] = {}
         self._look = Pace(1.0)
         self._subscription = node.create_subscription(String, self._topic, self._take, LATCHED)
         self._factor = RealTimeFactor(node)
@@ -195,7 +175,7 @@ class Robot(LivePanel):
 
     def greet(self, viewer: Viewer) -> None:
         """
-        Send the state to all viewers, so that the new one sees what the others see.
+        Send the state to a new viewer.
 
         Parameters
         ----------
@@ -203,7 +183,7 @@ class Robot(LivePanel):
             As for `LivePanel.greet`.
 
         """
-        self._tell(self._state())
+        self._tell(viewer)
 
     def update(self) -> None:
         """Process pending service calls, follow the simulator, and send updates."""
@@ -218,9 +198,8 @@ class Robot(LivePanel):
             return
         if self._look.is_due():
             self._examine_graph()
-        state = self._state()
-        if state != self._told:
-            self._tell(state)
+        for viewer in self.channel.viewers:
+            self._tell(viewer)
 
     def end(self) -> None:
         """Destroy the subscriptions and clients, and give the page its own title again."""
@@ -229,10 +208,6 @@ class Robot(LivePanel):
         self._factor.close()
         self.context.node.destroy_subscription(self._subscription)
         self.context.page.present(self.context.page.title)
-
-    def _tell(self, state: dict[str, Any]) -> None:
-        self._told = state
-        self.channel.tell(**state)
 
     def _take(self, message: String) -> None:
         self._walking = message.data
@@ -245,15 +220,22 @@ class Robot(LivePanel):
         self._can_rise = node.count_services(self._stand_up_name) > 0
         self._is_told = node.count_publishers(self._link.state_topic) > 0
 
-    def _state(self) -> dict[str, Any]:
-        """Return what the page shows."""
+    def _tell(self, viewer: Viewer) -> None:
+        """Send the state to a viewer if it has changed."""
+        state = self._state(self._link.people.name(viewer.key))
+        if state != viewer.wish:
+            viewer.wish = state
+            viewer.tell(**state)
+
+    def _state(self, person: str) -> dict[str, Any]:
+        """Return what the page of a person shows."""
         simulator = self._simulator
         factor = self._factor.factor(time.monotonic())
         is_loading = 'world' in self._pending
         return {
             'words': words(
                 self._walking or None,
-                self._stopped_by(),
+                self._stopped_by(person),
                 self._link.holds_because if self._is_told else '',
                 SimulationState.STATE_LOADING_WORLD if is_loading else simulator.state,
                 self._can_rise,
@@ -268,12 +250,12 @@ class Robot(LivePanel):
             'world': simulator.world,
         }
 
-    def _stopped_by(self) -> str:
-        """Name who has pressed the emergency stop; '' while it is not pressed."""
+    def _stopped_by(self, person: str) -> str:
+        """Describe to a person who has pressed the emergency stop; '' while it is not pressed."""
         stop = self._link.stop
         if not stop.pressed:
             return ''
-        return stopped_by(stop.by, set() if stop.by else self._link.stop_publishers())
+        return stopped_by(stop.by, person, set() if stop.by else self._link.stop_publishers())
 
     def _reasons(self) -> dict[str, str]:
         """Return why each button is disabled; '' for those that can be pressed."""

@@ -11,6 +11,7 @@ from typing import Any
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from robot_console.control import place_of
 from robot_console.control_page import Connections, Session
 from robot_console.namespaces import NAMESPACE
 from robot_console.robot_link import link_of, node_names, RobotLink
@@ -156,7 +157,13 @@ class SafetySession(Session):
 
     def state(self) -> dict[str, Any]:
         """Return the state that the page shows."""
-        return {**super().state(), 'stop': asdict(self.link.stop), **asdict(self._facts())}
+        stop = self.link.stop
+        place = place_of(stop.by, self.person) if stop.by else ''
+        return {
+            **super().state(),
+            'stop': {**asdict(stop), 'place': place},
+            **asdict(self._facts()),
+        }
 
     def _release(self, message: Mapping[str, Any]) -> None:
         self.link.say_stop(False, self.person)

@@ -4,9 +4,7 @@ const show = (id) => document.getElementById(id);
 const LOST_MS = 800;
 const BUSY_MS = 100;
 const outer = window.parent;
-// All small pages inside of one page are one person.
-const me = (outer.robotConsoleKey ??= Array.from(
-  crypto.getRandomValues(new Uint8Array(8)), (each) => each.toString(16).padStart(2, '0')).join(''));
+/* person.js */
 
 class Link {
   // `beat` returns the sign of life: a page that moves the robot goes on with that.

@@ -2,6 +2,7 @@
 const settings = /* settings */ {};
 const show = (id) => document.getElementById(id);
 const HIDDEN_MS = 3000;
+/* person.js */
 
 class Feed {
   // `onNews` takes what comes; `onOpen` asks anew for what was chosen before.
@@ -35,7 +36,7 @@ class Feed {
   connect(now) {
     this.triedAt = now;
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = new WebSocket(`${scheme}://${location.host}${location.pathname}`);
+    const socket = new WebSocket(`${scheme}://${location.host}${location.pathname}?me=${me}`);
     socket.onopen = () => { this.tell(true); this.onOpen(); };
     socket.onmessage = (event) => { if (socket === this.socket) this.onNews(JSON.parse(event.data)); };
     socket.onclose = () => {

@@ -5,6 +5,9 @@ const KINDS = {
   unknown: ['REAL OR NOT?', "/clock has no publisher, and the .rviz file does not say 'Robot: real'. Be careful."],
 };
 const SLOW = 0.9;
+const BUTTONS = ['button', 'checkbox', 'color', 'file', 'radio', 'range', 'reset', 'submit'];
+const CHOOSERS = ['[aria-haspopup=listbox]', ...BUTTONS.map((kind) => `[type=${kind}]`)].join();
+const HOW = matchMedia('(pointer: coarse)').matches ? 'press it' : 'press it, or the space bar';
 const CONTROLLED = 'The robot stops by itself when this page is closed, hidden or lost.';
 
 function startSafety(settings, path) {
@@ -48,7 +51,7 @@ function startSafety(settings, path) {
     show('stop').classList.toggle('dead', isDead);
     put('word', isPressed ? 'STOPPED' : 'STOP');
     put('hint', isDead ? (unsent ? 'NOT STOPPED YET: use the switch at the robot' : 'Use the switch at the robot')
-      : isPressed ? `by ${by()}` : `${settings.namespace ? `${settings.namespace}: ` : ''}press it, or the space bar`);
+      : isPressed ? by() : `${settings.namespace ? `${settings.namespace}: ` : ''}${HOW}`);
     const isSure = performance.now() < sureUntil;
     show('release').hidden = !(isPressed || isHeld);
     show('release').classList.toggle('sure', isSure);
@@ -72,9 +75,7 @@ function startSafety(settings, path) {
   }
 
   function by() {
-    const { by: who } = state.stop;
-    if (who) return who === state.you ? 'you' : who;
-    return state.speakers.length ? shortened(state.speakers) : 'someone who has left';
+    return state.stop.place || `by ${state.speakers.length ? shortened(state.speakers) : 'someone who has left'}`;
   }
 
   function drawRobot(isPressed) {
@@ -116,12 +117,13 @@ function startSafety(settings, path) {
   show('domain').textContent = `${settings.namespace ? `/${settings.namespace} · ` : ''}domain ${settings.domain}`;
   show('domain').title = 'ROS_DOMAIN_ID';
 
-  // The space bar stops from anywhere in the page, but not from where somebody writes.
+  // The space bar stops from anywhere in the page, but not from where somebody writes. The drop-downs of viser are
+  // fields in which one could search.
   function onKey(event) {
     if (event.code !== 'Space' || event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.composedPath()[0];
-    const isText = target.isContentEditable || /^(textarea|select)$/i.test(target.tagName)
-      || (/^input$/i.test(target.tagName) && !/^(button|checkbox|radio|range|color)$/.test(target.type));
+    const isText = target.isContentEditable || /^textarea$/i.test(target.tagName)
+      || (/^input$/i.test(target.tagName) && !target.readOnly && !target.matches(CHOOSERS));
     if (isText) return;
     event.preventDefault();
     event.stopPropagation(); // but the buttons of other robots hear it

@@ -8,17 +8,19 @@ from collections import deque
 from collections.abc import Callable, Mapping
 import json
 from typing import Any
+from urllib.parse import parse_qs, urlsplit
 
 from rviz_common.inputs import WorkQueue
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
-__all__ = ['Action', 'Channel', 'Viewer']
+__all__ = ['Action', 'Channel', 'Viewer', 'key_of']
 
 MOST_WAITING = 4_000_000
 """Maximum number of queued characters for a slow browser; beyond it, the connection is dropped."""
 
 LONGEST = 1_000_000
+LONGEST_KEY = 40
 REFUSED = 1008
 
 
@@ -40,6 +42,8 @@ class Viewer:
     def __init__(self, connection: ServerConnection) -> None:
         self.wish: Any = None
         """State that the program stores for this viewer, such as a topic or the name of a node."""
+        self.key = key_of(connection)
+        """What identifies the page of the viewer; '' if it does not say so."""
         self._connection = connection
         self._loop = asyncio.get_running_loop()
         self._waiting: deque[str] = deque()
@@ -102,6 +106,25 @@ class Viewer:
         transport = self._connection.transport
         if transport is not None:
             transport.abort()
+
+
+def key_of(connection: ServerConnection) -> str:
+    """
+    Return the identifier that a page sends in its URL as `me`, for all of its connections.
+
+    Parameters
+    ----------
+    connection
+        The connection that the page has opened.
+
+    Returns
+    -------
+    str
+        At most 40 characters; '' if there is none.
+
+    """
+    path = connection.request.path if connection.request else ''
+    return parse_qs(urlsplit(path).query).get('me', [''])[0][:LONGEST_KEY]
 
 
 Action = Callable[[Viewer, Mapping[str, Any]], None]
