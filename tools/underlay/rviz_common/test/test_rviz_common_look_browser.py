@@ -16,6 +16,7 @@ from rviz_common.visualizer.surroundings import EVEN_LIGHT, SHADOWS, SKY
 sys.path.append(str(Path(__file__).parents[3] / 'test'))
 
 from browser import chromium  # noqa: E402
+from obstacles import obstacles  # noqa: E402
 
 WITH_GROUND = 'Visualization Manager: {Global Options: {Ground and Sky: true}}'
 RATIO = 'window.__viserTestpoints?.devSettings.get().fixedDpr'
@@ -83,3 +84,5 @@ def test_each_browser_draws_as_much_as_it_can(
     assert look.locator('#quality').input_value() == '2'
     look.locator('#quality').select_option('Automatic')
     spin_until(lambda: told.is_visible() and tab.evaluate(RATIO) is None, 'all pixels again')
+    (frame,) = (each for each in tab.frames if '/look/' in each.url)
+    assert obstacles(frame) == []

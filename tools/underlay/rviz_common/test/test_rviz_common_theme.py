@@ -11,17 +11,17 @@ from rviz_common.visualizer.viewers import is_dark_theme
 
 TEXTS = {
     'text': 'back list button button-hover field hover tile chip chosen lost',
-    'dim': 'back list hover tile lost',
+    'dim': 'back list field hover tile chosen lost',
     'good': 'back list',
-    'warn': 'back list',
-    'bad': 'back list',
+    'warn': 'back list chosen',
+    'bad': 'back list chosen',
     'name': 'list hover',
     'on': 'blue blue-hover green green-hover red red-hover ochre '
     'stop stop-hover stopped dead real simulated slow',
 }
 """The names of colors of texts, and of those that they are written on."""
-READABLE = 4.5
-"""The contrast that WCAG 2.1 requires at the level AA."""
+READABLE, VISIBLE = 4.5, 3.0
+"""The contrasts that WCAG 2.1 requires at the level AA: of texts, and of edges of fields."""
 
 
 def colors_of(theme: int) -> dict[str, str]:
@@ -59,6 +59,7 @@ def test_all_texts_can_be_read(theme: int) -> None:
         for back in backs.split()
     }
     assert {pair: each for pair, each in found.items() if each < READABLE} == {}
+    assert min(contrast(colors['edge'], colors[each]) for each in ('back', 'field')) > VISIBLE
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import socket
 from typing import Any
 
 from browser import chromium
+from obstacles import obstacles
 from page_stage import Stage, stage
 import pytest
 from turtlesim_py.canvas import Pen
@@ -114,6 +115,21 @@ def test_keys(open_tab: Callable[[str], Any]) -> None:
         tab.keyboard.up('ArrowUp')
         zoo.until(lambda: zoo.turtle.velocity.forward == 0.0, 'it does not stop')
         tab.evaluate('dispatchEvent(new Event("blur"))')
+        zoo.until(lambda: zoo.turtle.velocity.turn == 0.0, 'it goes on turning')
+
+
+def test_nothing_keeps_people_from_using_the_page(open_tab: Callable[[str], Any]) -> None:
+    """Names, roles and contrast are right; a button is also held with the Enter key."""
+    with stage() as zoo:
+        tab = open_tab(zoo.url)
+        zoo.until(lambda: tab.locator('#turtles tr').count() == 1, 'no turtle')
+        tab.get_by_role('button', name='Turn left').focus()
+        tab.keyboard.down('Enter')
+        zoo.until(lambda: zoo.turtle.velocity.turn == 2.0, 'it does not turn')
+        for theme in ('light', 'dark'):
+            tab.emulate_media(color_scheme=theme)
+            assert obstacles(tab) == []
+        tab.keyboard.up('Enter')
         zoo.until(lambda: zoo.turtle.velocity.turn == 0.0, 'it goes on turning')
 
 

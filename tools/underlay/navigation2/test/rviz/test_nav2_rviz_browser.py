@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from browser import chromium
+from obstacles import obstacles
 import pytest
 from rviz_fakes import navigation_world, NavigationWorld
 
@@ -115,6 +116,7 @@ def test_goal_is_clicked_followed_and_canceled(world: NavigationWorld, tab: Any)
     shows(world, panel, '#phase', 'canceled')
     world.wait_until(lambda: draw(1), 'no second goal')
     shows(world, panel, '#phase', 'on the way')
+    assert obstacles(panel) == []
     server.end('abort', 204, '<b>The goal is in a wall.</b>')
     shows(world, panel, '#text', '<b>The goal is in a wall.</b> (error code 204)')
     assert panel.locator('#cancel').is_hidden()

@@ -86,10 +86,17 @@ function matches(text, words) {
 }
 const wordsOf = (text) => text.toLowerCase().split(/\s+/).filter(Boolean);
 
-// Gives a list other items; those that are as before stay, so that nothing jumps.
+const keyOf = (item) => item.title || item.querySelector('.name')?.textContent;
+
+// Gives a list other items; what has the focus keeps it, or the item of the same name gets it.
 function fill(list, items, empty) {
   const children = items.length ? items : [element('div', { className: 'empty', textContent: empty })];
+  const focused = list.contains(document.activeElement) ? document.activeElement : null;
   list.replaceChildren(...children);
+  if (!focused || focused === document.activeElement) return;
+  const key = keyOf(focused);
+  const next = focused.isConnected ? focused : children.find((each) => key && keyOf(each) === key);
+  next?.focus({ preventScroll: true });
 }
 
 // The frame around takes the room that is left below what is above it; that of a slim page is as high as what is in it.

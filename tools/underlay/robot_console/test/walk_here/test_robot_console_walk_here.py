@@ -12,6 +12,7 @@ from control_msgs.action import FollowJointTrajectory
 from geometry_msgs.msg import Twist
 from live_world import live_world, LiveWorld
 from nav_msgs.msg import Odometry
+from obstacles import obstacles
 import pytest
 from rclpy.action import ActionServer
 from robot_console.walk_here import walk_here, walk_session
@@ -210,3 +211,4 @@ def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab
     tab.evaluate(HIDE)
     world.wait_until(lambda: tab.locator('#what').text_content() == 'Stopped.', 'it walks on')
     world.wait_until(lambda: walker.commands[-1] == Twist(), 'no second zero')
+    assert obstacles(tab) == []

@@ -40,6 +40,7 @@ PAGE = string.Template("""<!doctype html>
   input { flex: 1; min-width: 0; }
   input, button { font: inherit; padding: .5rem .75rem; border-radius: 4px; }
   input { color: var(--text); background: light-dark(#fff, #25262b); border: 1px solid #868e96; }
+  ::placeholder { color: light-dark(#5a5f66, #aeb0b6); opacity: 1; }
   button { color: #fff; background: #1971c2; border: 0; cursor: pointer; }
 </style>
 </head>

@@ -251,14 +251,18 @@ function hint() {
   show('hint').classList.toggle('warn', Boolean(refusal));
 }
 
+// Enter and the space bar hold the button that has the focus.
+const keyOf = (event) => (['Enter', ' '].includes(event.key) && event.target.dataset?.key) || event.key;
+
 addEventListener('keydown', (event) => {
-  if (!event.key.startsWith('Arrow') || event.ctrlKey || event.altKey || event.metaKey) return;
+  const key = keyOf(event);
+  if (!key.startsWith('Arrow') || event.ctrlKey || event.altKey || event.metaKey) return;
   event.preventDefault();
   if (event.repeat) return;
-  held.add(event.key);
+  held.add(key);
   change();
 });
-addEventListener('keyup', (event) => { if (held.delete(event.key)) change(); });
+addEventListener('keyup', (event) => { if (held.delete(keyOf(event))) change(); });
 for (const button of document.querySelectorAll('[data-key]')) {
   button.addEventListener('pointerdown', (event) => {
     button.setPointerCapture(event.pointerId);
