@@ -27,7 +27,7 @@ DOCS = Path(__file__).resolve().parents[2] / 'docs'
 PAGES = [*sorted(DOCS.glob('tutorial/*.md')), *sorted(DOCS.glob('how-to/*.md'))]
 LONG = (
     *('apartment', 'assistants', 'bags', 'browser'),
-    *('course_controllers', 'course_perception'),
+    *('course_controllers', 'course_navigation', 'course_perception'),
     *('exercise_1', 'exercise_2', 'exercise_3', 'first_ten_minutes', 'look_inside', 'move_arms'),
     *('navigate', 'objects', 'robot_model', 'simulation', 'take_things', 'tell_the_robot'),
     'use_your_own_yolo_model',
