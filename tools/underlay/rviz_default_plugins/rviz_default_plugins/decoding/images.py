@@ -138,7 +138,7 @@ def _from_yuv(raw: Bytes, order: str) -> Bytes:
 
 def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
     """
-    Decode a JPEG or PNG of `sensor_msgs/msg/CompressedImage`, small enough for a page.
+    Decode `sensor_msgs/msg/CompressedImage`, small enough for a page: JPEG, PNG or depths.
 
     Parameters
     ----------
@@ -150,16 +150,15 @@ def decode_compressed_image(message: Any, brightness: Brightness) -> Picture:
     Raises
     ------
     ValueError
-        The image is too large, broken or of another format, such as a compressed depth image.
+        The image is too large, broken or of another format.
 
     """
     from PIL import Image, UnidentifiedImageError
 
     if 'compressedDepth' in message.format:
-        raise ValueError(
-            f"its format is '{message.format}', which contains a depth image; show the topic of "
-            'the raw depth image.'
-        )
+        from image_transport import decode_compressed_depth
+
+        return decode_image(decode_compressed_depth(message), brightness)
     try:
         with Image.open(io.BytesIO(bytes(message.data)), formats=('JPEG', 'PNG')) as opened:
             return _small(opened, brightness)

@@ -11,7 +11,7 @@ from rviz_common.frames import FrameError
 from rviz_common.properties import Number
 from rviz_common.status import Level
 from rviz_default_plugins.decoding.images import Picture
-from rviz_default_plugins.displays.image import IMAGE_TOPIC, ImageTopicDisplay
+from rviz_default_plugins.displays.image import COMPRESSED, IMAGE_TOPIC, ImageTopicDisplay
 from sensor_msgs.msg import CameraInfo
 
 __all__ = ['Camera']
@@ -117,7 +117,7 @@ def info_topic(topic: str) -> str:
         Such as `/camera/camera_info`.
 
     """
-    image = topic.removesuffix('/compressed')
+    image = topic.rpartition('/')[0] if topic.endswith(COMPRESSED) else topic
     return f'{image.rpartition("/")[0]}/camera_info'.replace('//', '/')
 
 

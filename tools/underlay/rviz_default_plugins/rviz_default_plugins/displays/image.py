@@ -19,7 +19,10 @@ from rviz_default_plugins.decoding.images import (
 from sensor_msgs.msg import CompressedImage
 from sensor_msgs.msg import Image as ImageMessage
 
-__all__ = ['IMAGE_TOPIC', 'Image', 'ImageTopicDisplay']
+__all__ = ['COMPRESSED', 'IMAGE_TOPIC', 'Image', 'ImageTopicDisplay']
+
+COMPRESSED = ('/compressed', '/compressedDepth')
+"""Ends of the names of topics with compressed images: transports of `image_transport`."""
 
 IMAGE_TOPIC = topic_properties('sensor_msgs/msg/Image', '/image')
 PERIOD_S = 0.1
@@ -32,7 +35,8 @@ class ImageTopicDisplay(TopicDisplay):
     The newest picture of a topic.
 
     It is shown at most 10 times a second, and only while a page is open.
-    A topic whose name ends with `/compressed` has compressed images.
+    As in RViz2, a topic whose name ends with `/compressed` or `/compressedDepth` has compressed
+    images.
     """
 
     MESSAGE = ImageMessage
@@ -89,7 +93,7 @@ class ImageTopicDisplay(TopicDisplay):
 
     def message_type(self, topic: str) -> type:
         """
-        Choose the class of the messages: compressed images if the topic ends with `/compressed`.
+        Choose the class of the messages by the transport with which the name of the topic ends.
 
         Parameters
         ----------
@@ -97,7 +101,7 @@ class ImageTopicDisplay(TopicDisplay):
             The topic.
 
         """
-        kind: type = CompressedImage if topic.endswith('/compressed') else ImageMessage
+        kind: type = CompressedImage if topic.endswith(COMPRESSED) else ImageMessage
         return kind
 
     def take(self, message: Any) -> None:

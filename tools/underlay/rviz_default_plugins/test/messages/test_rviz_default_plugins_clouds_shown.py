@@ -438,9 +438,10 @@ def test_strange_images(message_stage, clocked):
 
 
 def test_compressed_topic(message_stage, clocked):
-    """A topic that ends with /compressed has compressed images."""
+    """A topic that ends with /compressed or /compressedDepth has compressed images."""
     display = message_stage.show(Image, {'Topic': {'Value': '/camera/compressed'}})
     assert display.message_type('/camera/compressed') is CompressedImage
+    assert display.message_type('/camera/compressedDepth') is CompressedImage
     assert display.message_type('/camera') is ImageMessage
     message_stage.node.say('/camera/compressed', CompressedImage(format='jpeg', data=b'no'))
     display.update()
@@ -490,6 +491,7 @@ def test_info_of_a_camera_is_beside_its_images():
     """The topic of the CameraInfo is that of the images with another last part."""
     assert info_topic('/head/image_raw') == '/head/camera_info'
     assert info_topic('/head/image_raw/compressed') == '/head/camera_info'
+    assert info_topic('/head/depth/compressedDepth') == '/head/camera_info'
     assert info_topic('/image') == '/camera_info'
     with pytest.raises(ValueError, match='0 wide'):
         view_of(CameraInfo())

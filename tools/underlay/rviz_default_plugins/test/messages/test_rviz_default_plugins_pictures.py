@@ -4,6 +4,7 @@
 import io
 from types import SimpleNamespace
 
+from image_transport import encode_compressed_depth
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
 from PIL import Image as Pillow
@@ -190,6 +191,13 @@ def test_compressed_gray_and_depth():
     assert shown[0, :, 0].tolist() == [0, 255]
 
 
+def test_compressed_depth():
+    """Compressed depths are shown as raw ones are; what was not measured is black."""
+    metres = image('32FC1', [1.0, 3.0, float('nan')], 3, kind='<f4')
+    picture = decode_compressed_image(encode_compressed_depth(metres), Brightness((0.0, 4.0)))
+    assert picture.pixels[0, :, 0].tolist() == [63, 191, 0]
+
+
 @pytest.mark.parametrize('kind', ['PNG', 'JPEG'])
 def test_great_compressed_images_are_made_smaller(kind):
     """A compressed picture of 3840 x 2160 is shown three times smaller, too."""
@@ -200,13 +208,13 @@ def test_great_compressed_images_are_made_smaller(kind):
 
 
 def test_broken_compressed_images_are_refused():
-    """What is no picture, is cut off, has a depth inside or is immense is refused."""
+    """What is no picture, is cut off, is immense or an unknown kind of depth is refused."""
     whole = compressed(np.random.default_rng(1).integers(0, 255, (64, 64, 3), np.uint8), 'PNG')
     for data, format_text, reason in (
         (b'', 'jpeg', '0 bytes'),
         (b'hello', 'jpeg', 'neither a JPEG nor a PNG'),
         (bytes(whole.data)[:500], 'png', 'broken'),
-        (b'', '16UC1; compressedDepth png', 'contains a depth image'),
+        (b'', '16UC1; compressedDepth rvl', "'16UC1; compressedDepth rvl' is not supported"),
         (immense_png(), 'png', '(too large|broken)'),
     ):
         with pytest.raises(ValueError, match=reason):
