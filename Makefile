@@ -78,6 +78,7 @@ bench: build ## Measure what commands, launches, bags, transforms, RViz, physics
 	@$(RUN) python3 tools/benchmarks/simulation.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/navigation.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/perception.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/compressed_images.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/planner.py $(ARGS)
 
 soak: build ## Let the humanoid walk for 20 minutes under bad conditions; an interrupted soak goes on

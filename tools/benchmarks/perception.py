@@ -72,14 +72,14 @@ def main() -> None:
         else:
             print(f'{"CPU ms":>7}  what, median of {given.runs} runs')
             for what, action in rows():
-                print(f'{median_of(partial(_cost_ms, action), given.runs):7.2f}  {what}')
+                print(f'{median_of(partial(cost_ms, action), given.runs):7.2f}  {what}')
         rclpy.shutdown()
 
 
 def rows() -> Iterator[tuple[str, Any]]:
     """Yield the operations on an image of the apartment, for several sizes."""
     for width, height in ((320, 240), (640, 480), CAMERA_PX):
-        color, depth_m, camera = _picture(width, height)
+        color, depth_m, camera = rendered_view(width, height)
         for backend in ('onnx', 'colour'):
             detector = make_detector(DetectorParameters(backend=backend))
             detect = partial(detector.detect, color, depth_m, camera.fx_px, 0.4, 0.5)
@@ -100,8 +100,21 @@ def _lift_all(found: Any, depth_m: Any, camera: Any) -> None:
             lift(each.class_id, surface, camera)
 
 
-def _picture(width_px: int, height_px: int) -> tuple[Any, Any, Any]:
-    """Render the robot's view at its start: colour, depth and the camera model."""
+def rendered_view(width_px: int, height_px: int) -> tuple[Any, Any, Any]:
+    """
+    Render the robot's view at its start in the apartment.
+
+    Parameters
+    ----------
+    width_px, height_px
+        The size of the images.
+
+    Returns
+    -------
+    tuple
+        Red, green and blue (height, width, 3), depth in m (height, width), and the camera model.
+
+    """
     view = CameraView(in_world('', 'head_camera'), width_px, height_px)
     model = build_world(humanoid(), load_scene('apartment'), (Placement(),), Physics())
     data = mujoco.MjData(model)
@@ -113,7 +126,16 @@ def _picture(width_px: int, height_px: int) -> tuple[Any, Any, Any]:
     return color, depth_m, camera_of(matrix, width_px, height_px, (height_px, width_px))
 
 
-def _cost_ms(action: Any) -> float:
+def cost_ms(action: Any) -> float:
+    """
+    Measure the CPU time of this thread in ms for one call.
+
+    Parameters
+    ----------
+    action
+        Called without arguments.
+
+    """
     begin_s = time.thread_time()
     action()
     return 1e3 * (time.thread_time() - begin_s)
@@ -218,7 +240,7 @@ def measure_camera(seconds: float) -> None:
 
     """
     width, height = CAMERA_PX
-    color, depth_m, camera = _picture(width, height)
+    color, depth_m, camera = rendered_view(width, height)
     listener = Listener(simulated=False)
     make = listener.create_publisher
     publishers = (
