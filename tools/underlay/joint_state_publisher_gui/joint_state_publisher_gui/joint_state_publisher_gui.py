@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that publishes joint positions set by sliders on a browser page."""
+"""The node that publishes joint positions set by sliders on a page, its own or that of RViz."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from joint_state_publisher.joint_state_publisher import Extra, JointStatePublisher
 from joint_state_publisher.merged_joints import MergedJoints
@@ -13,18 +13,25 @@ from joint_state_publisher_gui.board import Board
 from joint_state_publisher_gui.joint_page import JointPage
 from joint_state_publisher_gui.poses import poses_folder
 from rclpy.clock import Clock, ClockType
+from rclpy.qos import QoSProfile
 from rviz_common.inputs import WorkQueue
-from rviz_common.page import Page, PortError
-from rviz_common.page.address import PageSettings, PARAMETERS
+from rviz_common.page.address import PageSettings, PARAMETERS, PortError
+from sensor_msgs.msg import JointState
 from urdf import RobotModel
+
+if TYPE_CHECKING:
+    from rviz_common.page import Page
 
 __all__ = ['JointStatePublisherGui']
 
 PROGRAM = 'joint_state_publisher_gui'
 FRAME_S = 0.1
+POSITIONS = '~/slider_positions'
+OWN_PAGE = 'own_page'
 
 EXTRAS = {
     'num_rows': Extra(0, 'Has no effect here: the page scrolls.'),
+    OWN_PAGE: Extra(True, 'Serve a page with the sliders; else only panels of RViz have them.'),
     **{name: Extra(*about) for name, about in PARAMETERS.items()},
 }
 
@@ -32,6 +39,8 @@ EXTRAS = {
 class JointStatePublisherGui(JointStatePublisher):
     """
     Publishes the joint states of a robot whose joints are moved by sliders in the browser.
+
+    The sliders of other programs, such as a panel of RViz, move the joints through a topic.
 
     Parameters
     ----------
@@ -41,9 +50,9 @@ class JointStatePublisherGui(JointStatePublisher):
     Attributes
     ----------
     page
-        The server of the page.
+        The server of the page; None without a page of its own.
     joint_page
-        The widgets of the page.
+        The widgets of the page; None without one.
 
     Raises
     ------
@@ -56,6 +65,7 @@ class JointStatePublisherGui(JointStatePublisher):
 
     def __init__(self, file: str | None = None) -> None:
         self._board: Board | None = None
+        self.page: Page | None = None
         self.joint_page: JointPage | None = None
         super().__init__(file)
         values = {name: self.get_parameter(name).value for name in EXTRAS}
@@ -63,6 +73,19 @@ class JointStatePublisherGui(JointStatePublisher):
             self.get_logger().info(
                 "The parameter 'num_rows' has no effect here: the page scrolls."
             )
+        positions = self.create_subscription(
+            JointState,
+            POSITIONS,
+            lambda message: self._take(positions.topic_name, message),
+            QoSProfile(depth=10),
+        )
+        if checked(OWN_PAGE, values[OWN_PAGE], True):
+            self._open_page(values)
+        else:
+            self.get_logger().info("The sliders are in the panel 'robot_console/Sliders' of RViz.")
+
+    def _open_page(self, values: Mapping[str, Any]) -> None:
+        """Serve the page, or raise ValueError."""
         self.page = _serve(values)
         self.joint_page = JointPage(self.page.viser, self._make_queue(), poses_folder())
         if self._board is not None:
@@ -108,12 +131,15 @@ class JointStatePublisherGui(JointStatePublisher):
 
     def destroy_node(self) -> None:
         """Stop the page server, and destroy the node."""
-        self.page.close()
+        if self.page is not None:
+            self.page.close()
         super().destroy_node()
 
 
 def _serve(values: Mapping[str, Any]) -> Page:
     """Start the page server, or raise ValueError."""
+    from rviz_common.page import Page
+
     try:
         return Page(PROGRAM, _page_settings_of(values))
     except PortError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Saved poses of a robot: the file that holds them, and the folder of the page with them."""
+"""Saved poses of a robot: their file, what can be done with them, and their widgets."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import yaml
 if TYPE_CHECKING:
     from viser import GuiApi
 
-__all__ = ['Pose', 'PoseError', 'PoseFolder', 'Poses', 'pose_file', 'poses_folder']
+__all__ = ['BoardPoses', 'Pose', 'PoseError', 'PoseFolder', 'Poses', 'pose_file', 'poses_folder']
 
 Pose = Mapping[str, float]
 """Positions in rad or m by joint name."""
@@ -185,6 +185,75 @@ class Poses:
             ) from error
 
 
+class BoardPoses:
+    """
+    Saves the positions of sliders as poses, and moves the sliders to poses.
+
+    Each operation returns sentences for the user, and raises PoseError if the file cannot be used.
+
+    Parameters
+    ----------
+    board
+        The sliders.
+    poses
+        The file of the poses.
+
+    """
+
+    def __init__(self, board: Board, poses: Poses) -> None:
+        self._board = board
+        self._poses = poses
+
+    def names(self) -> list[str]:
+        """Return the names of the saved poses."""
+        return list(self._poses.read())
+
+    def load(self, name: str) -> list[str]:
+        """
+        Move the sliders to a pose, as far as the robot has its joints.
+
+        Parameters
+        ----------
+        name
+            The name of the pose.
+
+        """
+        pose = self._poses.read().get(name)
+        if pose is None:
+            return [self._missing(name)]
+        return [f"The pose '{name}' is loaded.", *self._board.apply(pose)]
+
+    def save(self, name: str) -> list[str]:
+        """
+        Save where the sliders are.
+
+        Parameters
+        ----------
+        name
+            The name of the pose, as typed.
+
+        """
+        saved = self._poses.save(name, self._board.pose())
+        return [f"The pose '{saved}' is saved in {self._poses.file}."]
+
+    def delete(self, name: str) -> list[str]:
+        """
+        Delete a pose.
+
+        Parameters
+        ----------
+        name
+            The name of the pose.
+
+        """
+        if self._poses.delete(name):
+            return [f"The pose '{name}' is deleted."]
+        return [self._missing(name)]
+
+    def _missing(self, name: str) -> str:
+        return f"There is no pose '{name}' in {self._poses.file}."
+
+
 class PoseFolder:
     """
     The widgets to save, load and delete poses.
@@ -207,8 +276,7 @@ class PoseFolder:
     def __init__(
         self, gui: GuiApi, post: Post, board: Board, poses: Poses, say: Callable[..., None]
     ) -> None:
-        self._board = board
-        self._poses = poses
+        self._poses = BoardPoses(board, poses)
         self._say = say
         with gui.add_folder('Poses'):
             self.saved: Any = gui.add_dropdown('Saved', (NONE,), hint=f'Kept in {poses.file}')
@@ -232,35 +300,24 @@ class PoseFolder:
 
     def _list(self) -> None:
         """Update the list of saved poses from the file."""
-        names = tuple(self._poses.read()) or (NONE,)
+        names = tuple(self._poses.names()) or (NONE,)
         if self.saved.options != names:
             self.saved.options = names
 
     def _load(self) -> None:
-        name = self.saved.value
-        pose = self._poses.read().get(name)
+        sentences = self._poses.load(self.saved.value)
         self._list()
-        if pose is None:
-            self._say_missing(name)
-            return
-        self._say(f"The pose '{name}' is loaded.", *self._board.apply(pose))
+        self._say(*sentences)
 
     def _save(self) -> None:
-        name = self._poses.save(self.name.value, self._board.pose())
+        sentences = self._poses.save(self.name.value)
         self._list()
-        self.saved.value = name
-        self._say(f"The pose '{name}' is saved in {self._poses.file}.")
+        self.saved.value = self.name.value.strip()
+        self._say(*sentences)
 
     def _delete(self) -> None:
-        name = self.saved.value
-        if self._poses.delete(name):
-            self._say(f"The pose '{name}' is deleted.")
-        else:
-            self._say_missing(name)
+        self._say(*self._poses.delete(self.saved.value))
         self._list()
-
-    def _say_missing(self, name: str) -> None:
-        self._say(f"There is no pose '{name}' in {self._poses.file}.")
 
 
 def _is_position(value: Any) -> bool:

@@ -130,6 +130,15 @@ def test_sources_move_sliders(probe: Probe, gui: JointStatePublisherGui) -> None
     assert slider.value == heard[-1].position[0] == 0.5
 
 
+def test_sliders_of_others(probe: Probe, gui: JointStatePublisherGui) -> None:
+    """A panel of RViz moves joints through a topic, and the sliders of the page follow."""
+    heard = probe.listen(JointState, '/joint_states')
+    panel = probe.sender(JointState, '/joint_state_publisher/slider_positions')
+    panel.publish(probe.state(left_elbow=0.5))
+    probe.until(lambda: heard and list(heard[-1].position) == [0.0, 0.5], 'nothing moves')
+    probe.until(lambda: sliders(gui)['left_elbow'].value == 0.5, 'the slider does not follow')
+
+
 def test_a_slider_that_missed_something_agrees_in_the_end(
     probe: Probe, gui: JointStatePublisherGui
 ) -> None:

@@ -51,6 +51,16 @@ def test_serves_its_page_until_it_ends(
     assert 'Traceback' not in program.output
 
 
+def test_without_a_page(probe: Probe, programs: Programs, robot: str) -> None:
+    """Where RViz has the sliders, the node publishes without a page of its own."""
+    program = programs.start(MODULE, robot, own_page='false')
+    heard = probe.listen(JointState, '/joint_states')
+    probe.until(lambda: heard, 'no joint states')
+    assert "The sliders are in the panel 'robot_console/Sliders' of RViz." in program.output
+    assert program.end() == 0
+    assert 'The sliders are at' not in program.output
+
+
 def test_waits_for_a_robot(probe: Probe, programs: Programs) -> None:
     """Without a robot the page is there, and says what it waits for."""
     program = programs.start(MODULE, hots='1')
@@ -69,6 +79,7 @@ def test_waits_for_a_robot(probe: Probe, programs: Programs) -> None:
         ([], {'port': '8080.5'}, "The parameter 'port' must be a whole number, and not 8080.5."),
         ([], {'port': '70000'}, 'The port is 70000, but must be from 1 to 65535.'),
         ([], {'port': 'web'}, "The parameter 'port' must be a number, and not 'web'."),
+        ([], {'own_page': '1'}, "The parameter 'own_page' must be true or false, and not 1."),
         ([], {'token': '7'}, "The parameter 'token' must be a string, and not 7."),
     ],
 )
