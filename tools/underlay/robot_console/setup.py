@@ -6,6 +6,7 @@ from setuptools import find_packages, setup
 package_name = 'robot_console'
 COMMAND = 'robot_console/Command = robot_console.panels.command:Command'
 OBJECTS = 'robot_console/Objects = robot_console.panels.objects:Objects'
+SLIDERS = 'robot_console/Sliders = robot_console.panels.sliders:Sliders'
 
 setup(
     name=package_name,
@@ -42,9 +43,10 @@ setup(
             'robot_console/Robot = robot_console.panels.robot:Robot',
             'robot_console/Safety = robot_console.panels.safety:Safety',
             'robot_console/Services = robot_console.panels.services:Services',
+            SLIDERS,
             'robot_console/Topics = robot_console.panels.topics:Topics',
         ],
-        'rviz_common.panels_on_demand': [COMMAND, OBJECTS],
+        'rviz_common.panels_on_demand': [COMMAND, OBJECTS, SLIDERS],
         'rviz_common.tools': [
             'robot_console/Push = robot_console.push:Push',
             'robot_console/WalkHere = robot_console.walk_here.walk_here:WalkHere',

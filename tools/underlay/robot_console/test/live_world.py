@@ -26,6 +26,7 @@ from robot_console.panels.objects import Objects
 from robot_console.panels.parameters import Parameters
 from robot_console.panels.robot import Robot
 from robot_console.panels.services import Services
+from robot_console.panels.sliders import Sliders
 from robot_console.panels.topics import Topics
 from rviz_common.context import Context
 from rviz_common.inputs import WorkQueue
@@ -37,7 +38,7 @@ __all__ = ['PANELS', 'Browser', 'LiveWorld', 'live_world']
 
 PANELS = {'log': Log, 'diagnostics': Diagnostics, 'topics': Topics}
 PANELS |= {'command': Command, 'objects': Objects, 'parameters': Parameters, 'robot': Robot}
-PANELS |= {'gestures': Gestures, 'services': Services}
+PANELS |= {'gestures': Gestures, 'services': Services, 'sliders': Sliders}
 
 
 class LiveWorld:

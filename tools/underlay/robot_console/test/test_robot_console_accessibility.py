@@ -18,6 +18,7 @@ from robot_console.panels.safety import Safety
 from robot_console.robot_link import LATCHED
 from rviz_common.page import Page, PageSettings
 from rviz_common.panel import Panel
+from slider_node import SliderNode
 from std_msgs.msg import Header, String
 from std_srvs.srv import Trigger
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
@@ -36,6 +37,7 @@ PAGES = {
     'safety': ('#dot.good', '#kind', '#take'),
     'phone': ('#driveDot.good', '#stop', '#release'),
     'services': ('.item', '.item', '#request'),
+    'sliders': ('.joint', '#form button', '#bad'),
     'topics': ('.item', '.item', '#ends h3'),
 }
 
@@ -109,6 +111,7 @@ def obstacles_in_themes(tab: Any) -> list[str]:
 def test_pages(world: LiveWorld, open_tab: Any) -> None:
     """Names, roles, contrast and focus are right in each page with what it has to show."""
     Talker(world)
+    SliderNode(world)
     tab = open_tab(400, 600)
     found: list[str] = []
     for name, (before, clicked, after) in PAGES.items():

@@ -13,6 +13,7 @@ from robot_console.live_panel import LivePanel
 from robot_console.parameter_values import described, parameter_value
 from robot_console.service_calls import ServiceCalls
 from ros2param.api import LIST_SERVICE
+from ros2param.api.values import to_plain_value
 from rviz_common.page.channel import Action, Viewer
 
 __all__ = ['Parameters', 'RemoteParameters']
@@ -74,6 +75,10 @@ class RemoteParameters:
 
         """
         self._values[name] = value
+
+    def plain_values(self) -> dict[str, Any]:
+        """Return the values as plain Python values, by name; None for those that are not set."""
+        return {name: to_plain_value(value) for name, value in self._values.items()}
 
     def told(self) -> dict[str, dict[str, Any]]:
         """Describe all parameters for the page."""
