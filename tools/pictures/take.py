@@ -82,7 +82,7 @@ TURTLES = (
 )
 """Their name, place, pen, and how they go round: speed and rate; the first is there already."""
 TURTLE_S = 3.0
-ADDRESS = re.compile(r'(RViz is|The sliders are|The turtles are) at (http://\S+)')
+ADDRESS = re.compile(r'(RViz is|The turtles are) at (http://\S+)')
 
 
 def main() -> None:
@@ -157,7 +157,7 @@ def command(browser: Any) -> None:
 
 def sliders(browser: Any) -> None:
     """
-    Take the pictures of the model alone: its sliders and its frames.
+    Take the picture of the model alone, with its sliders.
 
     Parameters
     ----------
@@ -165,9 +165,8 @@ def sliders(browser: Any) -> None:
         The browser of Playwright.
 
     """
-    with launched('humanoid_description', 'view.launch.py', 2) as addresses:
-        picture_sliders(browser, addresses['The sliders are'])
-        picture_frames(browser, addresses['RViz is'])
+    with launched('humanoid_description', 'view.launch.py', 1) as addresses:
+        picture_sliders(browser, addresses['RViz is'])
 
 
 def turtlesim(browser: Any) -> None:
@@ -477,28 +476,7 @@ def seen_from(pose: str) -> NDArray[np.uint8]:
 
 def picture_sliders(browser: Any, address: str) -> None:
     """
-    Raise an arm with the sliders, and take their picture.
-
-    Parameters
-    ----------
-    browser, address
-        The browser of Playwright, and the URL of the sliders.
-
-    """
-    tab = opened(browser, address)
-    for label, angle in (('shoulder_roll', '1.2'), ('elbow', '-1.4')):
-        name = tab.locator('label', has_text=label).first
-        row = name.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
-        row.locator('input').last.fill(angle)
-    tab.wait_for_timeout(2000)
-    panel = {'x': WIDTH - 464, 'y': 0, 'width': 464, 'height': HEIGHT}
-    keep('sliders', lambda path: tab.screenshot(path=path, clip=panel))
-    tab.close()
-
-
-def picture_frames(browser: Any, address: str) -> None:
-    """
-    Take the picture of the frames of the robot.
+    Raise an arm with the sliders, and take the picture of the page.
 
     Parameters
     ----------
@@ -507,7 +485,13 @@ def picture_frames(browser: Any, address: str) -> None:
 
     """
     tab = opened(browser, address)
-    keep('frames', tab.screenshot)
+    panel = tab.frame_locator('iframe[title=sliders]')
+    for joint, angle in (('left_shoulder_roll', '1.2'), ('left_elbow', '-1.4')):
+        field = panel.get_by_role('spinbutton', name=joint)
+        field.fill(angle)
+        field.press('Enter')
+    tab.wait_for_timeout(2000)
+    keep('sliders', tab.screenshot)
     tab.close()
 
 

@@ -13,9 +13,8 @@ from domain_coordinator import domain_id
 from programs import Program, wait_until
 from ros_side import ros_side, RosSide
 
-__all__ = ['RVIZ', 'SLIDERS', 'STRAINED', 'World', 'memory_mb', 'pid_of', 'url_of', 'world']
+__all__ = ['STRAINED', 'World', 'memory_mb', 'pid_of', 'url_of', 'world']
 
-RVIZ, SLIDERS = 'RViz is', 'The sliders are'
 STRAINED = 'A browser sent an unexpected message'
 STARTED = re.compile(r'\[(\w+)-\d+\]: process started with pid \[(\d+)\]')
 BAD = (
@@ -65,9 +64,9 @@ class World:
             program.clean_up()
 
 
-def url_of(program: Program, said: str = RVIZ) -> str:
-    """Return the address that a program prints."""
-    pattern = re.compile(rf'{said} at (http://\S+)')
+def url_of(program: Program) -> str:
+    """Return the address of RViz that a program prints."""
+    pattern = re.compile(r'RViz is at (http://\S+)')
     wait_until(lambda: pattern.search(program.output), 100.0, lambda: program.output)
     return pattern.findall(program.output)[-1]
 

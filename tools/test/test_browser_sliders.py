@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Move joints in one page of the browser, and see them move in another one."""
+"""Move joints with sliders in the browser, and see them move in the same page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import math
 
 from browser import Browser, browser_started
-from browser_world import RVIZ, SLIDERS, STRAINED, url_of, World, world
+from browser_world import STRAINED, url_of, World, world
 from programs import wait_until
 import pytest
 from ros_side import expected_place
@@ -39,12 +39,13 @@ def shown(tmp_path_factory: pytest.TempPathFactory, browser: Browser) -> Iterato
 def test_a_slider_moves_the_robot(shown: World, browser: Browser) -> None:
     """All nodes are there; a slider changes the state of its joint, and the link in RViz."""
     program = shown.programs[0]
-    rviz = browser.open(url_of(program, RVIZ))
+    rviz = browser.open(url_of(program))
     rviz.wait_for_link('neck')
     wait_until(lambda: shown.ros.nodes() >= NODES, 60.0, lambda: f'nodes: {shown.ros.nodes()}')
     states = shown.ros.listen(JointState, '/joint_states')
-    sliders = browser.open(url_of(program, SLIDERS))
-    sliders.box('head_yaw').fill('0.5')
+    slider = rviz.small('sliders').get_by_role('spinbutton', name='head_yaw')
+    slider.fill('0.5')
+    slider.press('Enter')
 
     def state() -> float:
         return states[-1].position[states[-1].name.index('head_yaw')] if states else math.nan
@@ -52,9 +53,9 @@ def test_a_slider_moves_the_robot(shown: World, browser: Browser) -> None:
     wait_until(lambda: state() == pytest.approx(0.5, abs=0.01), 30.0, lambda: f'not {state()}')
     expected = expected_place(shown.ros.model(), 'head_yaw', state())
     wait_until(lambda: rviz.place('neck').is_near(expected), 100.0, 'the neck to turn')
-    for tab, name in ((sliders, 'sliders'), (rviz, 'sliders_rviz')):
-        tab.picture(name)
-        assert (tab.elsewhere, tab.failures) == ([], [])
+    rviz.picture('sliders')
+    assert (rviz.elsewhere, rviz.failures) == ([], [])
+    assert 'The sliders are at' not in program.output
     assert program.end() == 0
     assert shown.complaints() == []
     assert STRAINED not in program.output

@@ -14,6 +14,8 @@ from launch_ros.substitutions import FindPackageShare
 
 # Joints follow these topics; without a message they stay where the sliders are, or at zero.
 SOURCES = {'source_list': ['joint_commands']}
+# RViz in the browser has the sliders in a panel; the RViz with a window ignores this.
+IN_RVIZ = {'own_page': False}
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -77,7 +79,7 @@ def generate_launch_description() -> LaunchDescription:
             Node(
                 package='joint_state_publisher_gui',
                 executable='joint_state_publisher_gui',
-                parameters=[SOURCES, time],
+                parameters=[SOURCES, IN_RVIZ, time],
                 condition=IfCondition(gui),
             ),
             Node(
