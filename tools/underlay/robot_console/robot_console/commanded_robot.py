@@ -3,30 +3,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import replace
-from math import isfinite
 import time
 
+from robot_console.commanded_joints import CommandedJoints, following_links, Tolerances
 from robot_console.namespaces import below, NAMESPACE
 from rviz_common.frames import Pose
 from rviz_common.polled_topic import PolledTopic
-from rviz_common.properties import ColorOf, Flag, Property, qos_of, topic_properties
+from rviz_common.properties import ColorOf, Flag, Number, Property, qos_of, topic_properties
 from rviz_common.selection import Hit, Ray
 from rviz_common.status import Level
 from rviz_default_plugins.displays.robot_model import RobotModel
-from rviz_default_plugins.robot.robot_scene import Look, PoseOf
-from urdf import Color, followed, Joint
+from rviz_default_plugins.robot.robot_scene import Look, PoseOf, RobotScene
+from urdf import Color, Joint
 from urdf import RobotModel as Robot
-from urdf.kinematics import joint_motion
-from urdf.kinematics import Pose as JointPose
 
-__all__ = ['CommandedJoints', 'CommandedRobot']
-
-VALID_S = 1.0
+__all__ = ['CommandedRobot']
 
 COMMANDS = 'Command Topic'
 OWN_COLOR = 'Use Color'
+NEAR, ALIGNED = 'Position Tolerance', 'Angle Tolerance'
+SHOWN = 'The ghost shows the links that lag behind their commands.'
+FOLLOWING = 'All links follow their commands, so the ghost is hidden.'
 MARGIN_M = 0.003
 MAX_NAMES = 5
 DEFAULTS = {
@@ -34,111 +33,6 @@ DEFAULTS = {
     'Description Topic/Value': 'robot_description',
     'Command Topic/Reliability Policy': 'Best Effort',
 }
-
-
-class CommandedJoints:
-    """
-    The joint positions commanded in the last second, and the link poses that result from them.
-
-    Each command may contain only some of the joints.
-
-    Parameters
-    ----------
-    model
-        The robot.
-
-    Attributes
-    ----------
-    unknown
-        The joints of the last command that the robot does not have, sorted.
-
-    """
-
-    def __init__(self, model: Robot) -> None:
-        self.model = model
-        self._mimics = model.mimics
-        self._motions = {joint.name: joint_motion(joint) for joint in model.moving_joints}
-        self._fixed = {
-            joint.name: _pose(joint_motion(joint)(0.0))
-            for joint in model.joints
-            if joint.kind == 'fixed'
-        }
-        self._told: dict[str, tuple[float, float]] = {}
-        self.unknown: list[str] = []
-
-    def take(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
-        """
-        Store a command; non-finite positions are ignored.
-
-        Parameters
-        ----------
-        names, positions
-            The joints and their commanded positions, in rad or m.
-        now_s
-            The time of reception, from `time.time`.
-
-        Raises
-        ------
-        ValueError
-            The numbers of positions and names differ; the message completes a sentence.
-
-        """
-        if len(positions) != len(names):
-            raise ValueError(f'it has {len(names)} names but {len(positions)} positions.')
-        for name, position in zip(names, positions):
-            if isfinite(position) and name in self._motions:
-                self._told[name] = float(position), now_s
-        self.unknown = sorted(set(names).difference(self._motions))
-
-    def is_told(self, now_s: float) -> bool:
-        """
-        Check whether a joint was commanded in the last second.
-
-        Parameters
-        ----------
-        now_s
-            The current time, from `time.time`.
-
-        """
-        return any(now_s - at_s < VALID_S for _, at_s in self._told.values())
-
-    def poses(self, now_s: float) -> dict[str, Pose]:
-        """
-        Compute the commanded forward kinematics, joint by joint.
-
-        Mimic joints follow their leaders. Fixed joints are included while any joint is commanded.
-
-        Parameters
-        ----------
-        now_s
-            The current time, from `time.time`; commands older than a second are ignored.
-
-        Returns
-        -------
-        dict
-            The pose of the child link of each joint, by joint name, in the frame of the parent
-            link: translation in m, quaternion w, x, y, z. Joints without a command are missing.
-
-        """
-        told = {
-            name: position
-            for name, (position, at_s) in self._told.items()
-            if now_s - at_s < VALID_S
-        }
-        if not told:
-            return {}
-        poses = dict(self._fixed)
-        for name, motion in self._motions.items():
-            leader = followed(name, self._mimics, told)
-            if leader is not None:
-                poses[name] = _pose(motion(leader.multiplier * told[leader.joint] + leader.offset))
-        return poses
-
-
-def _pose(pose: JointPose) -> Pose:
-    """Convert a pose to the quaternion order of the page: w, x, y, z."""
-    x, y, z, qx, qy, qz, qw = pose
-    return Pose((x, y, z), (qw, qx, qy, qz))
 
 
 def _with_default(each: Property) -> Property:
@@ -150,8 +44,8 @@ class CommandedRobot(RobotModel):
     """
     The robot as its joints were told to stand, at the place where it is.
 
-    Joints without a command are shown as measured. The ghost is hidden a second after the last
-    command.
+    A link is shown while it lags behind its command; joints without a command count as measured.
+    The ghost is hidden a second after the last command.
     """
 
     CLASS = 'robot_console/CommandedRobot'
@@ -163,6 +57,18 @@ class CommandedRobot(RobotModel):
         ),
         Flag(OWN_COLOR, True, 'Show it in one colour instead of those of the description.'),
         ColorOf('Color', (77, 171, 247), 'The colour of the ghost.'),
+        Number(
+            NEAR,
+            0.01,
+            'A link is shown if it is this far from its commanded position, in metres; 0: always.',
+            0.0,
+        ),
+        Number(
+            ALIGNED,
+            0.03,
+            'A link is also shown if it is turned this far, in radians; 0: always.',
+            0.0,
+        ),
         *map(_with_default, RobotModel.PROPERTIES),
     )
 
@@ -170,6 +76,8 @@ class CommandedRobot(RobotModel):
         """Request the description, and subscribe to the joint commands."""
         self._joints: CommandedJoints | None = None
         self._commands: PolledTopic | None = None
+        self._poses_of: tuple[PoseOf, PoseOf] | None = None
+        self._following: frozenset[str] = frozenset()
         super().start()
         self._hear(self.topic_of(COMMANDS))
 
@@ -251,9 +159,32 @@ class CommandedRobot(RobotModel):
         self._obey(self._joints)
         told = self._joints.poses(time.time())
         if not told:
+            self._poses_of = None
             return None, lambda joint: None
         root, measured = super().poses(model)
-        return root, lambda joint: told.get(joint.name) or measured(joint)
+
+        def commanded(joint: Joint) -> Pose | None:
+            return told.get(joint.name) or measured(joint)
+
+        self._poses_of = commanded, measured
+        return root, commanded
+
+    def hidden_links(self, robot: RobotScene) -> Set[str]:
+        """
+        Return the links that are where they were commanded to be: the robot itself shows those.
+
+        Parameters
+        ----------
+        robot
+            As for `RobotModel.hidden_links`.
+
+        """
+        if self._poses_of is not None:
+            tolerances = Tolerances(self.values[NEAR], self.values[ALIGNED])
+            self._following = following_links(
+                robot.model.root, robot.joints, self._poses_of, tolerances, self._following
+            )
+        return self._following
 
     def say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
         """
@@ -275,7 +206,8 @@ class CommandedRobot(RobotModel):
             level = Level.ERROR if self._refusal else Level.WARN
             self.say('Command', f'{self._without_command()} The ghost is hidden.', level)
             return
-        self.say('Command', 'The ghost shows the commanded pose.', Level.OK)
+        is_shown = len(self._following) < len(model.links)
+        self.say('Command', SHOWN if is_shown else FOLLOWING, Level.OK)
         self.say('Joints', _not_known(joints.unknown))
         super().say_reasons(model, root, unknown)
 

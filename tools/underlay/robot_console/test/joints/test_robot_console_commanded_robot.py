@@ -53,6 +53,35 @@ def test_follows_commands(stage: Stage, ghost: Any) -> None:
     assert 1.0 < box.dimensions[0] < 1.01
 
 
+def test_only_links_that_lag_behind_are_shown(stage: Stage, ghost: Any) -> None:
+    """A link that is where it was told to be is hidden, until it is not, or always shown."""
+    ghost.update()
+    command(stage, 0.5)
+    ghost.update()
+    body, ball = (stage.node_at(f'/display_0/{each}/visual_0') for each in ('base', 'base/arm'))
+    assert (body.visible, ball.visible) == (False, True)
+    assert 'The ghost shows the links that lag behind their commands.' in said(ghost)
+    stage.move('base', 'arm', wxyz=(math.cos(0.25), 0.0, 0.0, math.sin(0.25)))
+    ghost.on_change('Update Interval')  # also explains at once what is shown
+    ghost.update()
+    assert (body.visible, ball.visible) == (False, False)
+    assert 'All links follow their commands, so the ghost is hidden.' in said(ghost)
+    ghost.values['Position Tolerance'] = 0.0
+    ghost.update()
+    assert (body.visible, ball.visible) == (True, True)
+
+
+def test_hidden_links_stay_hidden_when_redrawn(stage: Stage, ghost: Any) -> None:
+    """A new look does not show the links that follow."""
+    command(stage, 0.0)
+    ghost.update()
+    ghost.values['Alpha'] = 0.6
+    ghost.on_change('Alpha')
+    ghost.update()
+    ball = stage.node_at('/display_0/base/arm/visual_0')
+    assert (ball.opacity, ball.visible) == (0.6, False)
+
+
 def test_hidden_without_commands(
     stage: Stage, ghost: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

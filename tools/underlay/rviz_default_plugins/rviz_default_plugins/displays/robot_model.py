@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from threading import Thread
 import time
 from typing import Any
@@ -96,6 +97,7 @@ class RobotModel(Display):
         self._next_s = now_s + self.values['Update Interval']
         root, pose_of = self.poses(robot.model)
         unknown = robot.place(root, pose_of)
+        robot.hide(self.hidden_links(robot))
         if now_s >= self._next_reasons_s:
             self._next_reasons_s = now_s + REASONS_S
             self.say_reasons(robot.model, root, unknown)
@@ -149,6 +151,18 @@ class RobotModel(Display):
         """
         frames, prefix = self.context.frames, self.prefix
         return frames.find(frames.fixed_frame, prefix + model.root), _poses(frames, prefix)
+
+    def hidden_links(self, robot: RobotScene) -> Set[str]:
+        """
+        Return the links whose bodies are hidden for now; called after `poses`.
+
+        Parameters
+        ----------
+        robot
+            The robot in the scene.
+
+        """
+        return frozenset()
 
     def topic_of(self, path: str) -> str:
         """

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Optional, TYPE_CHECKING
 from urllib.parse import quote
@@ -17,7 +17,7 @@ from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated, SOLID
 from urdf import Color, Joint, Link, Mesh, RobotModel, Shape
 
 if TYPE_CHECKING:
-    from viser import FrameHandle, SceneApi
+    from viser import FrameHandle, SceneApi, SceneNodeHandle
 
 __all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene']
 
@@ -95,6 +95,8 @@ class RobotScene:
 
     Attributes
     ----------
+    joints
+        The joints that are connected to the root, each after its parent joint.
     left_out
         The number of bodies that are not drawn, since there are more than `MAX_SHAPES`.
     is_removed
@@ -119,11 +121,13 @@ class RobotScene:
         self._shadow = ContactShadow(scene, path) if look.has_shadow else None
         self._links = links = {link.name: link for link in model.links}
         self._paths = paths = {model.root: f'{path}/{_named(model.root)}'}
+        self._hidden: Set[str] = frozenset()
         self._root = self._add(links[model.root], paths[model.root])
-        self._below: list[tuple[Joint, _LinkNode]] = []
-        for joint in _downwards(model):
+        self._nodes = {model.root: self._root}
+        self.joints = list(_downwards(model))
+        for joint in self.joints:
             node_path = paths[joint.child] = f'{paths[joint.parent]}/{_named(joint.child)}'
-            self._below.append((joint, self._add(links[joint.child], node_path)))
+            self._nodes[joint.child] = self._add(links[joint.child], node_path)
 
     def place(self, root: Pose | None, pose_of: PoseOf) -> list[Joint]:
         """
@@ -146,19 +150,34 @@ class RobotScene:
         if self._shadow is not None:
             self._shadow.place(root)
         unknown = []
-        for joint, node in self._below:
+        for joint in self.joints:
             pose = pose_of(joint)
-            node.place(pose)
+            self._nodes[joint.child].place(pose)
             if pose is None:
                 unknown.append(joint)
         return unknown
+
+    def hide(self, links: Set[str]) -> None:
+        """
+        Hide the bodies of some links, not of the links below them; show those of all others.
+
+        Parameters
+        ----------
+        links
+            The names of the links.
+
+        """
+        for link in self._hidden ^ links:
+            if link in self._nodes:
+                self._nodes[link].show_bodies(link not in links)
+        self._hidden = links
 
     def poses(self) -> dict[str, Pose]:
         """Compute the pose in the fixed frame of each link that is visible, by its name."""
         root = self._root.pose
         poses = {} if root is None else {self.model.root: root}
-        for joint, node in self._below:
-            above, pose = poses.get(joint.parent), node.pose
+        for joint in self.joints:
+            above, pose = poses.get(joint.parent), self._nodes[joint.child].pose
             if above is not None and pose is not None:
                 poses[joint.child] = above.of(pose)
         return poses
@@ -216,14 +235,17 @@ class RobotScene:
             visible=False,
         )
         alpha = self._look.alpha * self._look.links.alpha(link.name)
+        bodies: list[SceneNodeHandle] = []
         for name, shape in self._look.shapes(link):
             if self._drawn >= MAX_SHAPES:
                 self.left_out += 1
                 continue
             self._drawn += 1
             body = inflated(shape, self._look.margin_m)
-            draw_shape(self._scene, f'{path}/{name}', body, alpha, self._meshes, self._look.color)
-        return _LinkNode(handle)
+            bodies += draw_shape(
+                self._scene, f'{path}/{name}', body, alpha, self._meshes, self._look.color
+            )
+        return _LinkNode(handle, bodies)
 
 
 def _downwards(model: RobotModel) -> Iterator[Joint]:
@@ -264,11 +286,13 @@ class _LinkNode:
     ----------
     handle
         The handle of viser for an invisible node at the origin.
+    bodies
+        The handles of the visible bodies below it.
 
     """
 
-    def __init__(self, handle: FrameHandle) -> None:
-        self._handle = handle
+    def __init__(self, handle: FrameHandle, bodies: Iterable[SceneNodeHandle]) -> None:
+        self._handle, self._bodies = handle, bodies
         self._pose = Pose()
         self._is_visible = False
 
@@ -297,3 +321,16 @@ class _LinkNode:
         if pose.wxyz != self._pose.wxyz:
             self._handle.wxyz = pose.wxyz
         self._pose = pose
+
+    def show_bodies(self, are_shown: bool) -> None:
+        """
+        Show or hide the bodies of the link, not the links below it.
+
+        Parameters
+        ----------
+        are_shown
+            Whether they are shown.
+
+        """
+        for body in self._bodies:
+            body.visible = are_shown

@@ -13,7 +13,7 @@ from urdf import Box, Capsule, Color, Cylinder, Geometry, Mesh, Shape, Sphere
 from urdf.kinematics import rotation_of
 
 if TYPE_CHECKING:
-    from viser import SceneApi
+    from viser import SceneApi, SceneNodeHandle
 
 __all__ = ['SOLID', 'draw_shape', 'inflated']
 
@@ -32,7 +32,7 @@ def draw_shape(
     alpha: float,
     meshes: Mapping[str, DrawnMesh],
     tint: Color | None = None,
-) -> None:
+) -> list[SceneNodeHandle]:
     """
     Draw a body of a link, in its own colours or in a tint.
 
@@ -53,24 +53,28 @@ def draw_shape(
     tint
         The colour that replaces its own colours, None to keep those.
 
+    Returns
+    -------
+    list[SceneNodeHandle]
+        The nodes that were added.
+
     """
     x, y, z, w = rotation_of(shape.origin.rpy)
     place: dict[str, Any] = {'position': shape.origin.xyz, 'wxyz': (w, x, y, z)}
     body = shape.geometry
     if isinstance(body, Mesh):
         mesh = meshes.get(body.file)
-        if mesh is not None:
-            _draw_mesh(scene, path, mesh, body, (tint, shape.color), alpha, place)
-        return
+        if mesh is None:
+            return []
+        return _draw_mesh(scene, path, mesh, body, (tint, shape.color), alpha, place)
     look = _look(tint or shape.color or GREY, alpha)
     if isinstance(body, Box):
-        scene.add_box(path, dimensions=body.size, **look, **place)
-    elif isinstance(body, Sphere):
-        scene.add_icosphere(path, radius=body.radius, **look, **place)
-    elif isinstance(body, Cylinder):
-        scene.add_cylinder(path, radius=body.radius, height=body.length, **look, **place)
-    else:
-        _draw_capsule(scene, path, body, look, place)
+        return [scene.add_box(path, dimensions=body.size, **look, **place)]
+    if isinstance(body, Sphere):
+        return [scene.add_icosphere(path, radius=body.radius, **look, **place)]
+    if isinstance(body, Cylinder):
+        return [scene.add_cylinder(path, radius=body.radius, height=body.length, **look, **place)]
+    return [_draw_capsule(scene, path, body, look, place)]
 
 
 def _look(color: Color, alpha: float) -> dict[str, Any]:
@@ -85,12 +89,12 @@ def _look(color: Color, alpha: float) -> dict[str, Any]:
 
 def _draw_capsule(
     scene: SceneApi, path: str, body: Capsule, look: dict[str, Any], place: dict[str, Any]
-) -> None:
+) -> SceneNodeHandle:
     from trimesh.creation import capsule
 
     mesh = capsule(height=body.length, radius=body.radius)
     centred = np.asarray(mesh.vertices) - mesh.bounds.mean(axis=0)
-    scene.add_mesh_simple(path, centred, mesh.faces, **look, **place)
+    return scene.add_mesh_simple(path, centred, mesh.faces, **look, **place)
 
 
 def _draw_mesh(
@@ -101,26 +105,30 @@ def _draw_mesh(
     colors: tuple[Color | None, Color | None],
     alpha: float,
     place: dict[str, Any],
-) -> None:
+) -> list[SceneNodeHandle]:
     """Draw a mesh with the colours of its file, without any with the second; or with a tint."""
     tint, color = colors
     is_mirrored = np.prod(body.scale) < 0.0
+    nodes: list[SceneNodeHandle] = []
     for index, surface in enumerate(mesh.surfaces):
         name = f'{path}_{index}'
         if surface.glb is not None and alpha >= 1.0 and tint is None:
-            scene.add_glb(name, surface.glb, scale=body.scale, **place)
+            nodes.append(scene.add_glb(name, surface.glb, scale=body.scale, **place))
             continue
-        scene.add_mesh_simple(
-            name,
-            surface.vertices,
-            surface.faces,
-            scale=body.scale,
-            flat_shading=mesh.is_flat,
-            # Twice as fast, or more, without a graphics card.
-            side='front' if surface.is_closed and not is_mirrored else 'double',
-            **_look(tint or surface.color or color or GREY, alpha),
-            **place,
+        nodes.append(
+            scene.add_mesh_simple(
+                name,
+                surface.vertices,
+                surface.faces,
+                scale=body.scale,
+                flat_shading=mesh.is_flat,
+                # Twice as fast, or more, without a graphics card.
+                side='front' if surface.is_closed and not is_mirrored else 'double',
+                **_look(tint or surface.color or color or GREY, alpha),
+                **place,
+            )
         )
+    return nodes
 
 
 def inflated(shape: Shape, margin_m: float) -> Shape:

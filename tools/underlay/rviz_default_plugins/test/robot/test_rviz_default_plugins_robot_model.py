@@ -225,6 +225,20 @@ def test_ghost(stage: Stage) -> None:
     assert stage.node_at(f'{BASE}/collision_0').radius == 0.5
 
 
+def test_links_are_hidden_one_by_one(stage: Stage, robot: Any) -> None:
+    """The bodies of a link are hidden alone, as a display asks; those of others are shown."""
+    bodies = [stage.node_at(f'{path}/visual_0') for path in (BASE, UPPER)]
+    for hidden, shown in (
+        ({'base'}, [False, True]),
+        ({'upper'}, [True, False]),
+        (set(), [True] * 2),
+    ):
+        robot.hidden_links = lambda robot, hidden=hidden: hidden
+        robot.update()
+        assert [each.visible for each in bodies] == shown
+        assert stage.node_at(BASE).visible and stage.node_at(UPPER).visible
+
+
 def test_changes_while_shown(stage: Stage, robot: Any) -> None:
     """A property that changes redraws the robot without asking for its description again."""
     asked = list(stage.node.subscriptions)
