@@ -5,9 +5,10 @@ import json
 
 import numpy as np
 import pytest
-from rviz_common.glb import glb_of
+from rviz_common.glb import glb_of, surface_glb
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+WHITE = np.full((3, 4), 255, np.uint8)
 
 
 def test_colours_of_triangles_are_those_of_other_markers():
@@ -29,3 +30,10 @@ def test_no_light_changes_triangles_that_are_not_lit(is_lit, extensions):
     assert material.get('extensions') == extensions
     assert content.get('extensionsUsed', []) == list(extensions or [])
     assert material['doubleSided'] is is_lit
+
+
+def test_a_surface_of_nothing_has_valid_normals():
+    """A triangle without an area has a normal of length 1, as the format demands."""
+    glb = surface_glb(np.zeros((3, 3), np.float32), np.array([[0, 1, 2]], np.uint32), WHITE)
+    normals = np.frombuffer(glb[-36 - 24 - 12 : -24 - 12], np.float32).reshape(3, 3)
+    assert normals.tolist() == [[0.0, 0.0, 1.0]] * 3

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rviz_default_plugins.robot.mesh_file import find_mesh, folder_of, MeshError
 from urdf import Color
 
-__all__ = ['DrawnMesh', 'MeshShelf', 'load_mesh', 'thinned']
+__all__ = ['DrawnMesh', 'MeshShelf', 'Surface', 'creased', 'load_mesh', 'thinned']
 
 Vertices = NDArray[np.float32]
 Faces = NDArray[np.uint32]
@@ -101,7 +101,7 @@ def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
     is_flat = path.suffix.lower() == '.stl'
     if count <= MAX_TRIANGLES:
         surfaces = map(_surface, bodies)
-        return DrawnMesh(tuple(map(_creased, surfaces) if is_flat else surfaces))
+        return DrawnMesh(tuple(map(creased, surfaces) if is_flat else surfaces))
     return _simplified(bodies, count, is_flat, name)
 
 
@@ -140,8 +140,16 @@ def _surface(body: Any) -> Surface:
     )
 
 
-def _creased(surface: Surface) -> Surface:
-    """Duplicate the vertices at sharp edges, so that the rest can be shaded smoothly."""
+def creased(surface: Surface) -> Surface:
+    """
+    Duplicate the vertices at sharp edges, so that the rest can be shaded smoothly.
+
+    Parameters
+    ----------
+    surface
+        A surface whose triangles share vertices.
+
+    """
     import trimesh
 
     body = trimesh.Trimesh(surface.vertices, surface.faces, process=False)

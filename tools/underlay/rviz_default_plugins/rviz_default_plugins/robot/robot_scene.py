@@ -13,7 +13,7 @@ from rviz_default_plugins.bodies import HIGHLIGHT_COLOR
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.contact_shadow import ContactShadow
 from rviz_default_plugins.robot.mesh_loading import DrawnMesh
-from rviz_default_plugins.robot.shape_drawing import draw_shape, inflated, SOLID
+from rviz_default_plugins.robot.shape_drawing import draw_bodies, draw_shape, inflated, SOLID
 from urdf import Color, Joint, Link, Mesh, RobotModel, Shape
 
 if TYPE_CHECKING:
@@ -235,17 +235,13 @@ class RobotScene:
             visible=False,
         )
         alpha = self._look.alpha * self._look.links.alpha(link.name)
-        bodies: list[SceneNodeHandle] = []
-        for name, shape in self._look.shapes(link):
-            if self._drawn >= MAX_SHAPES:
-                self.left_out += 1
-                continue
-            self._drawn += 1
-            body = inflated(shape, self._look.margin_m)
-            bodies += draw_shape(
-                self._scene, f'{path}/{name}', body, alpha, self._meshes, self._look.color
-            )
-        return _LinkNode(handle, bodies)
+        shapes = self._look.shapes(link)
+        drawn = shapes[: MAX_SHAPES - self._drawn]
+        self._drawn += len(drawn)
+        self.left_out += len(shapes) - len(drawn)
+        bodies = [(name, inflated(shape, self._look.margin_m)) for name, shape in drawn]
+        nodes = draw_bodies(self._scene, path, bodies, alpha, self._meshes, self._look.color)
+        return _LinkNode(handle, nodes)
 
 
 def _downwards(model: RobotModel) -> Iterator[Joint]:

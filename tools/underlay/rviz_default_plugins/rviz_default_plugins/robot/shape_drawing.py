@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TYPE_CHECKING
 
 import numpy as np
+from rviz_common.glb import surface_glb
+from rviz_default_plugins.robot.merged_bodies import GREY, merged, primitive, subdivisions
 from rviz_default_plugins.robot.mesh_loading import DrawnMesh
 from urdf import Box, Capsule, Color, Cylinder, Geometry, Mesh, Shape, Sphere
 from urdf.kinematics import rotation_of
@@ -15,14 +17,56 @@ from urdf.kinematics import rotation_of
 if TYPE_CHECKING:
     from viser import SceneApi, SceneNodeHandle
 
-__all__ = ['SOLID', 'draw_shape', 'inflated']
+__all__ = ['SOLID', 'draw_bodies', 'draw_shape', 'inflated']
 
-GREY: Color = (0.7, 0.7, 0.7, 1.0)
 SOLID = 0.5
 """The opacity from which on something has a shadow."""
 
 MESH_SIZE_M = 0.3
 """The assumed size of meshes, whose actual size is only known once they are read."""
+
+
+def draw_bodies(
+    scene: SceneApi,
+    path: str,
+    bodies: Sequence[tuple[str, Shape]],
+    alpha: float,
+    meshes: Mapping[str, DrawnMesh],
+    tint: Color | None = None,
+) -> list[SceneNodeHandle]:
+    """
+    Draw the bodies of a link, as few nodes.
+
+    Parameters
+    ----------
+    scene
+        The scene of the viser server.
+    path
+        The path of the link in the scene.
+    bodies
+        The names and shapes of the bodies.
+    alpha, meshes, tint
+        As for `draw_shape`.
+
+    Returns
+    -------
+    list[SceneNodeHandle]
+        The nodes that were added.
+
+    """
+    together, alone = merged(bodies, meshes, alpha, tint)
+    nodes: list[SceneNodeHandle] = []
+    for index, body in enumerate(together):
+        name = f'{path}/merged_{index}'
+        if body.color is None:
+            glb = surface_glb(body.vertices, body.faces, body.colors)
+            nodes.append(scene.add_glb(name, glb))
+        else:
+            look = _look(body.color, 1.0)
+            nodes.append(scene.add_mesh_simple(name, body.vertices, body.faces, **look))
+    for name, shape in alone:
+        nodes += draw_shape(scene, f'{path}/{name}', shape, alpha, meshes, tint)
+    return nodes
 
 
 def draw_shape(
@@ -71,10 +115,19 @@ def draw_shape(
     if isinstance(body, Box):
         return [scene.add_box(path, dimensions=body.size, **look, **place)]
     if isinstance(body, Sphere):
-        return [scene.add_icosphere(path, radius=body.radius, **look, **place)]
+        return [
+            scene.add_icosphere(
+                path,
+                radius=body.radius,
+                subdivisions=subdivisions(body.radius),
+                **look,
+                **place,
+            )
+        ]
     if isinstance(body, Cylinder):
         return [scene.add_cylinder(path, radius=body.radius, height=body.length, **look, **place)]
-    return [_draw_capsule(scene, path, body, look, place)]
+    surface = primitive(body)
+    return [scene.add_mesh_simple(path, surface.vertices, surface.faces, **look, **place)]
 
 
 def _look(color: Color, alpha: float) -> dict[str, Any]:
@@ -85,16 +138,6 @@ def _look(color: Color, alpha: float) -> dict[str, Any]:
         'opacity': None if opacity >= 1.0 else opacity,
         'cast_shadow': opacity >= SOLID,
     }
-
-
-def _draw_capsule(
-    scene: SceneApi, path: str, body: Capsule, look: dict[str, Any], place: dict[str, Any]
-) -> SceneNodeHandle:
-    from trimesh.creation import capsule
-
-    mesh = capsule(height=body.length, radius=body.radius)
-    centred = np.asarray(mesh.vertices) - mesh.bounds.mean(axis=0)
-    return scene.add_mesh_simple(path, centred, mesh.faces, **look, **place)
 
 
 def _draw_mesh(
