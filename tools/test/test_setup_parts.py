@@ -98,10 +98,11 @@ def test_who_imports_what_is_missing_is_told(locations: Locations, installed: li
 def test_the_parts_of_this_workspace(root: Path) -> None:
     """Each is pinned, and not in requirements.txt; the full system takes all that robots need."""
     parts = read_parts((root / 'requirements-parts.txt').read_text())
-    assert [part.name for part in parts] == ['navigation', 'vision', 'planner', 'sweep', 'voice']
+    listed = [part.name for part in parts]
+    assert listed == ['navigation', 'vision', 'planner', 'sweep', 'gym', 'voice']
     base = (root / 'requirements.txt').read_text().splitlines()
     for part in parts:
-        assert part.is_asked_for('full_system') == (part.name != 'sweep')
+        assert part.is_asked_for('full_system') == (part.name not in ('sweep', 'gym'))
         assert not part.is_asked_for('scene:=apartment gui:=false')
         assert part.pins and all('==' in pin for pin in part.pins)
         assert not set(part.pins) & set(base)
