@@ -76,6 +76,7 @@ bench: build ## Measure what commands, launches, bags, transforms, RViz, physics
 	@$(RUN) python3 tools/benchmarks/rviz.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/bringup_cost.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/simulation.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/gym_steps.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/navigation.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/perception.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/compressed_images.py $(ARGS)

@@ -35,6 +35,7 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['first_run', '--against', '/nowhere'], "'/nowhere' is no clone of this workspace"),
         (['first_run', '--against', ''], 'an empty text names no folder.'),
         (['first_run', '--runs', '0'], "'0' is no int at least 1."),
+        (['gym_steps', '--runs', '0'], "'0' is no int at least 1."),
         (['walking_pushes', '--impulses', 'nan'], "'nan' is no float at least 0."),
         (['walking_pushes', '--impulses', ''], "'' is no float at least 0."),
         (['walking_pushes', '--speed', '0'], "'0' is no float from 0.05 to 1."),

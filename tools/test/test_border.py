@@ -26,7 +26,7 @@ JAZZY = set(
     'tf2_ros trajectory_msgs unique_identifier_msgs vision_msgs visualization_msgs xacro'.split()
 )
 LIBRARIES = set(
-    'OpenGL cv2 faster_whisper httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '
+    'OpenGL cv2 faster_whisper gymnasium httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '
     'onnxruntime pinocchio pocketsphinx pyarrow pytest pywhispercpp scipy segno setuptools '
     'sounddevice uvicorn yaml yourdfpy'.split()
 )
