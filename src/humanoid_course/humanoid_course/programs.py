@@ -197,13 +197,18 @@ class Program:
 
     def close(self) -> None:
         """Kill what is left of the program, and wait until it is gone."""
+        members = self._members()
+        ending = set(members)
         self._signal_group(signal.SIGKILL)
         end_s = time.monotonic() + _KILL_TIMEOUT_S
-        while (left := self._members()) and time.monotonic() < end_s:
-            for pid in left:
+        # A process that ends loses its environment, by which it is found, before it is gone.
+        while any(map(_is_running, ending)) and time.monotonic() < end_s:
+            for pid in members:
                 with suppress(ProcessLookupError, PermissionError):
                     os.kill(pid, signal.SIGKILL)
             time.sleep(_POLL_S)
+            members = self._members()
+            ending.update(members)
         self._read_rest()
 
     def _signal_group(self, number: signal.Signals) -> None:
