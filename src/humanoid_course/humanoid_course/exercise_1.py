@@ -217,7 +217,7 @@ def check_launch(submission: Submission) -> Verdict:
 
     """
     run = submission.launch(_both_run)
-    if run is None:
+    if not run.command:
         return common.missing_launch_file(submission, f'{PUBLISHER} and {ANALYZER}')
     expected = f'a node that publishes {TOPIC} and another one that subscribes to it'
     advice = f'Add a Node(package=..., executable=...) for each of {PUBLISHER} and {ANALYZER}.'
@@ -248,8 +248,7 @@ def check_launch_end(submission: Submission) -> Verdict:
         The packages of the student.
 
     """
-    run = submission.launch(_both_run)
-    return common.check_end(run or Run(''), 'the launch with all its nodes')
+    return common.check_end(submission.launch(_both_run), 'the launch with all its nodes')
 
 
 def _publisher(submission: Submission) -> Run:

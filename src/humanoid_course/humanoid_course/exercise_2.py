@@ -26,7 +26,7 @@ def check_launch(submission: Submission) -> Verdict:
 
     """
     run = submission.launch(_is_complete)
-    if run is None:
+    if not run.command:
         return common.missing_launch_file(submission, f'{len(ROBOTS)} joint controllers')
     expected = f'{len(ROBOTS)} controllers'
     if not run.ran:
@@ -58,7 +58,7 @@ def check_topics(submission: Submission) -> Verdict:
         The packages of the student.
 
     """
-    run = submission.launch(_is_complete) or Run('')
+    run = submission.launch(_is_complete)
     found = [name for name in run.publishers if name.endswith(NAME)]
     missing = [name for name in TOPICS if name not in found]
     expected = quoted(TOPICS)
@@ -95,7 +95,7 @@ def check_independence(submission: Submission) -> Verdict:
         The packages of the student.
 
     """
-    run = submission.launch(_is_complete) or Run('')
+    run = submission.launch(_is_complete)
     silent = [name for name in TOPICS if run.counts.get(name, 0) < FIRST_MESSAGES]
     if silent:
         return failed(
@@ -125,8 +125,7 @@ def check_launch_end(submission: Submission) -> Verdict:
         The packages of the student.
 
     """
-    run = submission.launch(_is_complete)
-    return common.check_end(run or Run(''), 'the launch with all its nodes')
+    return common.check_end(submission.launch(_is_complete), 'the launch with all its nodes')
 
 
 def _controllers(run: Run) -> list[str]:

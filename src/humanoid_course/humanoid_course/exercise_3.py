@@ -75,7 +75,7 @@ def check_launch(submission: Submission) -> Verdict:
 
     """
     run = submission.launch(_has_model)
-    if run is None:
+    if not run.command:
         return common.missing_launch_file(submission, 'a node with the model')
     expected = 'a launch that runs until Ctrl-C, with at least one node'
     if not run.ran or not run.nodes:
@@ -98,7 +98,7 @@ def check_model_is_loaded(submission: Submission) -> Verdict:
         The packages of the student.
 
     """
-    run, models = submission.launch(_has_model) or Run(''), submission.packages[1].name
+    run, models = submission.launch(_has_model), submission.packages[1].name
     where = places_of_model(run)
     if where:
         return passed(f'the model of {models} is in {where[0]}')
@@ -146,8 +146,7 @@ def check_launch_end(submission: Submission) -> Verdict:
         The packages of the student.
 
     """
-    run = submission.launch(_has_model)
-    return common.check_end(run or Run(''), 'the launch with all its nodes')
+    return common.check_end(submission.launch(_has_model), 'the launch with all its nodes')
 
 
 def _is_it(text: str) -> bool:

@@ -139,9 +139,9 @@ class Submission(Protocol):
 
         """
 
-    def launch(self, is_enough: Callable[[Run], bool]) -> Run | None:
+    def launch(self, is_enough: Callable[[Run], bool]) -> Run:
         """
-        Run the launch file of the first package; None if none is installed.
+        Run the launch file of the first package; a run without a command if none is installed.
 
         Parameters
         ----------

@@ -194,7 +194,7 @@ class Trial:
                 self._stimuli[executable] = stimulate(program, command, topic)
         return self._stimuli[executable]
 
-    def launch(self, is_enough: Callable[[Run], bool]) -> Run | None:
+    def launch(self, is_enough: Callable[[Run], bool]) -> Run:
         """
         Run the launch files of the first package until one is right.
 
@@ -205,8 +205,9 @@ class Trial:
 
         Returns
         -------
-        Run or None
-            That of the launch file that is right, or of the likeliest one; None without any.
+        Run
+            That of the launch file that is right, or of the likeliest one; without any, one that
+            has no command and saw nothing.
 
         """
         if self._launch is None:
@@ -218,7 +219,7 @@ class Trial:
                     self._launch.insert(0, run)
                     break
                 self._launch.append(run)
-        return self._launch[0] if self._launch else None
+        return self._launch[0] if self._launch else Run('')
 
     def _launch_files(self) -> list[str]:
         """Return the names of the launch files to try, the likeliest first."""

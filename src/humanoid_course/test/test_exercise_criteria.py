@@ -40,7 +40,7 @@ class FakeSubmission:
     built: Build = field(default_factory=Build)
     publisher: Run = field(default_factory=lambda: Run('ros2 run'))
     listener: Stimulus = field(default_factory=lambda: Stimulus(Run('ros2 run')))
-    launched: Run | None = None
+    launched: Run = field(default_factory=lambda: Run(''))
     known_packages: frozenset[str] = ROS
 
     def build(self) -> Build:
@@ -55,7 +55,7 @@ class FakeSubmission:
         """Return the run."""
         return self.listener
 
-    def launch(self, is_enough: Callable[[Run], bool]) -> Run | None:
+    def launch(self, is_enough: Callable[[Run], bool]) -> Run:
         """Return the run."""
         return self.launched
 
@@ -165,7 +165,7 @@ def listener_run(**changes: Any) -> Change:
 
 def no_launch_file(submission: FakeSubmission) -> None:
     """Leave the launch file out."""
-    submission.launched = None
+    submission.launched = Run('')
 
 
 STRAY = Build(executables={}, stray_executables=('temp_publisher',))
