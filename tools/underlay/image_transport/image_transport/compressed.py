@@ -124,7 +124,8 @@ def decode_compressed(message: CompressedImage) -> Image:
 def _grey(pixels: Pixels) -> Pixels:
     if pixels.ndim == 2:
         return pixels
-    return np.rint(pixels @ GREY_PARTS).astype(np.uint8)
+    grey: Pixels = np.rint(pixels @ GREY_PARTS).astype(np.uint8)
+    return grey
 
 
 def _in_order(pixels: Pixels, channels: int, order: tuple[int, ...]) -> Pixels:

@@ -74,7 +74,8 @@ def pixels_of(image: Image) -> Pixels:
         )
     channels = () if encoding.channels == 1 else (encoding.channels,)
     strides = (step, encoding.channels * kind.itemsize, kind.itemsize)[: 2 + len(channels)]
-    return np.ndarray((height, width, *channels), kind, data, strides=strides)
+    pixels: Pixels = np.ndarray((height, width, *channels), kind, data, strides=strides)
+    return pixels
 
 
 def image_of(pixels: Pixels, encoding: str, header: Any) -> Image:

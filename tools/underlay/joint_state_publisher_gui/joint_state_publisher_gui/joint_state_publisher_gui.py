@@ -73,11 +73,9 @@ class JointStatePublisherGui(JointStatePublisher):
             self.get_logger().info(
                 "The parameter 'num_rows' has no effect here: the page scrolls."
             )
-        positions = self.create_subscription(
-            JointState,
-            POSITIONS,
-            lambda message: self._take(positions.topic_name, message),
-            QoSProfile(depth=10),
+        topic = self.resolve_topic_name(POSITIONS)
+        self.create_subscription(
+            JointState, topic, lambda message: self._take(topic, message), QoSProfile(depth=10)
         )
         if checked(OWN_PAGE, values[OWN_PAGE], True):
             self._open_page(values)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 from typing import Any, TYPE_CHECKING
@@ -199,7 +199,7 @@ class Sliders(LivePanel):
     def _move_all(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
         """Move all joints as a button says."""
         board = self._known().board
-        moves = {
+        moves: dict[str, Callable[[], None]] = {
             'centre': board.centre,
             'zero': board.zero,
             'randomise': lambda: board.randomise(self._random),
