@@ -117,6 +117,7 @@ def test_pages(world: LiveWorld, open_tab: Any) -> None:
     for name, (before, clicked, after) in PAGES.items():
         tab.goto(f'http://127.0.0.1:{world.page.port}/{name}')
         world.wait_until(tab.locator(before).first.is_visible, f'{name}: no {before}')
+        world.wait_until(tab.locator(clicked).first.is_enabled, f'{name}: {clicked} is disabled')
         tab.locator(clicked).first.click()
         world.wait_until(tab.locator(after).first.is_visible, f'{name}: no {after}')
         found += obstacles_in_themes(tab)

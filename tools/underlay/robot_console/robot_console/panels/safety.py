@@ -158,10 +158,10 @@ class SafetySession(Session):
     def state(self) -> dict[str, Any]:
         """Return the state that the page shows."""
         stop = self.link.stop
-        place = place_of(stop.by, self.person) if stop.by else ''
         return {
             **super().state(),
-            'stop': {**asdict(stop), 'place': place},
+            'stop': asdict(stop),
+            'stop_place': place_of(stop.by, self.person) if stop.by else '',
             **asdict(self._facts()),
         }
 

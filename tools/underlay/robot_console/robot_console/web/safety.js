@@ -75,7 +75,7 @@ function startSafety(settings, path) {
   }
 
   function by() {
-    return state.stop.place || `by ${state.speakers.length ? shortened(state.speakers) : 'someone who has left'}`;
+    return state.stop_place || `by ${state.speakers.length ? shortened(state.speakers) : 'someone who has left'}`;
   }
 
   function drawRobot(isPressed) {

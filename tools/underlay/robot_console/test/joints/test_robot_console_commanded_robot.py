@@ -60,9 +60,11 @@ def test_only_links_that_lag_behind_are_shown(stage: Stage, ghost: Any) -> None:
     ghost.update()
     body, ball = (stage.node_at(f'/display_0/{each}/visual_0') for each in ('base', 'base/arm'))
     assert (body.visible, ball.visible) == (False, True)
+    ghost.on_change('Update Interval')  # also explains at once what is shown
+    ghost.update()
     assert 'The ghost shows the links that lag behind their commands.' in said(ghost)
     stage.move('base', 'arm', wxyz=(math.cos(0.25), 0.0, 0.0, math.sin(0.25)))
-    ghost.on_change('Update Interval')  # also explains at once what is shown
+    ghost.on_change('Update Interval')
     ghost.update()
     assert (body.visible, ball.visible) == (False, False)
     assert 'All links follow their commands, so the ghost is hidden.' in said(ghost)
