@@ -84,12 +84,13 @@ class LiveWorld:
                 panel.update()
 
     def close(self) -> None:
-        """End all of it."""
+        """End all of it, with the nodes of tests: the next world may be in this domain."""
+        nodes = self.executor.get_nodes()
         for panel in self.panels:
             panel.close()
         self.page.close()
         self.executor.shutdown()
-        for node in (self.node, self.robot):
+        for node in nodes:
             node.destroy_node()
         self.ros.try_shutdown()
 
