@@ -91,6 +91,7 @@ def test_plan(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     [
         (['--set', 'frictoin=1'], "Did you mean 'friction'?"),
         (['--replay', 'xyz'], "has a key that begins with 'xyz'"),
+        (['--replay', ''], "has a key that begins with ''"),
     ],
 )
 def test_mistakes(

@@ -47,7 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = _parser().parse_args(argv)
     before = signal.signal(signal.SIGTERM, _interrupt)
     try:
-        if arguments.replay:
+        if arguments.replay is not None:
             replay(arguments.replay, _folder(arguments))
         return _do(arguments)
     except SimulationError as error:
