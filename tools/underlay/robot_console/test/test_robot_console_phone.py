@@ -137,6 +137,7 @@ def test_phone(world: World, phone: Any) -> None:
     world.wait_until(lambda: world.stops() == [True, False, True], 'no stop')
     fingers.touch('touchEnd')
     world.wait_until(lambda: phone.locator('#release').is_visible(), 'no way to release')
+    world.wait_until(lambda: 'has not confirmed' in words.text_content(), 'no long sentence')
     turn(world, phone)
 
     phone.get_by_role('link', name='All panels').tap()

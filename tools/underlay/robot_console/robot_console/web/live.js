@@ -104,7 +104,7 @@ function fit() {
   const frame = window.frameElement;
   if (!frame) return;
   if (document.body.classList.contains('slim')) {
-    frame.style.height = `${document.body.offsetHeight}px`;
+    frame.style.height = `${Math.ceil(document.body.getBoundingClientRect().height)}px`;
     return;
   }
   const room = window.parent.innerHeight;
