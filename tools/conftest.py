@@ -65,9 +65,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             return str(died)
 
         def _reschedule(self, node: Any) -> None:
-            """Give a process more to do, unless it replaces one that died and is not ready."""
-            if node in self.registered_collections:
+            """Give a process more to do, unless it is not ready, or has just died."""
+            if node not in self.registered_collections:
+                return
+            waiting = set(self.workqueue)
+            try:
                 super()._reschedule(node)
+            except OSError:  # nobody has heard yet that it died
+                for scope in waiting.difference(self.workqueue):
+                    self.workqueue[scope] = self.assigned_work[node].pop(scope)
 
     return Shared(config, log)
 

@@ -14,6 +14,7 @@ from unittest import mock
 
 from domain_coordinator import domain_id
 import rclpy
+from rclpy.action import ActionClient, ActionServer
 from rclpy.context import Context as RosContext
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -91,6 +92,9 @@ class LiveWorld:
         self.page.close()
         self.executor.shutdown()
         for node in nodes:
+            for each in [*node.waitables]:  # an action server keeps its node, and that the domain
+                if isinstance(each, (ActionClient, ActionServer)):
+                    each.destroy()
             node.destroy_node()
         self.ros.try_shutdown()
 

@@ -169,7 +169,7 @@ def test_a_bow(world: LiveWorld, tmp_path: Path) -> None:
     world.wait_until(lambda: len(poses) == 2, 'not bent')
     assert poses[0].orientation.y == pytest.approx(0.1987, abs=1e-3)
     assert (poses[1].orientation.y, poses[1].orientation.w) == (0.0, 1.0)
-    page.wait_for('running', lambda running: running == '')
+    world.wait_until(lambda: world.panels[0]._running is None, 'it goes on')
     link = world.panels[0]._link
     link.control.take('ann', 'seat')
     page.ask('play', button=BOW)
