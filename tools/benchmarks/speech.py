@@ -16,6 +16,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -115,10 +116,20 @@ def main() -> int:
     parser.add_argument(
         '--whisper', default='', metavar='FOLDER', help='a model for faster-whisper to hear with'
     )
+    parser.add_argument(
+        '--voice', metavar='COMMAND', type=shlex.split,
+        help='the command of another synthesizer, instead of those of the system: '
+        "'piper -m FOLDER/voice.onnx -f {file} -- {text}'",
+    )  # fmt: skip
     options = parser.parse_args()
-    voices = {name: words for name, words in VOICES.items() if shutil.which(words[0])}
+    asked = VOICES if not options.voice else {Path(options.voice[0]).name: options.voice}
+    voices = {name: words for name, words in asked.items() if shutil.which(words[0])}
     if not voices:
-        print('There is no synthesizer: sudo apt install flite espeak-ng', file=sys.stderr)
+        install = 'sudo apt install flite espeak-ng'
+        missing = (
+            f'no program {options.voice[0]!r}' if options.voice else f'no synthesizer: {install}'
+        )
+        print(f'There is {missing}', file=sys.stderr)
         return 1
     planner, world = apartment()
     if options.samples:
