@@ -9,6 +9,7 @@ of a file stay together.
 from __future__ import annotations
 
 from collections.abc import Iterator
+import gc
 from pathlib import Path
 import signal
 from typing import Any
@@ -29,8 +30,20 @@ def _of_its_own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with domain_id() as domain, pytest.MonkeyPatch.context() as patch:
         patch.setenv('ROS_DOMAIN_ID', str(domain))
         patch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        patch.delenv('ROS_DISCOVERY_SERVER', raising=False)
         patch.setenv('ROS_LOG_DIR', str(tmp_path_factory.mktemp('log')))
         yield
+
+
+def pytest_collection_finish() -> None:
+    """
+    Take what there is now, of thousands of tests, out of the collection of garbage.
+
+    It stays until the end. Tests of nodes collect garbage when they end, to close the sockets
+    that rclpy leaves, and would go through all of it each time.
+    """
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_make_parametrize_id(val: object, argname: str) -> str | None:

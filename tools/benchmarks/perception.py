@@ -22,9 +22,9 @@ from arguments import in_range
 from domain_coordinator import domain_id
 from humanoid_common.qos import STATE
 from humanoid_perception.detection_conversions import image_of
+from humanoid_perception.detector_choice import DetectorParameters, make_detector
 from humanoid_perception.images import data_of
 from humanoid_perception.lifting import camera_of, lift, surface_of
-from humanoid_perception.object_detector import DetectorParameters, make_detector
 from humanoid_simulation.camera import CameraView
 from humanoid_simulation.camera.pinhole import pinhole_of
 from humanoid_simulation.camera.ray_painter import RayPainter

@@ -36,7 +36,7 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox  # noqa: E402
 from humanoid_interfaces.action import ScanRoom  # noqa: E402
 from humanoid_perception.images import depth_of  # noqa: E402
 from humanoid_perception.memory_conversions import pose_of  # noqa: E402
-from humanoid_perception.remembered import sighting_noise  # noqa: E402
+from humanoid_perception.sighting import sighting_noise  # noqa: E402
 from humanoid_simulation.camera.pinhole import Pinhole  # noqa: E402
 from humanoid_simulation.scene import load_scene  # noqa: E402
 from humanoid_simulation.scene.scene import Thing  # noqa: E402

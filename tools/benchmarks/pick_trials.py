@@ -27,7 +27,8 @@ from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_interfaces.action import Drop, Pick, ScanRoom
-from humanoid_perception.places import load_places, places_path, Surface
+from humanoid_perception.places import Surface
+from humanoid_perception.places_file import load_places, places_path
 from humanoid_simulation.scene import load_scene, Scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap
 from humanoid_simulation.testing.clients import EntityClient

@@ -15,7 +15,7 @@ import sys
 import time
 
 from arguments import in_range
-from humanoid_perception.places import load_places, places_path
+from humanoid_perception.places_file import load_places, places_path
 from llm_planner.dialogue import Dialogue
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills, skills_path

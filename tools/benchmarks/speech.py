@@ -31,10 +31,11 @@ from llm_planner.world import World
 import numpy as np
 from numpy.typing import NDArray
 from planner import apartment, KINDS, TESTS
-from voice_control.audio import chunks, duration_s, read_wav, wav_of
-from voice_control.grammar_recognizer import GrammarRecognizer, THRESHOLD
+from voice_control.audio import AudioError, chunks, duration_s, read_wav, wav_of
+from voice_control.grammar_recognizer import GrammarRecognizer
 from voice_control.noise_suppression import NoiseSuppressionError, NoiseSuppressor
 from voice_control.recognition import Listener, RecognizerError
+from voice_control.recognizer_parameters import THRESHOLD
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper
 import yaml
@@ -117,19 +118,16 @@ def main() -> int:
         '--whisper', default='', metavar='FOLDER', help='a model for faster-whisper to hear with'
     )
     parser.add_argument(
-        '--voice', metavar='COMMAND', type=shlex.split,
+        '--voice', metavar='COMMAND', type=synthesizer,
         help='the command of another synthesizer, instead of those of the system: '
         "'piper -m FOLDER/voice.onnx -f {file} -- {text}'",
     )  # fmt: skip
     options = parser.parse_args()
-    asked = VOICES if not options.voice else {Path(options.voice[0]).name: options.voice}
-    voices = {name: words for name, words in asked.items() if shutil.which(words[0])}
+    voices = {name: words for name, words in VOICES.items() if shutil.which(words[0])}
+    if options.voice:
+        voices = {Path(options.voice[0]).name: options.voice}
     if not voices:
-        install = 'sudo apt install flite espeak-ng'
-        missing = (
-            f'no program {options.voice[0]!r}' if options.voice else f'no synthesizer: {install}'
-        )
-        print(f'There is {missing}', file=sys.stderr)
+        print('There is no synthesizer: sudo apt install flite espeak-ng', file=sys.stderr)
         return 1
     planner, world = apartment()
     if options.samples:
@@ -161,6 +159,33 @@ def main() -> int:
             f'{shares[4]:>7.0%}{row.cpu_s / row.speech_s:>7.3f}'
         )
     return 0
+
+
+def synthesizer(text: str) -> list[str]:
+    """
+    Split the command of a synthesizer into words, for argparse.
+
+    Parameters
+    ----------
+    text
+        The command, with `{file}` and `{text}` to be filled in.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        It is no command, has other words in braces, or its program is not there.
+
+    """
+    try:
+        words = shlex.split(text)
+        _ = [word.format(file='', text='') for word in words]
+    except (ValueError, LookupError) as error:
+        raise argparse.ArgumentTypeError(f'{text!r} is no command: {error}') from None
+    if '{file}' not in text or '{text}' not in text:
+        raise argparse.ArgumentTypeError(f'{text!r} needs the words {{file}} and {{text}}')
+    if not shutil.which(words[0]):
+        raise argparse.ArgumentTypeError(f'there is no program {words[0]!r}')
+    return words
 
 
 def measured(
@@ -252,8 +277,11 @@ def synthesized(words: list[str], text: str) -> NDArray[np.float64]:
     with TemporaryDirectory() as folder:
         file = f'{folder}/speech.wav'
         command = [word.format(file=file, text=text) for word in words]
-        subprocess.run(command, check=True, capture_output=True)
-        samples = np.frombuffer(read_wav(Path(file)), '<i2').astype(float)
+        done = subprocess.run(command, check=False, capture_output=True, text=True)
+        try:
+            samples = np.frombuffer(read_wav(Path(file)), '<i2').astype(float)
+        except AudioError as error:
+            sys.exit(f'{words[0]} ended with status {done.returncode}: {error} {done.stderr}')
     return samples * (PEAK / max(np.abs(samples).max(), 1.0))
 
 

@@ -24,13 +24,18 @@ NODES = {
         'humanoid_control.sensor_processor.SensorProcessorParameters'
     ),
     'humanoid_perception object_detector': (
-        'humanoid_perception.object_detector.DetectorParameters'
+        'humanoid_perception.detector_choice.DetectorParameters'
     ),
-    'humanoid_perception object_memory': 'humanoid_perception.object_memory.MemoryParameters',
+    'humanoid_perception object_memory': 'humanoid_perception.memory_parameters.MemoryParameters',
     'humanoid_perception gaze': 'humanoid_perception.gaze_parameters.GazeParameters',
     'humanoid_manipulation manipulator': (
         'humanoid_manipulation.manipulation_node.ManipulatorParameters'
     ),
+    'voice_control audio_source': 'voice_control.audio_source.AudioSourceParameters',
+    'voice_control speech_recognizer': (
+        'voice_control.recognizer_parameters.RecognizerParameters'
+    ),
+    'voice_control speaker': 'voice_control.speaker.SpeakerParameters',
     'llm_planner task_planner': 'llm_planner.task_planner.PlannerParameters',
     'llm_planner skill_executor': 'llm_planner.knowledge.KnowledgeParameters',
     'robot_mcp robot_mcp': 'robot_mcp.robot_mcp.McpParameters',
@@ -42,7 +47,7 @@ NODES = {
     ),
     'temperature_monitor temp_analyzer': 'temperature_monitor.temp_analyzer.AnalyzerParameters',
 }
-"""The parameters of each executable that has some."""
+"""The parameters of each executable that has some; their modules need no optional part."""
 
 INTRODUCTION = """\
 # The parameters of the nodes

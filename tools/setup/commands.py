@@ -9,30 +9,30 @@ from contextlib import contextmanager
 import fcntl
 import os
 from pathlib import Path
-import shutil
 import signal
 import sys
-import sysconfig
 
 import colcon
-from console import SetupError, Steps
-from locations import find_locations, link_environment, Locations
+from console import SetupError
+import environment
+from locations import find_locations, Locations
 import mirror
-from ownership import Home, python_version
-from parts import Parts
-import prerequisites
+from ownership import (
+    forget_environment,
+    python_version,
+    refuse_what_belongs_to_others,
+    remove,
+)
 import processes
 from stamp import digest, Stamp
-from underlay import Underlay
-import wheels
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = ('build', 'install', 'log', 'site')
-REQUIREMENTS = ROOT / 'requirements.txt'
-PART_REQUIREMENTS = ROOT / 'requirements-parts.txt'
-TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
-SITE_REQUIREMENTS = ROOT / 'requirements-site.txt'
-MIRRORED = (REQUIREMENTS, PART_REQUIREMENTS, TEST_REQUIREMENTS)
+MIRRORED = (
+    environment.REQUIREMENTS,
+    environment.PART_REQUIREMENTS,
+    environment.TEST_REQUIREMENTS,
+)
 """What `make mirror` collects: everything but the generator of the site."""
 _USE_MIRROR = ('setup', 'build', 'prepare', 'tests')
 
@@ -121,15 +121,16 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
 
     """
     if command == 'setup':
-        return set_up(locations)
+        return environment.set_up(locations)
     if command == 'build':
-        return set_up(locations, quiet=True) or build(locations, arguments)
+        return environment.set_up(locations, quiet=True) or build(locations, arguments)
     if command == 'prepare':
-        return set_up(locations, quiet=True, everything=False) or build(locations, [])
+        status = environment.set_up(locations, quiet=True, everything=False)
+        return status or build(locations, [])
     if command == 'tests':
-        return set_up(locations, quiet=True) or set_up_tests(locations)
+        return environment.set_up(locations, quiet=True) or environment.set_up_tests(locations)
     if command == 'site':
-        return build_site(locations)
+        return environment.build_site(locations)
     if command == 'distclean':
         refuse_what_belongs_to_others(locations)
         forget_environment(locations)
@@ -164,78 +165,6 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
         os.close(descriptor)
 
 
-def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True) -> int:
-    """
-    Bring the environment up to date with this workspace; quick if it already is.
-
-    Parameters
-    ----------
-    locations
-        The workspace and its environment.
-    quiet
-        Print nothing if the environment is complete, and no hint at the end.
-    everything
-        Install everything; otherwise defer what the command does not need: interface packages that
-        nothing in src/ depends on, and packages on demand and wheels of parts that ASKED_FOR does
-        not name.
-
-    Returns
-    -------
-    int
-        The exit status, 0.
-
-    Raises
-    ------
-    SetupError
-        The machine lacks something, a step failed, or another workspace owns the environment.
-
-    """
-    requirements = wheels_digest(REQUIREMENTS)
-    wheels_stamp = Stamp(locations.environment / 'stamp' / 'wheels')
-    asked_for = os.environ.get('ASKED_FOR', '')
-    underlay = Underlay(locations, requirements, asked_for)
-    parts = Parts(locations, PART_REQUIREMENTS, asked_for)
-    home = Home(locations)
-    home.require_same()
-    stale = underlay.to_build(everything=everything)
-    missing = parts.to_install(everything=everything)
-    compiled = wheels_digest(REQUIREMENTS, PART_REQUIREMENTS)
-    compiled_stamp = Stamp(locations.environment / 'stamp' / 'compiled')
-    is_compiled = not everything or compiled_stamp.matches(compiled)
-    has_wheels = wheels_stamp.matches(requirements)
-    if locations.link.exists() and has_wheels and is_compiled and not missing and not stale:
-        link_environment(locations)
-        underlay.describe_others()
-        parts.describe_others()
-        if not quiet:
-            print(f'The environment in {locations.link} is complete.')
-        return 0
-    require_machine(locations, has_wheels=has_wheels)
-    steps = Steps(3)
-    steps.begin(f'Python {python_version()} environment in {locations.environment}')
-    locations.environment.mkdir(parents=True, exist_ok=True)
-    home.write()
-    link_environment(locations)
-    if not wheels.has_pip(locations):
-        wheels.make_environment(locations, sys.executable)
-    steps.begin('Wheels from PyPI, as requirements.txt and requirements-parts.txt pin them')
-    if not has_wheels:
-        wheels_stamp.clear()
-        wheels.install_wheels(locations, steps, sysconfig.get_path('include'), REQUIREMENTS)
-        wheels_stamp.write(requirements)
-    parts.install(missing, steps)
-    parts.describe_others()
-    if not is_compiled:
-        wheels.compile_all(locations)
-        compiled_stamp.write(compiled)
-    steps.begin('Underlay: launch, ros2 and what else PyPI lacks (a minute)')
-    underlay.build(stale, steps)
-    underlay.describe_others()
-    steps.end()
-    print('The environment is complete.' + ('' if quiet else ' Next: make bringup'))
-    return 0
-
-
 def make_mirror(locations: Locations, folder: str) -> int:
     """
     Download the wheels of all requirements for other machines, and say how to use them.
@@ -268,123 +197,6 @@ def make_mirror(locations: Locations, folder: str) -> int:
     return 0
 
 
-def set_up_tests(locations: Locations) -> int:
-    """
-    Install the wheels of requirements-test.txt, which only tests need.
-
-    Parameters
-    ----------
-    locations
-        The workspace and its environment, which is complete except for them.
-
-    Returns
-    -------
-    int
-        The exit status, 0.
-
-    """
-    current = wheels_digest(REQUIREMENTS, TEST_REQUIREMENTS)
-    stamp = Stamp(locations.environment / 'stamp' / 'tests')
-    if not stamp.matches(current):
-        steps = Steps(1)
-        steps.begin('Libraries that tests compare ours with')
-        stamp.clear()
-        include = sysconfig.get_path('include')
-        wheels.install_wheels(locations, steps, include, TEST_REQUIREMENTS)
-        wheels.compile_all(locations)
-        stamp.write(current)
-        steps.end()
-    return 0
-
-
-def build_site(locations: Locations) -> int:
-    """
-    Build the documentation as a site, in an environment of its own, which needs no compiler.
-
-    Parameters
-    ----------
-    locations
-        The workspace and its environment, which need not exist yet: that of the site is in it.
-
-    Returns
-    -------
-    int
-        The exit status of the build.
-
-    Raises
-    ------
-    SetupError
-        A wheel could not be installed, or another workspace owns the environment.
-
-    """
-    home = Home(locations)
-    home.require_same()
-    folder = locations.environment / 'site'
-    own = Locations(locations.root, folder, folder)
-    current = digest([SITE_REQUIREMENTS])
-    stamp = Stamp(folder / 'stamp')
-    if not stamp.matches(current):
-        steps = Steps(1)
-        steps.begin('Sphinx and its theme from PyPI, as requirements-site.txt pins them')
-        stamp.clear()
-        folder.mkdir(parents=True, exist_ok=True)
-        home.write()
-        link_environment(locations)
-        if not wheels.has_pip(own):
-            wheels.make_environment(own, sys.executable)
-        wheels.fetch_wheels(own, steps, SITE_REQUIREMENTS)
-        stamp.write(current)
-        steps.end()
-    print('Building the site: about a minute', flush=True)
-    return processes.run(
-        [own.python, ROOT / 'tools' / 'site' / 'build.py'],
-        cwd=locations.root,
-        variables=processes.without_inherited(),
-    )
-
-
-def wheels_digest(*requirements: Path) -> str:
-    """
-    Compute the digest of the pinned wheels, and of the patches to them.
-
-    Parameters
-    ----------
-    *requirements
-        The requirements files that pin the wheels.
-
-    Returns
-    -------
-    str
-        A SHA-256 digest in hexadecimal.
-
-    """
-    mends = [ROOT / 'tools' / 'setup' / name for name in ('mend.py', 'fast_dds.py')]
-    return digest([*requirements, *mends])
-
-
-def require_machine(locations: Locations, *, has_wheels: bool) -> None:
-    """
-    Check that the machine meets all requirements, before anything is downloaded.
-
-    Parameters
-    ----------
-    locations
-        The workspace and its environment.
-    has_wheels
-        Whether the wheels are installed already, so that less disk space is needed.
-
-    Raises
-    ------
-    SetupError
-        Something is missing; the message lists all of it.
-
-    """
-    root, environment = os.fspath(locations.root), os.fspath(locations.environment)
-    missing = prerequisites.problems(root, environment, has_wheels=has_wheels)
-    if missing:
-        raise SetupError('\n'.join(missing))
-
-
 def build(locations: Locations, arguments: list[str]) -> int:
     """
     Build src/ into install/ if its sources, the environment or the arguments have changed.
@@ -412,62 +224,6 @@ def build(locations: Locations, arguments: list[str]) -> int:
     if status == 0:
         stamp.write(current)
     return status
-
-
-def remove(paths: Iterator[Path]) -> None:
-    """
-    Delete folders, if they exist.
-
-    Parameters
-    ----------
-    paths
-        The folders; files are left alone.
-
-    """
-    for path in paths:
-        if path.is_dir():
-            shutil.rmtree(path)
-
-
-def refuse_what_belongs_to_others(locations: Locations) -> None:
-    """
-    Check that no other workspace owns an environment that is to be deleted.
-
-    Parameters
-    ----------
-    locations
-        The workspace and its environment.
-
-    Raises
-    ------
-    SetupError
-        It belongs to another workspace, and .venv is not a link to it.
-
-    """
-    other = Home(locations).other_workspace()
-    if other and not locations.is_linked:
-        raise SetupError(
-            f'The environment in {locations.environment} belongs to the workspace in {other}: '
-            'run `make distclean` there, or here without VENV'
-        )
-
-
-def forget_environment(locations: Locations) -> None:
-    """
-    Delete the environment if the set-up placed it; if the user named it, only the link.
-
-    Parameters
-    ----------
-    locations
-        The workspace and its environment.
-
-    """
-    if Home(locations).is_deleted_with_the_workspace():
-        remove(iter([locations.environment]))
-    else:
-        print(f'The environment in {locations.environment} was chosen by you and is kept.')
-    if locations.link.is_symlink():
-        locations.link.unlink()
 
 
 def explain_os_error(error: OSError) -> str:

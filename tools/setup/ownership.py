@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
+import shutil
 import sys
 
 from console import SetupError
@@ -78,3 +80,59 @@ class Home:
                 '`make distclean setup`, which leaves that one alone'
             )
         return 'choose another VENV, as in: make setup VENV=/opt/venv'
+
+
+def remove(paths: Iterable[Path]) -> None:
+    """
+    Delete folders, if they exist.
+
+    Parameters
+    ----------
+    paths
+        The folders; files are left alone.
+
+    """
+    for path in paths:
+        if path.is_dir():
+            shutil.rmtree(path)
+
+
+def refuse_what_belongs_to_others(locations: Locations) -> None:
+    """
+    Check that no other workspace owns an environment that is to be deleted.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+
+    Raises
+    ------
+    SetupError
+        It belongs to another workspace, and .venv is not a link to it.
+
+    """
+    other = Home(locations).other_workspace()
+    if other and not locations.is_linked:
+        raise SetupError(
+            f'The environment in {locations.environment} belongs to the workspace in {other}: '
+            'run `make distclean` there, or here without VENV'
+        )
+
+
+def forget_environment(locations: Locations) -> None:
+    """
+    Delete the environment if the set-up placed it; if the user named it, only the link.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+
+    """
+    if Home(locations).is_deleted_with_the_workspace():
+        remove([locations.environment])
+    else:
+        print(f'The environment in {locations.environment} was chosen by you and is kept.')
+    if locations.link.is_symlink():
+        locations.link.unlink()

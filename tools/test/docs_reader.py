@@ -30,7 +30,7 @@ LONG = (
     *('course_controllers', 'course_navigation', 'course_perception'),
     *('exercise_1', 'exercise_2', 'exercise_3', 'first_ten_minutes', 'look_inside', 'move_arms'),
     *('navigate', 'objects', 'robot_model', 'simulation', 'take_things', 'tell_the_robot'),
-    'use_your_own_yolo_model',
+    *('train', 'use_your_own_yolo_model'),
 )
 """Pages that take twenty seconds or more beside other tests: `story_docs.py` does them.
 

@@ -103,6 +103,11 @@ def _kill(mark: str) -> None:
 
 
 if __name__ == '__main__':
+    if len(sys.argv) != 3 or not sys.argv[1].isdecimal() or '=' not in sys.argv[2]:
+        sys.exit(
+            'usage: leftovers.py PID MARK, with the process to wait for and the NAME=value that '
+            'the processes to kill have in their environment'
+        )
     watched, of_tests = int(sys.argv[1]), sys.argv[2]
     while runs(watched):
         time.sleep(_POLL_S)

@@ -31,17 +31,22 @@ CORES = min(os.cpu_count() or 1, 12)
 
 With more packages at once, simulators take processors from each other and fall behind real time.
 """
-LONGEST = (
-    'humanoid_simulation',
-    'humanoid_bringup',
-    'humanoid_navigation',
-    'robot_mcp',
-    'humanoid_manipulation',
-    'humanoid_perception',
-    'llm_planner',
-    'humanoid_control',
-)
-"""Packages whose tests take minutes, the longest first: they begin before the others."""
+LONGEST = {
+    'humanoid_simulation': 1.0,
+    'humanoid_bringup': 1.0,
+    'humanoid_navigation': 1.0,
+    'humanoid_manipulation': 1.0,
+    'robot_mcp': 0.5,
+    'humanoid_perception': 0.5,
+    'llm_planner': 0.5,
+    'humanoid_control': 0.5,
+}
+"""Packages whose tests take minutes, in the order in which they begin, before the others.
+
+Each with the processors that it keeps busy on average. Those with a simulator come first: what
+begins last has nothing else beside it, and those that wait much fill the processors then.
+"""
+_CORES_OF_OTHERS = 0.5
 _LAST_WORDS_S = 10.0
 _POLL_S = 0.2
 _ENDS = (0, 1, 5)  # of pytest: passed, failed, nothing to run
@@ -221,13 +226,9 @@ def _end(process: subprocess.Popen[bytes], number: int) -> None:
 
 def packages() -> list[Suite]:
     """Return the tests of the packages of src/, each run by colcon, the longest first."""
-    names = sorted(path.parent.name for path in ROOT.glob('src/*/package.xml'))
-    return [_package(name) for name in sorted(names, key=_rank)]
-
-
-def _rank(name: str) -> int:
-    """Return the place of a package in the order in which tests begin."""
-    return LONGEST.index(name) if name in LONGEST else len(LONGEST)
+    names = {path.parent.name for path in ROOT.glob('src/*/package.xml')}
+    first = [name for name in LONGEST if name in names]
+    return [_package(name) for name in [*first, *sorted(names - LONGEST.keys())]]
 
 
 def _package(name: str) -> Suite:
@@ -243,7 +244,8 @@ def _package(name: str) -> Suite:
     test += ['--executor', 'sequential', '--event-handlers', 'console_cohesion-']
     test += ['--packages-select', name]
     again = [*test, '--packages-select-test-failures', '--pytest-args', '--last-failed']
-    return Suite(name, [*test, '--pytest-args', '--cache-clear'], again, reports)
+    cores = LONGEST.get(name, _CORES_OF_OTHERS)
+    return Suite(name, [*test, '--pytest-args', '--cache-clear'], again, reports, cores)
 
 
 def tools() -> Suite:

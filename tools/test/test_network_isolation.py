@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of who reaches nodes over a network: two machines, made of network namespaces."""
+"""Tests of who reaches nodes over a network: two machines, made of network namespaces.
+
+Each way of discovery is tried with nodes, which talk, and with `ros2`, which lists them.
+"""
 
 from __future__ import annotations
 
@@ -102,29 +105,52 @@ def ip(*words: str) -> None:
 
 
 @pytest.fixture
-def machines(tmp_path: Path) -> Iterator[tuple[Machine, Machine]]:
-    """Make the robot's machine and another one in its network."""
+def namespaces(tmp_path: Path) -> Iterator[tuple[Machine, Machine]]:
+    """Make the robot's machine and another one, without a network between them."""
     if os.geteuid() != 0 or shutil.which('ip') is None:
         pytest.skip('network namespaces need root, and iproute2')
     made = [Machine(f'{end}-{os.getpid()}', tmp_path / end) for end in ('robot', 'other')]
     try:
-        ip('netns', 'add', made[0].name)
-    except subprocess.CalledProcessError as error:
-        pytest.skip(f'no network namespaces here: {error.stderr.strip()}')
-    try:
-        ip('netns', 'add', made[1].name)
-        link = ['link', 'add', 'e0', 'netns', made[0].name, 'type', 'veth']
-        ip(*link, 'peer', 'name', 'e0', 'netns', made[1].name)
-        for machine, address in zip(made, (ROBOT, OTHER), strict=True):
+        for machine in made:
+            try:
+                ip('netns', 'add', machine.name)
+            except subprocess.CalledProcessError as error:
+                pytest.skip(f'no network namespaces here: {error.stderr.strip()}')
             machine.shared_memory.mkdir()
-            ip('-n', machine.name, 'addr', 'add', f'{address}/24', 'dev', 'e0')
-            for interface in ('lo', 'e0'):
-                ip('-n', machine.name, 'link', 'set', interface, 'up')
-            ip('-n', machine.name, 'route', 'add', 'default', 'dev', 'e0')
+            ip('-n', machine.name, 'link', 'set', 'lo', 'up')
         yield made[0], made[1]
     finally:
         for machine in made:
             subprocess.run(['ip', 'netns', 'del', machine.name], capture_output=True, check=False)
+
+
+@pytest.fixture
+def machines(namespaces: tuple[Machine, Machine]) -> tuple[Machine, Machine]:
+    """Connect the two machines by a cable."""
+    link = ['link', 'add', 'e0', 'netns', namespaces[0].name, 'type', 'veth']
+    ip(*link, 'peer', 'name', 'e0', 'netns', namespaces[1].name)
+    for machine, address in zip(namespaces, (ROBOT, OTHER), strict=True):
+        ip('-n', machine.name, 'addr', 'add', f'{address}/24', 'dev', 'e0')
+        ip('-n', machine.name, 'link', 'set', 'e0', 'up')
+        ip('-n', machine.name, 'route', 'add', 'default', 'dev', 'e0')
+    return namespaces
+
+
+@pytest.fixture
+def connect(
+    start: Start, root: Path, namespaces: tuple[Machine, Machine]
+) -> Callable[..., tuple[Machine, Machine]]:
+    """Return a function that connects the two machines by a network that is not a good one."""
+    if not os.access('/dev/net/tun', os.R_OK | os.W_OK):
+        pytest.skip('a network that loses packets needs /dev/net/tun')
+
+    def connect(*options: str) -> tuple[Machine, Machine]:
+        ends = [f'{each.name}/{address}' for each, address in zip(namespaces, (ROBOT, OTHER))]
+        program = str(root / 'tools' / 'test' / 'bad_link.py')
+        start(sys.executable, program, *ends, *options).wait_for('The link is up')
+        return namespaces
+
+    return connect
 
 
 def reach(extent: str, **more: str) -> dict[str, str]:
@@ -149,6 +175,20 @@ def visit(machine: Machine, names: str, must: str, env: dict[str, str]) -> dict[
     )
     found: dict[str, list[str]] = json.loads(done.stdout)
     return found
+
+
+def listed(machine: Machine, env: dict[str, str]) -> list[str]:
+    """Return the nodes that `ros2` lists on a machine, which it does without a warning."""
+    done = subprocess.run(
+        machine.command('ros2', 'node', 'list'),
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT_S,
+        check=True,
+    )
+    assert done.stderr == ''
+    return done.stdout.splitlines()
 
 
 def test_localhost_is_closed_to_other_machines(
@@ -184,17 +224,42 @@ def test_subnet_reaches_other_machines(start: Start, machines: tuple[Machine, Ma
     """Who asks for the network has it, by multicast."""
     robot, other = machines
     node = start_node(start, robot, 'open', reach('SUBNET'))
+    assert listed(other, reach('SUBNET')) == ['/open']
     assert visit(other, 'open', 'open', reach('SUBNET')) == {'seen': ['open'], 'heard': ['open']}
     node.wait_for('driven')
 
 
-def test_discovery_server(start: Start, machines: tuple[Machine, Machine]) -> None:
-    """A discovery server brings machines together that ask for the network."""
-    robot, other = machines
+def test_static_peers(start: Start, connect: Callable[..., tuple[Machine, Machine]]) -> None:
+    """Where multicast does not get through, it is enough that one names the other."""
+    robot, other = connect('--unicast')
+    node = start_node(start, robot, 'open', reach('SUBNET'))
+    assert listed(other, reach('SUBNET')) == []
+    env = reach('SUBNET', ROS_STATIC_PEERS=ROBOT)
+    assert listed(other, env) == ['/open']
+    assert visit(other, 'open', 'open', env) == {'seen': ['open'], 'heard': ['open']}
+    node.wait_for('driven')
+
+
+def start_server(start: Start, machine: Machine) -> dict[str, str]:
+    """Start a discovery server on the robot's machine; return the environment that uses it."""
     server = ['fast-discovery-server', '-i', '0', '-l', ROBOT, '-p', str(SERVER_PORT)]
-    start(*robot.command(*server), env=reach('SUBNET')).wait_for('Server', TIMEOUT_S)
-    env = reach('SUBNET', ROS_DISCOVERY_SERVER=f'{ROBOT}:{SERVER_PORT}')
+    start(*machine.command(*server), env=reach('SUBNET')).wait_for('Server is', TIMEOUT_S)
+    return reach('SUBNET', ROS_DISCOVERY_SERVER=f'{ROBOT}:{SERVER_PORT}')
+
+
+@pytest.mark.parametrize(
+    'options',
+    [(), ('--delay', '0.05', '--loss', '0.02')],
+    ids=['near', 'far'],
+)
+def test_discovery_server(
+    start: Start, connect: Callable[..., tuple[Machine, Machine]], options: tuple[str, ...]
+) -> None:
+    """A server brings machines together without multicast, late packets and lost ones or not."""
+    robot, other = connect('--unicast', *options)
+    env = start_server(start, robot)
     node = start_node(start, robot, 'open', env)
+    assert listed(other, env) == ['/open']
     assert visit(other, 'open', 'open', env)['heard'] == ['open']
     node.wait_for('driven')
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from importlib import import_module
 import importlib.util
 from pathlib import Path
+import re
 from types import ModuleType
 
 import pytest
@@ -60,6 +61,23 @@ def test_the_parameters_are_described(root: Path, generate: ModuleType) -> None:
     written = (root / 'docs' / 'reference' / 'parameters.md').read_text()
     assert written == generate.parameters_page()
     assert '| `physics_rate_hz` | a number, from 100 to 5000 | 500.0 |' in written
+
+
+def test_each_node_with_parameters_is_described(root: Path) -> None:
+    """The reference knows every class of parameters that a node of this project declares."""
+    import node_parameters  # tools/reference is on the path here
+    from own_packages import is_own_package
+
+    described = {path.rpartition('.')[2] for path in node_parameters.NODES.values()}
+    declared = {
+        name
+        for manifest in (root / 'src').glob('*/package.xml')
+        if is_own_package(manifest.parent)
+        for path in (manifest.parent / manifest.parent.name).rglob('*.py')
+        for name in re.findall(r'NodeParameters\(self, (\w+)', path.read_text())
+    }
+    assert 'HostParameters' in declared
+    assert declared - described == set()
 
 
 def test_the_skills_are_described(root: Path, generate: ModuleType) -> None:

@@ -6,8 +6,10 @@ from __future__ import annotations
 from pathlib import Path
 import re
 import shutil
+import subprocess
 import sys
 import time
+from unittest import mock
 from xml.etree import ElementTree
 
 from leftovers import runs
@@ -132,20 +134,72 @@ def test_nothing_outlives_its_tests(suite: Suite, tmp_path: Path, end: str) -> N
     wait_until(lambda: not runs(orphan), 30.0, 'the end of what the test started')
 
 
+@pytest.mark.parametrize('arguments', [[], ['7'], ['seven', 'A=b'], ['7', 'A']])
+def test_what_ends_leftovers_says_how_it_is_used(root: Path, arguments: list[str]) -> None:
+    """Without a process and a mark there is nothing to wait for, and nothing is killed."""
+    program = root / 'tools' / 'test' / 'leftovers.py'
+    done = subprocess.run(
+        [sys.executable, '-S', program, *arguments], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith('usage: leftovers.py PID MARK')
+
+
 def test_processes_that_die_are_replaced(suite: Suite, tmp_path: Path) -> None:
     """Each test in which a process dies fails, once, and all others run, in every file."""
     _copy('../conftest.py', to=tmp_path)
     dies, lives = 'test_{}_dies', 'test_{}_lives'
-    for number in range(6):
+    for number in range(4):
         text = DYING.format(dies=dies.format(number), lives=lives.format(number))
         (tmp_path / f'test_{number}.py').write_text(text)
-    command = [*suite.command, '-n', '3', '--dist', 'loadfile', '--no-loadscope-reorder']
+    command = [*suite.command, '-n', '2', '--dist', 'loadfile', '--no-loadscope-reorder']
     assert run([[Suite('mine', command, ['true'], suite.reports)]]) == 1
     cases = list(ElementTree.parse(tmp_path / 'report.xml').iter('testcase'))
     failed = [case.get('name') for case in cases if case.find('error') is not None]
-    assert sorted(failed) == [dies.format(number) for number in range(6)]
+    assert sorted(failed) == [dies.format(number) for number in range(4)]
     passed = {case.get('name') for case in cases} - set(failed)
-    assert passed == {lives.format(number) for number in range(6)}
+    assert passed == {lives.format(number) for number in range(4)}
+
+
+class Process:
+    """What pytest-xdist knows of a process of tests, which has died at some time."""
+
+    gateway = mock.Mock()
+    shutting_down = is_dead = False
+
+    def __init__(self) -> None:
+        self.told: list[int] = []
+
+    def send_runtest_some(self, indices: list[int]) -> None:
+        """Take the indices of more tests."""
+        if self.is_dead:
+            raise OSError('cannot send (already closed?)')
+        self.told += indices
+
+    def shutdown(self) -> None:
+        """Take the end."""
+
+
+def test_a_process_dies_when_it_is_given_more(pytestconfig: pytest.Config) -> None:
+    """What it was given in vain is done by another one; only the test in which it died fails."""
+    path = Path(__file__).parents[1] / 'conftest.py'
+    conftest = pytestconfig.pluginmanager.get_plugin(str(path))
+    config = mock.Mock()
+    config.getvalue = {'dist': 'loadfile', 'tx': ['2*popen']}.get
+    scheduler = conftest.pytest_xdist_make_scheduler(config, None)
+    tests = [f'test_{file}.py::test_{name}' for file in range(4) for name in 'abc']
+    dying, other = Process(), Process()
+    for each in (dying, other):
+        scheduler.add_node(each)
+        scheduler.add_node_collection(each, tests)
+    scheduler.schedule()
+    dying.is_dead = True
+    scheduler.mark_test_complete(dying, 0)
+    assert scheduler.remove_node(dying) == tests[1]
+    for index in other.told:  # which grows
+        scheduler.mark_test_complete(other, index)
+    assert sorted([0, 1, *other.told]) == [*range(len(tests))]
+    assert scheduler.tests_finished
 
 
 def test_some_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,9 +9,10 @@ import sys
 
 import commands
 from console import SetupError
+from environment import require_machine
 from leftovers import runs
 from locations import Locations
-from ownership import Home
+from ownership import forget_environment, Home
 import processes
 from programs import wait_until
 import pytest
@@ -80,12 +81,12 @@ def test_the_environment_of_another_workspace_is_not_deleted(
 def test_only_the_own_environment_is_deleted(tmp_path: Path, locations: Locations) -> None:
     """Distclean leaves an environment that the user named, and its link goes."""
     locations.environment.mkdir()
-    commands.forget_environment(locations)
+    forget_environment(locations)
     assert not locations.environment.exists()
     named = tmp_path / 'named'
     named.mkdir()
     locations.link.symlink_to(named)
-    commands.forget_environment(Locations(tmp_path, locations.link, named))
+    forget_environment(Locations(tmp_path, locations.link, named))
     assert named.is_dir()
     assert not locations.link.is_symlink()
 
@@ -96,7 +97,7 @@ def test_a_machine_that_lacks_something_is_told_all_at_once(
     """Everything that is missing is named before anything is downloaded."""
     monkeypatch.setenv('PATH', str(locations.root))
     with pytest.raises(SetupError, match=r'sudo apt install g\+\+'):
-        commands.require_machine(locations, has_wheels=True)
+        require_machine(locations, has_wheels=True)
 
 
 @pytest.mark.parametrize('arguments', [['nope'], ['setup', 'more'], ['--nope']])

@@ -99,10 +99,10 @@ def test_the_parts_of_this_workspace(root: Path) -> None:
     """Each is pinned, and not in requirements.txt; the full system takes all that robots need."""
     parts = read_parts((root / 'requirements-parts.txt').read_text())
     listed = [part.name for part in parts]
-    assert listed == ['navigation', 'vision', 'planner', 'sweep', 'gym', 'voice']
+    assert listed == ['navigation', 'vision', 'planner', 'sweep', 'gym', 'policy', 'voice']
     base = (root / 'requirements.txt').read_text().splitlines()
     for part in parts:
-        assert part.is_asked_for('full_system') == (part.name not in ('sweep', 'gym'))
+        assert part.is_asked_for('full_system') == (part.name not in ('sweep', 'gym', 'policy'))
         assert not part.is_asked_for('scene:=apartment gui:=false')
         assert part.pins and all('==' in pin for pin in part.pins)
         assert not set(part.pins) & set(base)

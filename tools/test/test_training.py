@@ -14,7 +14,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'training'))
 
 from batches import Album, letterboxed, moved, targets  # noqa: E402
 from boxes import assignment, Cells, corners, decoded, iou, suppressed  # noqa: E402
-from homes import band, HELD_OUT, home_of, random_home, TRAINING  # noqa: E402
+from home_colours import band, HELD_OUT, TRAINING  # noqa: E402
+from homes import home_of, random_home  # noqa: E402
 from humanoid_simulation.camera.pinhole import Pinhole  # noqa: E402
 from humanoid_simulation.scene import load_scene  # noqa: E402
 from humanoid_simulation.scene.objects import ObjectInstance, thing_of  # noqa: E402

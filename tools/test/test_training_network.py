@@ -22,13 +22,14 @@ for name in ('jax', 'optax', 'onnx', 'onnxruntime'):
 
 from batches import Batch  # noqa: E402
 from boxes import Cells, decoded  # noqa: E402
+from checkpoints import load, save, start  # noqa: E402
 from jax_operations import initial_weights, outputs  # noqa: E402
 from losses import flat  # noqa: E402
 from network import HEIGHT_PX, OUTPUTS, WIDTH_PX  # noqa: E402
 from onnx_graph import model_of  # noqa: E402
 import onnxruntime  # noqa: E402
 from pictures import CLASSES  # noqa: E402
-from train import load, make_optimizer, make_step, save, start  # noqa: E402
+from train import make_optimizer, make_step  # noqa: E402
 
 EDGE_PX = 64
 MOST_BYTES = 1_000_000

@@ -7,9 +7,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from checkpoints import load
 import onnx
 from onnx_graph import model_of
-from train import DATA, load, make_optimizer
+from train import DATA, make_optimizer
 
 MODEL = (
     Path(__file__).resolve().parents[2]

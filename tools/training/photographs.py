@@ -3,20 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import copy
 from dataclasses import dataclass
 import math
 from typing import cast
 
-from homes import band, Home, thing_colour
+from arranging import Arranger
+from home_colours import band, thing_colour
+from homes import Home
 from humanoid_simulation.camera import CameraView
 from humanoid_simulation.camera.gl_painter import GlPainter
 from humanoid_simulation.camera.pinhole import pinhole_of
 from humanoid_simulation.camera.ray_painter import RayPainter
 from humanoid_simulation.model import build_world, in_world, Physics, Placement, RobotDescription
-from humanoid_simulation.scene import Thing
-from humanoid_simulation.scene.scene import Surface
 from labels import labels_of, Seen
 import mujoco
 import numpy as np
@@ -25,13 +24,6 @@ from pictures import CLASSES, GL, Labels
 
 WIDTH_PX, HEIGHT_PX = 320, 240
 VIEW = CameraView(in_world('', 'head_camera'), WIDTH_PX, HEIGHT_PX)
-_AWAY_M = -20.0
-"""The height of things that are not in the home now."""
-_GAP_M = 0.001
-_LYING = ('bottle', 'can', 'mug')
-_UPRIGHT = (1.0, 0.0, 0.0, 0.0)
-_ON_ITS_SIDE = (math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0)
-_CARRIERS = ('box', 'book')
 _ARM_RANGES = {
     'shoulder': (-1.7, 0.4), 'shoulder_roll': (-0.2, 0.8), 'shoulder_yaw': (-0.8, 0.8),
     'elbow': (-2.0, 0.0),
@@ -135,6 +127,7 @@ class Photographer:
         self._home, self._split, self._generator = home, split, generator
         self._model = build_world(description, home.scene, (Placement(),), Physics())
         self._data = mujoco.MjData(self._model)
+        self._arranger = Arranger(self._model, self._data, home, generator)
         self._painter = LabelPainter(method, self._model, WIDTH_PX, HEIGHT_PX)
         self._camera = self._model.camera(VIEW.camera).id
         self._pinhole = pinhole_of(self._model, VIEW)
@@ -164,7 +157,7 @@ class Photographer:
 
         """
         if self._rearranges:
-            focus_m = self._face(self._arrange())
+            focus_m = self._face(self._arranger.arrange())
             self._colour()
             self._light()
         else:
@@ -198,47 +191,6 @@ class Photographer:
             seen[number] = Seen(thing, CLASSES.index(thing.kind), middle_m, rotation)
         return seen
 
-    def _arrange(self) -> Array:
-        """Put some things on surfaces and on the floor; return the point to look at."""
-        generator, surfaces = self._generator, self._home.scene.surfaces
-        things = list(self._home.scene.objects)
-        generator.shuffle(things)
-        is_on_floor = not surfaces or generator.random() < 0.22
-        stage = None if is_on_floor else surfaces[int(generator.integers(len(surfaces)))]
-        spot = self._point_on(stage)
-        count = int(generator.integers(0, 9))
-        taken: list[tuple[float, float, float]] = []
-        last: tuple[Thing, Array] | None = None
-        for number, thing in enumerate(things):
-            place: Surface | None = stage
-            near: Array | None = spot
-            if number >= count:
-                near = None
-                is_away = generator.random() < 0.35
-                others = [*surfaces, None] if surfaces else [None]
-                place = others[int(generator.integers(len(others)))]
-                if is_away:
-                    self._put(thing, np.array([0.0, 0.0, _AWAY_M]), _UPRIGHT)
-                    continue
-            if last is not None and generator.random() < 0.1:
-                below, at_m = last
-                top_m = at_m + (0.0, 0.0, below.size_m[2] / 2 + thing.size_m[2] / 2)
-                self._put(thing, top_m, _UPRIGHT)
-                last = None
-                continue
-            point_m = self._free_point(thing, place, near, taken)
-            if point_m is None:
-                self._put(thing, np.array([0.0, 0.0, _AWAY_M]), _UPRIGHT)
-                continue
-            at_m = point_m
-            taken.append((float(at_m[0]), float(at_m[1]), self._radius_m(thing)))
-            is_lying = thing.kind in _LYING and generator.random() < 0.07
-            height_m = thing.size_m[1] if is_lying else thing.size_m[2]
-            centre_m = at_m + (0.0, 0.0, height_m / 2 + _GAP_M)
-            self._put(thing, centre_m, _ON_ITS_SIDE if is_lying else _UPRIGHT)
-            last = (thing, centre_m) if thing.kind in _CARRIERS else None
-        return spot
-
     def _face(self, focus_m: Array) -> Array:
         """Return a point on a person in some of the pictures, else the one that is given."""
         persons = [thing for thing in self._home.scene.things if thing.kind == 'person']
@@ -246,54 +198,6 @@ class Photographer:
             return focus_m
         person = persons[int(self._generator.integers(len(persons)))]
         return np.array([*person.position_m[:2], self._generator.uniform(0.6, 1.6)])
-
-    def _point_on(self, surface: Surface | None) -> Array:
-        """Return a random point on a surface, or on the floor."""
-        if surface is None:
-            x1, x2, y1, y2 = self._home.bounds_m(0.0, 0.0)
-            across = self._generator.uniform(0.05, 0.95, 2)
-            return np.array([x1 + across[0] * (x2 - x1), y1 + across[1] * (y2 - y1), 0.003])
-        a, b, _, d = (np.array(corner) for corner in surface.outline_m)
-        across = self._generator.uniform(0.05, 0.95, 2)
-        return np.array([*(a + across[0] * (b - a) + across[1] * (d - a)), surface.height_m])
-
-    def _free_point(
-        self,
-        thing: Thing,
-        surface: Surface | None,
-        near: Array | None,
-        taken: Sequence[tuple[float, float, float]],
-    ) -> Array | None:
-        """Return a point for a thing, touching no other one; None if none was found."""
-        radius_m = self._radius_m(thing)
-        for _ in range(8):
-            at_m = self._point_on(surface)
-            if near is not None:
-                at_m[:2] = near[:2] + self._generator.normal(0, 0.22, 2)
-                if surface is not None and not surface.contains(at_m[0], at_m[1]):
-                    continue
-            in_way = surface is None and any(
-                each.is_near(at_m[0], at_m[1], radius_m) for each in self._home.footprints
-            )
-            is_free = all(
-                math.dist(at_m[:2], (x, y)) > radius_m + other_m for x, y, other_m in taken
-            )
-            if is_free and not in_way:
-                return at_m
-        return None
-
-    def _radius_m(self, thing: Thing) -> float:
-        """Return how far from its middle a thing reaches, about, seen from above."""
-        return 0.45 * math.hypot(*thing.size_m[:2])
-
-    def _put(self, thing: Thing, at_m: Array, turn: tuple[float, ...]) -> None:
-        """Put the middle of a thing to a point, turned about the vertical at random."""
-        yaw = self._generator.uniform(-math.pi, math.pi)
-        quaternion = np.empty(4)
-        about_z = np.array([math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)])
-        mujoco.mju_mulQuat(quaternion, about_z, np.array(turn))
-        first = self._model.joint(thing.name).qposadr[0]
-        self._data.qpos[first : first + 7] = [*at_m, *quaternion]
 
     def _colour(self) -> None:
         """Paint the things anew."""

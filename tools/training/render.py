@@ -13,7 +13,8 @@ import argparse
 from pathlib import Path
 import time
 
-from homes import HELD_OUT, home_of, random_home, SPLITS, TRAINING
+from home_colours import HELD_OUT, SPLITS, TRAINING
+from homes import home_of, random_home
 from humanoid_simulation.model import humanoid, RobotDescription
 from humanoid_simulation.scene import load_scene
 import numpy as np

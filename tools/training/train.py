@@ -20,9 +20,10 @@ from typing import Any
 
 from batches import Album, Batch, letterboxed, stacked
 from boxes import Cells, corners, decoded, suppressed
+from checkpoints import load, save, State
 import jax
 import jax.numpy as jnp
-from jax_operations import initial_weights, outputs, Statistics, Weights
+from jax_operations import outputs, Statistics, Weights
 from losses import flat, loss
 from metrics import Counted, Detections, mean_average_precision, quality
 from network import HEIGHT_PX, WIDTH_PX
@@ -41,10 +42,6 @@ STATISTICS_AVERAGE = 0.97
 SAVE_EVERY_S = 120.0
 EVALUATE_EVERY = 1000
 _AT_ONCE = 8
-_STORED = ('weights', 'statistics', 'averaged', 'averaged_statistics')
-
-State = dict[str, Any]
-"""What training changes: by `_STORED`, `optimizer`, and the number of `step`s done."""
 
 
 def main() -> None:
@@ -103,82 +100,6 @@ def _is_weight(weights: Weights) -> dict[str, bool]:
     return {name: name.endswith('/weight') for name in weights}
 
 
-def start(optimizer: optax.GradientTransformation, seed: int) -> State:
-    """
-    Return the state before the first step.
-
-    Parameters
-    ----------
-    optimizer
-        The optimizer, whose state is part of it.
-    seed
-        Of the random weights.
-
-    """
-    weights, statistics = initial_weights(seed)
-    return {
-        'weights': weights,
-        'statistics': statistics,
-        'averaged': weights,
-        'averaged_statistics': statistics,
-        'optimizer': optimizer.init(weights),
-        'step': 0,
-    }
-
-
-def save(path: Path, state: State) -> None:
-    """
-    Write a checkpoint; the one before stays until this one is complete.
-
-    Parameters
-    ----------
-    path
-        The file, with the suffix .npz.
-    state
-        The state of the training.
-
-    """
-    arrays = {
-        f'{part}:{name}': np.asarray(value)
-        for part in _STORED
-        for name, value in state[part].items()
-    }
-    for number, leaf in enumerate(jax.tree.leaves(state['optimizer'])):
-        arrays[f'optimizer:{number}'] = np.asarray(leaf)
-    unfinished = path.with_suffix('.unfinished.npz')
-    arrays['step'] = np.array(state['step'])
-    np.savez(unfinished, allow_pickle=False, **arrays)
-    unfinished.replace(path)
-
-
-def load(path: Path, optimizer: optax.GradientTransformation, seed: int) -> State:
-    """
-    Load the state of a checkpoint, or return that before the first step if there is none.
-
-    Parameters
-    ----------
-    path
-        The file of the checkpoint.
-    optimizer
-        The optimizer, of the same structure as that of the checkpoint.
-    seed
-        Of the random weights, if there is no checkpoint.
-
-    """
-    state = start(optimizer, seed)
-    if not path.exists():
-        return state
-    with np.load(path) as stored:
-        for part in _STORED:
-            state[part] = {name: stored[f'{part}:{name}'] for name in state[part]}
-        leaves, structure = jax.tree.flatten(state['optimizer'])
-        state['optimizer'] = structure.unflatten(
-            [jnp.asarray(stored[f'optimizer:{number}']) for number in range(len(leaves))]
-        )
-        state['step'] = int(stored['step'])
-    return state
-
-
 class Training:
     """
     A training, its pictures and its files.
@@ -190,7 +111,7 @@ class Training:
     folder
         Where checkpoints, the best weights and the progress are written.
     state
-        Where to go on, as from `load`.
+        Where to go on, as from `checkpoints.load`.
     optimizer
         The optimizer.
     seed

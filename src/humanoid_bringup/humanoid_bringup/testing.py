@@ -14,7 +14,7 @@ from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_common.testing.waiting import WaitedInVainError
 from humanoid_interfaces.srv import MakePlan
-from humanoid_perception.places import load_places, places_path
+from humanoid_perception.places_file import load_places, places_path
 from humanoid_simulation.testing.clients import EntityClient
 from humanoid_simulation.testing.simulators import RobotClient
 from rclpy.clock import Clock, ClockType

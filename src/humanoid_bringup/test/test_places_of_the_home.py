@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from humanoid_perception.places import places_path
+from humanoid_perception.places_file import places_path
 from humanoid_simulation.scene_places import main
 
 

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills, skills_path
 from voice_control.grammar_recognizer import STOP_GRAMMAR
-from voice_control.word_network import compile_jsgf, WordNetwork
+from voice_control.jsgf import compile_jsgf
+from voice_control.word_network import WordNetwork
 
 PLANNER = RulePlanner(load_skills(skills_path()))
 NETWORK = compile_jsgf(STOP_GRAMMAR)

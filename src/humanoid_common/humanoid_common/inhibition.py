@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
-FALLEN = 'The robot has fallen. Stand it up first; in simulation, call the service stand_up.'
+FALLEN = (
+    'The robot has fallen. Wait until it has got up, or stand it up; in simulation, call the '
+    'service stand_up.'
+)
 STANDING_UP = 'The robot is still standing up. Send the goal again once it stands.'
 
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from humanoid_control.backends import Observation
 from humanoid_control.walking import VelocityCommand, Walker, WalkParameters
-from humanoid_control.walking.recovery import FallDetector, Rising, StandingState
+from humanoid_control.walking.get_up import Rising
+from humanoid_control.walking.recovery import FallDetector, StandingState
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 from humanoid_description.rotations import from_rpy, quaternion_of

@@ -40,6 +40,16 @@ def test_a_fall_is_said_once() -> None:
     assert paper.news == ["The robot 'robot1' stands again."]
 
 
+def test_giving_up_is_said_once() -> None:
+    """A robot that has given up getting up says what to do."""
+    paper = Paper()
+    report = FallReport(paper, 'robot1')
+    for has_given_up in (False, True, True):
+        report.look(True, has_given_up)
+    assert len(paper.errors) == 2
+    assert paper.errors[1].startswith("The robot 'robot1' has not managed to get up")
+
+
 def test_the_only_robot_has_no_name() -> None:
     """A robot without a name is just the robot."""
     paper = Paper()

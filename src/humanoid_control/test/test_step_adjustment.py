@@ -7,10 +7,10 @@ import cmath
 import math
 
 from humanoid_control.walking.footsteps import FootstepPlanner
-from humanoid_control.walking.landing import Adjustment, Residual, StepAdjuster
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import BalanceReference, Motion, Pendulum
 from humanoid_control.walking.planar import LEFT, PlanarPose
+from humanoid_control.walking.step_adjustment import Adjustment, Residual, StepAdjuster
 from humanoid_control.walking.support_polygon import SupportPolygon
 import pytest
 

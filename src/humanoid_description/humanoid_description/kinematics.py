@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Forward kinematics. Joint positions may be arrays; then so are the poses."""
+"""
+Forward kinematics, and the check of limbs whose inverse kinematics are solved in closed form.
+
+Joint positions may be arrays; then so are the poses.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from humanoid_description.robot import Array, Joint, Robot
+from humanoid_description.errors import DescriptionError
+from humanoid_description.robot import Array, Joint, named, Robot
 import numpy as np
 
 AT_ZERO: Mapping[str, float] = {}
+_AXIS_TOLERANCE = 1e-9
 
 
 def chain(robot: Robot, link: str, base: str | None = None) -> list[Joint]:
@@ -114,6 +120,44 @@ def joint_motion(joint: Joint, position: Array | float) -> Array:
     else:
         motion[..., :3, :3] += _turn_less_identity(axis, position[..., None, None])
     return motion
+
+
+def check_limb(
+    limb: str, joints: Sequence[Joint], at_zero: Sequence[Array], axes: Mapping[str, str]
+) -> None:
+    """
+    Check that a limb has the joints and axes that its inverse kinematics are made for.
+
+    Parameters
+    ----------
+    limb
+        What messages call it, such as `left leg`.
+    joints
+        Its joints, from the trunk on.
+    at_zero
+        The poses (4, 4) of their children in the root, at zero joint positions.
+    axes
+        The names that the joints must have, in this order, with the axis of the root about which
+        each one must rotate at zero joint positions: `x`, `y` or `z`.
+
+    Raises
+    ------
+    DescriptionError
+        The joints or their axes differ.
+
+    """
+    found = [joint.name for joint in joints]
+    if found != [*axes]:
+        raise DescriptionError(
+            f'The {limb} has the joints {", ".join(found) or "(none)"}, but needs '
+            f'{", ".join(axes)}, in this order.'
+        )
+    for joint, pose, letter in zip(joints, at_zero, axes.values()):
+        axis = np.eye(3)['xyz'.index(letter)]
+        if not np.allclose(pose[:3, :3] @ joint.axis, axis, atol=_AXIS_TOLERANCE):
+            raise DescriptionError(
+                f'{named(joint)} must rotate about {letter} of the root link at the zero pose.'
+            )
 
 
 def _position(

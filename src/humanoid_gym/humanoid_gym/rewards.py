@@ -4,10 +4,9 @@ Reward terms that several tasks share, each with its weight, per second of simul
 
 Sources: the forms of tracking, vertical velocity, roll and pitch rate, torque, acceleration and
 action rate are those of Rudin, Hoeller, Reist and Hutter, "Learning to Walk in Minutes Using
-Massively Parallel Deep Reinforcement Learning" (CoRL 2021), as are the weights unless a comment
-says otherwise. The constant reward for not having fallen is that of the Humanoid environments of
-Gymnasium, after Tassa, Erez and Todorov, "Synthesis and Stabilization of Complex Behaviors through
-Online Trajectory Optimization" (IROS 2012).
+Massively Parallel Deep Reinforcement Learning" (CoRL 2021). Unless a comment says otherwise, the
+weights are the defaults of their program, legged_gym (`LeggedRobotCfg`). The constant reward for
+not having fallen is the healthy reward of the environment Humanoid of Gymnasium.
 """
 
 from __future__ import annotations

@@ -1,13 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""
-Closed-form inverse kinematics of an arm with six joints.
-
-The three axes of the shoulder intersect in one point, so the arm has a closed-form solution by
-D. L. Pieper, The Kinematics of Manipulators under Computer Control (1968): the distance from wrist
-to shoulder gives the elbow angle, the direction to the shoulder in the frame of the hand gives the
-wrist angles, and the remaining rotation gives the shoulder angles. Each of the three steps has two
-solutions, so there are up to eight postures for a pose.
-"""
+"""Which postures of an arm reach a pose of its gripper: its geometry, limits and kinematics."""
 
 from __future__ import annotations
 
@@ -17,16 +9,13 @@ import math
 
 from humanoid_control.dynamics.frames import Frame
 from humanoid_description.drives import SIDES
-from humanoid_description.kinematics import chain, poses
+from humanoid_description.errors import DescriptionError
+from humanoid_description.kinematics import chain, check_limb, poses
 from humanoid_description.robot import Array, Joint, named, Robot
 from humanoid_description.rotations import about_x, about_y, about_z
+from humanoid_manipulation.closed_form import lack_m, Posture, solutions, Vector
 from humanoid_manipulation.errors import ManipulationError
 import numpy as np
-
-__all__ = ['Arm', 'Posture']
-
-Posture = tuple[float, ...]
-"""The positions of the six joints of an arm (rad), from the shoulder down."""
 
 AXES = {
     'shoulder': 'y',
@@ -41,10 +30,6 @@ AXES = {
 _COUNT = len(AXES)
 _GRIPPERS = dict(zip(SIDES, ('l_gripper', 'r_gripper')))
 _TOLERANCE = 1e-9
-_STRETCHED_M = 1e-7
-"""A shoulder within this distance of the forearm's line counts as on it: see `near`."""
-_COINCIDING = 1e-9
-"""Cosine of the roll below which pitch and yaw share one axis: a singularity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,11 +103,6 @@ class Arm:
             tuple(lower for lower, _ in limits),
             tuple(upper for _, upper in limits),
         )
-
-    @property
-    def reach_m(self) -> float:
-        """Return the largest distance of the wrist pitch joint from the shoulder."""
-        return self.upper_m + self.fore_m
 
     def forward(self, posture: Sequence[float]) -> Frame:
         """
@@ -238,24 +218,8 @@ class Arm:
 
         """
         rotation: list[list[float]] = gripper.rotation.tolist()
-        wx, wy, wz = self._to_shoulder_m(gripper)
-        upper, fore = self.upper_m, self.fore_m
-        given = near or (0.0,) * _COUNT
-        for elbow in _elbows(upper, fore, math.sqrt(wx * wx + wy * wy + wz * wz)):
-            back, up = -upper * math.sin(elbow), fore + upper * math.cos(elbow)
-            for wrist_yaw in _wrist_yaws(back, wy, given[4]):
-                ahead = back * math.cos(wrist_yaw)
-                wrist_pitch = math.atan2(wz, wx) - math.atan2(up, ahead)
-                below = elbow, wrist_yaw, wrist_pitch
-                for pitch, roll, yaw in _shoulders(rotation, below, given[0]):
-                    yield (
-                        pitch,
-                        roll,
-                        math.remainder(yaw, math.tau),
-                        elbow,
-                        math.remainder(wrist_yaw, math.tau),
-                        math.remainder(wrist_pitch, math.tau),
-                    )
+        to_shoulder_m = self._to_shoulder_m(gripper)
+        yield from solutions(self.upper_m, self.fore_m, to_shoulder_m, rotation, near)
 
     def lack_m(self, gripper: Frame) -> float:
         """
@@ -273,14 +237,9 @@ class Arm:
             is too far off the plane in which the hand bends, in m; 0 if a solution exists.
 
         """
-        wx, wy, wz = self._to_shoulder_m(gripper)
-        distance_m = math.sqrt(wx * wx + wy * wy + wz * wz)
-        nearest_m = min(max(distance_m, abs(self.upper_m - self.fore_m)), self.reach_m)
-        (elbow, *_) = _elbows(self.upper_m, self.fore_m, nearest_m)
-        beside_m = max(abs(wy) - abs(self.upper_m * math.sin(elbow)), 0.0)
-        return abs(distance_m - nearest_m) + beside_m
+        return lack_m(self.upper_m, self.fore_m, self._to_shoulder_m(gripper))
 
-    def _to_shoulder_m(self, gripper: Frame) -> tuple[float, float, float]:
+    def _to_shoulder_m(self, gripper: Frame) -> Vector:
         """Compute the vector from the wrist to the shoulder, in the axes of the hand."""
         (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = gripper.rotation.tolist()
         px, py, pz = gripper.position_m.tolist()
@@ -292,60 +251,6 @@ class Arm:
             r01 * x + r11 * y + r21 * z,
             r02 * x + r12 * y + r22 * z,
         )
-
-
-def _elbows(upper_m: float, fore_m: float, distance_m: float) -> tuple[float, ...]:
-    """Return the elbow angles that bring wrist and shoulder to a distance."""
-    # Half angles: accurate for a nearly stretched arm, where the cosine is not.
-    shorter = (upper_m + fore_m - distance_m) * (upper_m + fore_m + distance_m)
-    longer = (distance_m - upper_m + fore_m) * (distance_m + upper_m - fore_m)
-    if not min(shorter, longer) >= -_TOLERANCE:
-        return ()
-    turn = 2.0 * math.atan2(math.sqrt(max(shorter, 0.0)), math.sqrt(max(longer, 0.0)))
-    return (turn, -turn) if turn else (turn,)
-
-
-def _wrist_yaws(back: float, across: float, given: float) -> tuple[float, ...]:
-    """Return the wrist yaw angles that give the shoulder's offset across the hand."""
-    if abs(across) > abs(back) + _STRETCHED_M:
-        return ()
-    if abs(back) <= _STRETCHED_M:
-        return (given,)
-    turn = math.asin(max(-1.0, min(1.0, -across / back)))
-    return turn, math.pi - turn
-
-
-def _shoulders(
-    rotation: Sequence[Sequence[float]], below: tuple[float, float, float], given: float
-) -> Iterator[tuple[float, float, float]]:
-    """Yield the pitch, roll and yaw of the shoulder that give the hand its rotation."""
-    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
-    elbow, wrist_yaw, wrist_pitch = below
-    # The rotation of the upper arm is that of the hand, with the joints below undone.
-    c6, s6 = math.cos(wrist_pitch), math.sin(wrist_pitch)
-    c5, s5 = math.cos(wrist_yaw), math.sin(wrist_yaw)
-    c4, s4 = math.cos(elbow), math.sin(elbow)
-    # Its columns: those of Ry(-wrist_pitch) Rz(-wrist_yaw) Ry(-elbow).
-    m00, m01, m02 = c6 * c5 * c4 - s6 * s4, c6 * s5, -c6 * c5 * s4 - s6 * c4
-    m10, m11, m12 = -s5 * c4, c5, s5 * s4
-    m20, m21, m22 = s6 * c5 * c4 + c6 * s4, s6 * s5, -s6 * c5 * s4 + c6 * c4
-    u02 = r00 * m02 + r01 * m12 + r02 * m22
-    u10 = r10 * m00 + r11 * m10 + r12 * m20
-    u11 = r10 * m01 + r11 * m11 + r12 * m21
-    u12 = r10 * m02 + r11 * m12 + r12 * m22
-    u22 = r20 * m02 + r21 * m12 + r22 * m22
-    level = math.hypot(u02, u22)
-    for cosine_roll in (level, -level):
-        roll = math.atan2(-u12, cosine_roll)
-        if level > _COINCIDING:
-            pitch = math.atan2(u02 / cosine_roll, u22 / cosine_roll)
-            yaw = math.atan2(u10 / cosine_roll, u11 / cosine_roll)
-        else:
-            u00 = r00 * m00 + r01 * m10 + r02 * m20
-            u01 = r00 * m01 + r01 * m11 + r02 * m21
-            pitch = given
-            yaw = math.copysign(1.0, -u12) * pitch + math.atan2(-u01, u00)
-        yield pitch, roll, yaw
 
 
 def _gripper(robot: Robot, side: str) -> str:
@@ -360,19 +265,14 @@ def _gripper(robot: Robot, side: str) -> str:
 
 def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[Array]) -> None:
     """Validate the kinematics of an arm, from the joint poses at zero, in the root link."""
-    needed = [f'{robot.prefix}{side}_{kind}' for kind in AXES]
-    found = [joint.name for joint in joints]
-    if found != needed:
-        raise ManipulationError(
-            f'The {side} arm has the joints {", ".join(found) or "(none)"}, but needs '
-            f'{", ".join(needed)}. Start the robot with hands: hands:=true'
-        )
-    for joint, pose, letter in zip(joints, at_zero, AXES.values()):
-        unit = np.eye(3)['xyz'.index(letter)]
-        if not np.allclose(pose[:3, :3] @ joint.axis, unit, atol=_TOLERANCE):
-            raise ManipulationError(
-                f'{named(joint)} must rotate about {letter} of the root link at the zero pose.'
-            )
+    axes = {f'{robot.prefix}{side}_{kind}': axis for kind, axis in AXES.items()}
+    try:
+        check_limb(f'{side} arm', joints, at_zero, axes)
+    except DescriptionError as error:
+        has_all = [joint.name for joint in joints] == [*axes]
+        hint = '' if has_all else ' Start the robot with hands: hands:=true'
+        raise ManipulationError(f'{error}{hint}') from error
+    for joint in joints:
         if joint.limits is None:
             raise ManipulationError(f'{named(joint)} needs joint limits.')
     pitch, roll, yaw, elbow, wrist_yaw, wrist_pitch = (pose[:3, 3] for pose in at_zero)

@@ -17,14 +17,8 @@ from humanoid_description.rotations import about_z, from_quaternion, yaw_of
 from humanoid_manipulation.free_floor import FreeFloor
 from humanoid_manipulation.grasps import Graspable
 from humanoid_manipulation.obstacle import Obstacle
-from humanoid_perception.places import (
-    load_places,
-    Outline,
-    Places,
-    places_path,
-    PlacesError,
-    Surface,
-)
+from humanoid_perception.places import Outline, Places, Surface
+from humanoid_perception.places_file import load_places, places_path, PlacesError
 from humanoid_perception.transforms import Transforms
 from nav_msgs.msg import OccupancyGrid
 import numpy as np

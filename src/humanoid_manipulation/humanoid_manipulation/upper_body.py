@@ -12,7 +12,8 @@ from humanoid_description.drives import SIDES
 from humanoid_description.kinematics import chain, poses
 from humanoid_description.robot import Array, Robot
 from humanoid_description.rotations import about_z, log
-from humanoid_manipulation.arm_ik import Arm, Posture
+from humanoid_manipulation.arm_ik import Arm
+from humanoid_manipulation.closed_form import Posture
 from humanoid_manipulation.errors import ManipulationError
 import numpy as np
 from scipy.optimize import least_squares, minimize_scalar

@@ -11,7 +11,8 @@ from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.kinematics import chain, pose_along
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Robot
-from humanoid_manipulation.arm_ik import Arm, Posture
+from humanoid_manipulation.arm_ik import Arm
+from humanoid_manipulation.closed_form import Posture
 from humanoid_manipulation.errors import ManipulationError
 import numpy as np
 import pytest

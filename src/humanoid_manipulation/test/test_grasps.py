@@ -13,7 +13,8 @@ from humanoid_manipulation.placing import free_spots
 from humanoid_manipulation.stances import base_of, Bend, BENDS, grasp_reaches, stances_for
 from humanoid_manipulation.surroundings import surface_boxes
 from humanoid_manipulation.upper_body import UpperBody
-from humanoid_perception.places import load_places, Places, places_path, Surface
+from humanoid_perception.places import Places, Surface
+from humanoid_perception.places_file import load_places, places_path
 import numpy as np
 import pytest
 

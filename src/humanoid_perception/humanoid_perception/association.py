@@ -1,14 +1,89 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Data association of detections and remembered objects: an optimal assignment."""
+"""Which detection belongs to which remembered object, and which objects are the same one."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+import math
+
+from humanoid_perception.remembered import RememberedThing
+from humanoid_perception.sighting import Sighting
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['assign']
+__all__ = ['assign', 'associate', 'has_moved', 'is_same']
 
 Array = npt.NDArray[np.float64]
+
+_GATE = 16.0
+"""Largest cost of a pair: chi-square with three degrees of freedom at 99.9 %."""
+_FAR_M = 2.0
+"""Distance from an object beyond which no detection can belong to it."""
+
+
+def associate(
+    sightings: Sequence[Sighting],
+    noises_m2: Sequence[Array],
+    things: Sequence[RememberedThing],
+    doubts_m2: Sequence[Array],
+) -> list[tuple[int, int]]:
+    """
+    Associate detections with objects.
+
+    Parameters
+    ----------
+    sightings, noises_m2
+        The detections, and the covariances (3, 3) of their positions.
+    things, doubts_m2
+        The objects, and the covariances (3, 3) that are added to those of their positions.
+
+    Returns
+    -------
+    list of tuple
+        Pairs of the index of a detection and of an object, ordered by detection; each detection
+        and each object at most once.
+
+    """
+    return assign(_costs(sightings, noises_m2, things, doubts_m2), _GATE)
+
+
+def _costs(
+    sightings: Sequence[Sighting],
+    noises_m2: Sequence[Array],
+    things: Sequence[RememberedThing],
+    doubts_m2: Sequence[Array],
+) -> Array:
+    """Compute the association costs (detections, objects)."""
+    costs = np.full((len(sightings), len(things)), np.inf)
+    if not costs.size:
+        return costs
+    places = np.array([thing.position_m for thing in things])
+    for row, (sighting, noise) in enumerate(zip(sightings, noises_m2, strict=True)):
+        away_m = np.linalg.norm(places - sighting.position_m, axis=1)
+        for column in np.flatnonzero(away_m < _FAR_M).tolist():
+            costs[row, column] = _cost(things[column], sighting, noise + doubts_m2[column])
+    return costs
+
+
+def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
+    """Compute the cost of associating a detection with an object; infinite if impossible."""
+    distance_m = float(np.linalg.norm(sighting.position_m - thing.position_m))
+    reach_m = 0.5 * float(max(thing.size_m.max(), sighting.size_m.max()))
+    share = thing.classes.share(sighting.class_id)
+    near_m = reach_m + (0.6 if share > 0.1 else 0.08)
+    if distance_m > near_m:
+        return math.inf
+    if sighting.is_cut:
+        # Its centre is that of the part within the image.
+        noise_m2 = noise_m2 + reach_m**2 * np.eye(3)
+        size_term = 0.0
+    else:
+        ratio = math.log(float(sighting.size_m.max() / thing.size_m.max()))
+        size_term = min(2.0 * ratio * ratio, 3.0)
+    cost = thing.distance2(sighting, noise_m2) + 4.0 * (1.0 - share) + size_term
+    if sighting.colour and thing.colours.best:
+        cost += 3.0 * (1.0 - thing.colours.share(sighting.colour))
+    return cost
 
 
 def assign(costs: Array, unassigned_cost: float) -> list[tuple[int, int]]:
@@ -86,3 +161,39 @@ def _columns_of_rows(table: Array) -> npt.NDArray[np.intp]:
     taken = np.flatnonzero(row_of >= 0)
     chosen[row_of[taken]] = taken
     return chosen
+
+
+def is_same(thing: RememberedThing, other: RememberedThing) -> bool:
+    """
+    Check whether two objects are so close that they must be the same.
+
+    Parameters
+    ----------
+    thing, other
+        The objects.
+
+    """
+    distance_m = float(np.linalg.norm(thing.position_m - other.position_m))
+    limit_m = 0.5 * float(min(thing.size_m.max(), other.size_m.max()))
+    if thing.class_id == other.class_id and (
+        thing.colour == other.colour or not thing.colour or not other.colour
+    ):
+        limit_m += min(2.0 * max(thing.sigma_m, other.sigma_m), 0.15)
+    return distance_m < limit_m
+
+
+def has_moved(old: RememberedThing, new: RememberedThing) -> bool:
+    """
+    Check whether a new object may be an old one of its kind that has moved.
+
+    Parameters
+    ----------
+    old, new
+        The objects.
+
+    """
+    if old.empty >= 2:
+        return True
+    distance_m = float(np.linalg.norm(old.position_m - new.position_m))
+    is_close = distance_m < 2.0 * float(max(old.size_m.max(), new.size_m.max()))
+    return is_close and old.missed >= 2

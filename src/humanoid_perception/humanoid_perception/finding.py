@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_perception.detection import COLOURS
 from humanoid_perception.places import Places
-from humanoid_perception.remembered import greatest_sigma_m, RememberedThing
+from humanoid_perception.remembered import RememberedThing
+from humanoid_perception.sighting import greatest_sigma_m
 
 __all__ = ['ObjectQuery', 'QuestionError', 'find', 'place_of']
 

@@ -8,18 +8,19 @@ from dataclasses import dataclass
 import math
 from types import MappingProxyType
 
-from humanoid_perception.association import assign
-from humanoid_perception.remembered import Pose2, RememberedThing, Sighting, sighting_noise
+from humanoid_perception.association import associate, has_moved, is_same
+from humanoid_perception.object_ids import ObjectIds
+from humanoid_perception.planar_poses import composed, offset_m, Pose2, shift_between
+from humanoid_perception.remembered import RememberedThing
+from humanoid_perception.sighting import Sighting, sighting_noise
 from humanoid_perception.visibility import corners_of, Evidence, evidence_at, View
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['MemorySettings', 'ObjectMemory', 'shift_between']
+__all__ = ['MemorySettings', 'ObjectMemory']
 
 Array = npt.NDArray[np.float64]
 
-_GATE = 16.0
-"""Largest cost of a pair: chi-square with three degrees of freedom at 99.9 %."""
 _LOSS = {Evidence.EMPTY: 0.8, Evidence.UNKNOWN: 0.35, Evidence.SOMETHING: 0.05}
 """Decrease of the log odds of an object by a view that should have detected it."""
 _TENTATIVE_LOSS = 4.0
@@ -28,16 +29,12 @@ _START, _BORN, _FORGOTTEN = -1.0, 0.8, -1.0
 """Log odds before the first detection, for confirmation, and below which an object is dropped."""
 _TENTATIVE_S = 30.0
 """How long an unconfirmed object is kept without being seen."""
-_LOST_S = 600.0
-"""How long the id of an object that is gone is reserved for it."""
 _CALM_RAD_S = 0.5
 """Turn rate of the camera above which missing detections are ignored."""
 _JUMP_M, _JUMP_RAD = 0.15, 0.10
 """Motion of the odom frame above which a correction counts as a jump, and not as drift."""
 _IN_HAND_M = 0.15
 """A detection this near to a hand, or to a held object, is that hand or object."""
-_FAR_M = 2.0
-"""Distance from an object beyond which no detection can belong to it."""
 
 
 @dataclass(frozen=True)
@@ -72,16 +69,6 @@ class MemorySettings:
     follows_jumps: bool = True
 
 
-@dataclass(frozen=True)
-class _Lost:
-    """An object that was dropped, whose id may be reused for it."""
-
-    object_id: str
-    class_id: str
-    colour: str
-    time_s: float
-
-
 class ObjectMemory:
     """
     Memory of objects, updated with each view of the camera and its detections.
@@ -103,8 +90,7 @@ class ObjectMemory:
     def __init__(self, settings: MemorySettings = MemorySettings()) -> None:
         self.settings = settings
         self._all: list[RememberedThing] = []
-        self._lost: list[_Lost] = []
-        self._counts: dict[str, int] = {}
+        self._ids = ObjectIds()
         self._time_s = -math.inf
         self._anchor: Pose2 | None = None
 
@@ -120,7 +106,7 @@ class ObjectMemory:
 
     def clear(self) -> None:
         """Clear the memory, including the counters of ids."""
-        self._all, self._lost, self._counts = [], [], {}
+        self._all, self._ids = [], ObjectIds()
         self._time_s, self._anchor = -math.inf, None
 
     def move_all(self, shift: Pose2) -> None:
@@ -135,9 +121,9 @@ class ObjectMemory:
         """
         for thing in self._all:
             thing.move_by(shift)
-            thing.anchor = _composed(shift, thing.anchor)
+            thing.anchor = composed(shift, thing.anchor)
         if self._anchor is not None:
-            self._anchor = _composed(shift, self._anchor)
+            self._anchor = composed(shift, self._anchor)
 
     def look(
         self,
@@ -206,7 +192,8 @@ class ObjectMemory:
         noises = [
             sighting_noise(each.position_m, view.position_m, view.turn_rad_s) for each in sightings
         ]
-        partner = dict(assign(self._costs(sightings, noises), _GATE))
+        doubts = [self._doubt_m2(thing) for thing in self._all] if sightings else []
+        partner = dict(associate(sightings, noises, self._all, doubts))
         seen = []
         for row, (sighting, noise) in enumerate(zip(sightings, noises, strict=True)):
             gain = _gain(sighting.score)
@@ -224,20 +211,6 @@ class ObjectMemory:
             seen.append(thing)
         return seen
 
-    def _costs(self, sightings: Sequence[Sighting], noises_m2: Sequence[Array]) -> Array:
-        """Compute the association costs (detections, objects)."""
-        costs = np.full((len(sightings), len(self._all)), np.inf)
-        if not costs.size:
-            return costs
-        places = np.array([thing.position_m for thing in self._all])
-        doubts_m2 = [self._doubt_m2(thing) for thing in self._all]
-        for row, (sighting, noise) in enumerate(zip(sightings, noises_m2, strict=True)):
-            away_m = np.linalg.norm(places - sighting.position_m, axis=1)
-            for column in np.flatnonzero(away_m < _FAR_M):
-                doubtful_m2 = noise + doubts_m2[column]
-                costs[row, column] = _cost(self._all[column], sighting, doubtful_m2)
-        return costs
-
     def _doubt_m2(self, thing: RememberedThing) -> Array:
         """
         Compute the covariance (3, 3) that corrections of the localisation add to a position.
@@ -247,7 +220,7 @@ class ObjectMemory:
         """
         assert self._anchor is not None
         off = np.zeros(3)
-        off[:2] = _offset_m(shift_between(thing.anchor, self._anchor), thing.position_m)
+        off[:2] = offset_m(shift_between(thing.anchor, self._anchor), thing.position_m)
         return np.outer(off, off)
 
     def _miss(self, view: View, seen: Sequence[RememberedThing]) -> None:
@@ -299,7 +272,7 @@ class ObjectMemory:
                 are_both_seen = id(other) in seen_ids
                 if are_both_seen and other.class_id == thing.class_id:
                     continue
-                if _is_same(thing, other):
+                if is_same(thing, other):
                     kept, dropped = _older_first(thing, other)
                     kept.absorb(dropped)
                     self._all = [each for each in self._all if each is not dropped]
@@ -309,25 +282,16 @@ class ObjectMemory:
         for thing in list(self._all):
             enough = thing.sightings >= self.settings.birth_sightings
             if not thing.object_id and enough and thing.log_odds >= _BORN:
-                thing.object_id = self._old_id(thing) or self._new_id(thing)
+                thing.object_id = self._old_id(thing) or self._ids.new(thing)
 
     def _old_id(self, thing: RememberedThing) -> str:
         """Reuse the id of a matching object that is gone from its place; empty without one."""
         kind = thing.class_id, thing.colour
         for other in self.things:
-            if (other.class_id, other.colour) == kind and _has_moved(other, thing):
+            if (other.class_id, other.colour) == kind and has_moved(other, thing):
                 self._all = [each for each in self._all if each is not other]
                 return other.object_id
-        for lost in reversed(self._lost):
-            if (lost.class_id, lost.colour) == kind and self._time_s - lost.time_s < _LOST_S:
-                self._lost.remove(lost)
-                return lost.object_id
-        return ''
-
-    def _new_id(self, thing: RememberedThing) -> str:
-        stem = '_'.join(filter(None, (thing.colour, thing.class_id))).replace(' ', '_')
-        self._counts[stem] = self._counts.get(stem, 0) + 1
-        return f'{stem}_{self._counts[stem]}'
+        return self._ids.found_again(thing, self._time_s)
 
     def _forget(self) -> None:
         """Drop objects that are no longer believed, and those above the maximum number."""
@@ -337,9 +301,7 @@ class ObjectMemory:
             if thing.log_odds > _FORGOTTEN - (0.0 if thing.object_id else 1.0) and not is_stale:
                 kept.append(thing)
             elif thing.object_id:
-                self._lost.append(
-                    _Lost(thing.object_id, thing.class_id, thing.colour, self._time_s)
-                )
+                self._ids.lose(thing, self._time_s)
         if len(kept) > self.settings.max_things:
             ranked = sorted(
                 kept, key=lambda each: (bool(each.object_id), each.log_odds, each.last_seen_s)
@@ -347,38 +309,8 @@ class ObjectMemory:
             count = len(kept) - self.settings.max_things
             dropped = {id(each) for each in ranked[:count]}
             kept = [each for each in kept if id(each) not in dropped]
-        del self._lost[: -self.settings.max_things]
+        self._ids.keep(self.settings.max_things)
         self._all = kept
-
-
-def shift_between(old: Pose2, new: Pose2) -> Pose2:
-    """
-    Compute the planar motion that takes a frame, and everything attached to it, to its new pose.
-
-    Parameters
-    ----------
-    old, new
-        The poses of the frame: x (m), y (m), yaw (rad).
-
-    Returns
-    -------
-    Pose2
-        The motion in the parent frame: rotate about its origin by yaw, then translate by x and y.
-
-    """
-    yaw = math.remainder(new[2] - old[2], math.tau)
-    c, s = math.cos(yaw), math.sin(yaw)
-    return new[0] - c * old[0] + s * old[1], new[1] - s * old[0] - c * old[1], yaw
-
-
-def _composed(outer: Pose2, inner: Pose2) -> Pose2:
-    """Compose two planar poses: `inner` is relative to `outer`."""
-    c, s = math.cos(outer[2]), math.sin(outer[2])
-    return (
-        outer[0] + c * inner[0] - s * inner[1],
-        outer[1] + s * inner[0] + c * inner[1],
-        math.remainder(outer[2] + inner[2], math.tau),
-    )
 
 
 def _gain(score: float) -> float:
@@ -393,61 +325,12 @@ def _gain(score: float) -> float:
 
 def _is_jump(shift: Pose2, at_m: Array) -> bool:
     """Whether a motion of a frame, at a point (3,), is more than a correction of drift."""
-    return math.hypot(*_offset_m(shift, at_m)) > _JUMP_M or abs(shift[2]) > _JUMP_RAD
-
-
-def _offset_m(shift: Pose2, at_m: Array) -> tuple[float, float]:
-    """Compute how far in x and y a motion of a frame takes a point (3,)."""
-    x, y, yaw = shift
-    c, s = math.cos(yaw), math.sin(yaw)
-    dx = c * at_m[0] - s * at_m[1] + x - at_m[0]
-    return float(dx), float(s * at_m[0] + c * at_m[1] + y - at_m[1])
-
-
-def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
-    """Compute the cost of associating a detection with an object; infinite if impossible."""
-    distance_m = float(np.linalg.norm(sighting.position_m - thing.position_m))
-    reach_m = 0.5 * float(max(thing.size_m.max(), sighting.size_m.max()))
-    share = thing.classes.share(sighting.class_id)
-    near_m = reach_m + (0.6 if share > 0.1 else 0.08)
-    if distance_m > near_m:
-        return math.inf
-    if sighting.is_cut:
-        # Its centre is that of the part within the image.
-        noise_m2 = noise_m2 + reach_m**2 * np.eye(3)
-        size_term = 0.0
-    else:
-        ratio = math.log(float(sighting.size_m.max() / thing.size_m.max()))
-        size_term = min(2.0 * ratio * ratio, 3.0)
-    cost = thing.distance2(sighting, noise_m2) + 4.0 * (1.0 - share) + size_term
-    if sighting.colour and thing.colours.best:
-        cost += 3.0 * (1.0 - thing.colours.share(sighting.colour))
-    return cost
+    return math.hypot(*offset_m(shift, at_m)) > _JUMP_M or abs(shift[2]) > _JUMP_RAD
 
 
 def _is_near(position_m: Array, own_m: Iterable[Array]) -> bool:
     """Whether a position is near one of the robot's hands or the objects that they hold."""
     return any(math.dist(position_m, at) < _IN_HAND_M for at in own_m)
-
-
-def _is_same(thing: RememberedThing, other: RememberedThing) -> bool:
-    """Whether two objects are so close that they must be the same."""
-    distance_m = float(np.linalg.norm(thing.position_m - other.position_m))
-    limit_m = 0.5 * float(min(thing.size_m.max(), other.size_m.max()))
-    if thing.class_id == other.class_id and (
-        thing.colour == other.colour or not thing.colour or not other.colour
-    ):
-        limit_m += min(2.0 * max(thing.sigma_m, other.sigma_m), 0.15)
-    return distance_m < limit_m
-
-
-def _has_moved(old: RememberedThing, new: RememberedThing) -> bool:
-    """Whether a new object may be an old one of its kind that has moved."""
-    if old.empty >= 2:
-        return True
-    distance_m = float(np.linalg.norm(old.position_m - new.position_m))
-    is_close = distance_m < 2.0 * float(max(old.size_m.max(), new.size_m.max()))
-    return is_close and old.missed >= 2
 
 
 def _older_first(

@@ -14,7 +14,9 @@ from humanoid_interfaces.msg import RememberedObject
 from humanoid_perception.detection import COLOURS, CUT
 from humanoid_perception.finding import place_of
 from humanoid_perception.places import Places
-from humanoid_perception.remembered import Pose2, RememberedThing, Sighting
+from humanoid_perception.planar_poses import Pose2
+from humanoid_perception.remembered import RememberedThing
+from humanoid_perception.sighting import Sighting
 import numpy as np
 import numpy.typing as npt
 from std_msgs.msg import Header

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import math
 from typing import Any
 
-from humanoid_perception.remembered import Sighting, sighting_noise
+from humanoid_perception.sighting import Sighting, sighting_noise
 from humanoid_perception.visibility import View
 import numpy as np
 

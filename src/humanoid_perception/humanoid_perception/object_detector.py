@@ -6,24 +6,27 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass, replace
 import math
-from pathlib import Path
 import sys
 import time
 from typing import Any
 
-from ament_index_python.packages import get_package_share_directory
 from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.parameters import parameter
 from humanoid_common.qos import SENSOR, STATE
 from humanoid_common.running import ending, run_node
-from humanoid_perception.colour_backend import ColourDetector
+from humanoid_perception.camera_views import LatestCameraInfo
 from humanoid_perception.colours import colour_name
-from humanoid_perception.detection import Color, Depth, Detection, Detector
+from humanoid_perception.detection import Color, Depth, Detection
 from humanoid_perception.detection_conversions import (
     annotated,
     detections_2d,
     detections_3d,
     header_of,
+)
+from humanoid_perception.detector_choice import (
+    BEST_EFFORT,
+    DetectorParameters,
+    make_detector,
+    RELIABLE,
 )
 from humanoid_perception.frames import FramePairs, RgbdFrame, stamp_in
 from humanoid_perception.images import color_of, depth_of, ImageError
@@ -38,8 +41,7 @@ from humanoid_perception.lifting import (
 )
 from humanoid_perception.markers import markers_of
 from humanoid_perception.memory_conversions import pose_of
-from humanoid_perception.onnx_backend import OnnxDetector
-from humanoid_perception.yolo import AUTO, LAYOUTS
+from humanoid_perception.yolo import AUTO
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -53,109 +55,13 @@ from tf2_ros import Buffer, TransformException, TransformListener
 from vision_msgs.msg import Detection2DArray, Detection3DArray
 from visualization_msgs.msg import MarkerArray
 
-__all__ = ['DetectorParameters', 'ObjectDetector', 'main', 'make_detector']
+__all__ = ['ObjectDetector', 'main']
 
-ONNX, COLOUR = 'onnx', 'colour'
-RELIABLE, BEST_EFFORT = 'reliable', 'best_effort'
-DEFAULT_MODEL = 'apartment_things.onnx'
 _LOOK_S = 0.05
 _TRANSFORM_WAIT_S = 0.5
 _QUIET_S = 10.0
 _SILENCE_S = 5.0
 """Time without any image after which a warning is logged."""
-
-
-@dataclass(frozen=True)
-class DetectorParameters:
-    """The parameters of the node."""
-
-    backend: str = parameter(
-        ONNX,
-        'The detector: a YOLO network (onnx), or colours and shapes without a network (colour).',
-        choices=(ONNX, COLOUR),
-        read_only=True,
-    )
-    model_path: str = parameter(
-        '', 'The ONNX file of a YOLO network; empty for the one in this package.', read_only=True
-    )
-    labels_file: str = parameter(
-        '',
-        'Class names, one per line or as YAML; empty for the names in the model.',
-        read_only=True,
-    )
-    layout: str = parameter(
-        AUTO, 'The output layout of the network.', choices=LAYOUTS, read_only=True
-    )
-    input_size: int = parameter(
-        0,
-        'The longer edge of the network input, for networks that accept any size; 0 for the '
-        'size that the model declares (pixels).',
-        at_least=0,
-        at_most=4096,
-        read_only=True,
-    )
-    num_threads: int = parameter(
-        1, 'Number of inference threads.', at_least=1, at_most=64, read_only=True
-    )
-    confidence: float = parameter(
-        0.5, 'Minimum score of a detection.', at_least=0.001, at_most=1.0
-    )
-    iou: float = parameter(
-        0.5,
-        'Largest overlap of two detections of a class, as intersection over union.',
-        at_least=0.0,
-        at_most=1.0,
-    )
-    max_rate_hz: float = parameter(
-        5.0,
-        'Maximum rate of processed images, by their stamps (Hz).',
-        at_least=0.01,
-        at_most=1000.0,
-    )
-    max_depth_offset_s: float = parameter(
-        0.02,
-        'Largest difference between the stamps of a depth image and its colour image (s).',
-        at_least=0.0,
-        at_most=1.0,
-    )
-    target_frame: str = parameter(
-        'odom',
-        'The frame of 3-D detections, whose z axis points up; empty for the camera frame.',
-    )
-    image_reliability: str = parameter(
-        AUTO,
-        'Reliability of the image subscription; auto starts with reliable, then adapts.',
-        choices=(AUTO, RELIABLE, BEST_EFFORT),
-        read_only=True,
-    )
-
-
-def make_detector(told: DetectorParameters) -> Detector:
-    """
-    Create the detector that the parameters select.
-
-    Parameters
-    ----------
-    told
-        The parameters of the node.
-
-    Raises
-    ------
-    DetectorError
-        Its model cannot be loaded or used.
-
-    """
-    if told.backend == COLOUR:
-        return ColourDetector()
-    share = Path(get_package_share_directory('humanoid_perception'))
-    path = str(Path(told.model_path).expanduser()) if told.model_path else ''
-    return OnnxDetector(
-        path or str(share / 'models' / DEFAULT_MODEL),
-        told.labels_file,
-        told.layout,
-        told.input_size,
-        told.num_threads,
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,8 +97,7 @@ class ObjectDetector(Node):
         self._detector = make_detector(told)
         self._pairs = FramePairs(1.0 / told.max_rate_hz, told.max_depth_offset_s)
         self._seen: deque[_Seen] = deque(maxlen=5)
-        self._camera: CameraInfo | None = None
-        self._camera_bytes = b''
+        self._camera = LatestCameraInfo()
         self._said: dict[str, float] = {}
         self._reliability = BEST_EFFORT if told.image_reliability == BEST_EFFORT else RELIABLE
         self._buffer = Buffer()
@@ -227,7 +132,7 @@ class ObjectDetector(Node):
         take_color, take_depth = ending(self, self._take_color), ending(self, self._take_depth)
         self._subscriptions_in = [
             self.create_subscription(
-                CameraInfo, 'camera/camera_info', self._take_camera, SENSOR, raw=True
+                CameraInfo, 'camera/camera_info', self._camera.take, SENSOR, raw=True
             ),
             self.create_subscription(Image, 'camera/image_raw', take_color, quality, raw=True),
             self.create_subscription(
@@ -252,12 +157,6 @@ class ObjectDetector(Node):
         response.success = True
         response.message = 'Detection started.' if request.data else 'Detection stopped.'
         return response
-
-    def _take_camera(self, data: bytes) -> None:
-        """Store the camera_info; deserialize it only if more than its stamp has changed."""
-        if data[12:] != self._camera_bytes:
-            self._camera_bytes = data[12:]
-            self._camera = deserialize_message(data, CameraInfo)
 
     def _take_color(self, data: bytes) -> None:
         self._has_pictures = True
@@ -340,7 +239,7 @@ class ObjectDetector(Node):
             self._say_flat()
             return None, None
         self._has_said_flat = False
-        info = self._camera
+        info = self._camera.message
         if info is None:  # the first message may still be on its way
             if time.monotonic() > self._since_s + _SILENCE_S:
                 self._warn("Detections are 2-D only: nothing received on 'camera/camera_info'.")

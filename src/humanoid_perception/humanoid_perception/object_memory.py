@@ -4,21 +4,18 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
 import math
-import struct
 import sys
 import time
 from typing import Any
 
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.parameters import parameter
-from humanoid_common.qos import LATCHED, SENSOR, STATE
+from humanoid_common.qos import LATCHED, STATE
 from humanoid_common.running import run_node
 from humanoid_interfaces.srv import FindObjects
+from humanoid_perception.camera_views import CameraViews
 from humanoid_perception.finding import find, ObjectQuery, QuestionError
-from humanoid_perception.images import depth_of, ImageError
 from humanoid_perception.markers import markers_of
 from humanoid_perception.memory import MemorySettings, ObjectMemory
 from humanoid_perception.memory_conversions import (
@@ -29,75 +26,31 @@ from humanoid_perception.memory_conversions import (
     sighting_of,
     time_of,
 )
-from humanoid_perception.places import load_places, Places, places_path, PlacesError
-from humanoid_perception.remembered import Pose2, RememberedThing
+from humanoid_perception.memory_parameters import MemoryParameters
+from humanoid_perception.places import Places
+from humanoid_perception.places_file import load_places, places_path, PlacesError
+from humanoid_perception.planar_poses import placed, Pose2
+from humanoid_perception.remembered import RememberedThing
 from humanoid_perception.visibility import View
 import numpy as np
 import numpy.typing as npt
 from rclpy.clock import Clock, ClockType
-from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.serialization import deserialize_message
 from rclpy.time import Time
-from sensor_msgs.msg import CameraInfo, Image
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from tf2_ros import Buffer, TransformException, TransformListener
 from vision_msgs.msg import Detection3D, Detection3DArray
 from visualization_msgs.msg import MarkerArray
 
-__all__ = ['MemoryParameters', 'ObjectMemoryNode', 'main']
+__all__ = ['ObjectMemoryNode', 'main']
 
 Array = npt.NDArray[np.float64]
-_CLASSES = (
-    *('mug', 'bottle', 'can', 'bowl', 'ball', 'apple', 'orange', 'box', 'cube', 'book'),
-    'person',
-)
 _WAIT_S = 1.0
 """Longest wait for the transform of detections, in wall-clock time."""
 _BACK_S = 0.5
 """Stamps that go back further mean that the simulation was reset."""
-_BEFORE = Duration(seconds=0.1)
-"""Time span over which the turn rate of the camera is measured."""
-_KEPT_DEPTHS = 8
 _QUIET_S = 10.0
-
-
-@dataclass(frozen=True)
-class MemoryParameters:
-    """The parameters of the node."""
-
-    map_frame: str = parameter('map', 'The frame of remembered objects, if it exists.')
-    odom_frame: str = parameter('odom', 'The frame of remembered objects otherwise.')
-    places_file: str = parameter(
-        '',
-        'The named places: a YAML file, or the name of one in this package (apartment).',
-        read_only=True,
-    )
-    hand_frames: tuple[str, ...] = parameter(
-        ('l_gripper', 'r_gripper'),
-        "Frames of the robot's own hands; detections there are ignored.",
-    )
-    classes: tuple[str, ...] = parameter(
-        _CLASSES, 'Classes of the detector; a query for any other class is rejected.'
-    )
-    birth_sightings: int = parameter(
-        3, 'Images with a detection before an object is remembered.', at_least=1, at_most=100
-    )
-    max_range_m: float = parameter(
-        3.0, 'Range within which a detection is expected (m).', at_least=0.1, at_most=50.0
-    )
-    min_size_px: float = parameter(
-        8.0, 'Size from which a detection is expected (pixels).', at_least=1.0, at_most=1000.0
-    )
-    max_things: int = parameter(300, 'Maximum number of objects.', at_least=1, at_most=10_000)
-    follows_jumps: bool = parameter(
-        True, 'Whether objects move along when the localization jumps.'
-    )
-    publish_rate_hz: float = parameter(
-        2.0, 'Highest rate at which changes are published (Hz).', at_least=0.1, at_most=20.0,
-        read_only=True,
-    )  # fmt: skip
 
 
 class ObjectMemoryNode(Node):
@@ -121,24 +74,16 @@ class ObjectMemoryNode(Node):
         self._anchor: Pose2 = (0.0, 0.0, 0.0)
         self._stamp_s = -math.inf
         self._pending: deque[tuple[float, Any]] = deque(maxlen=10)
-        self._camera: CameraInfo | None = None
-        self._camera_bytes = b''
-        self._depths: dict[bytes, bytes] = {}
         self._said: dict[str, float] = {}
         self._published: dict[str, tuple[Any, ...]] | None = None
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, self)
+        self._views = CameraViews(self, self._pose, self._warn)
         self._held: list[Detection3D] = []
         self._objects = self.create_publisher(Detection3DArray, 'objects', LATCHED)
         self._markers = self.create_publisher(MarkerArray, 'objects/markers', LATCHED)
         self.create_subscription(Detection3DArray, 'detections_3d', self._take, STATE)
         self.create_subscription(Detection3DArray, 'held_objects', self._take_held, LATCHED)
-        self.create_subscription(
-            CameraInfo, 'camera/camera_info', self._take_camera, SENSOR, raw=True
-        )
-        self.create_subscription(
-            Image, 'camera/depth/image_raw', self._take_depth, SENSOR, raw=True
-        )
         self.create_service(FindObjects, 'find_objects', self._find)
         self.create_service(Trigger, '~/forget', self._forget)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -146,18 +91,6 @@ class ObjectMemoryNode(Node):
 
     def _change(self, told: MemoryParameters) -> None:
         self._memory.settings = _settings(told)
-
-    def _take_camera(self, data: bytes) -> None:
-        """Store the camera_info; deserialize it only if more than its stamp has changed."""
-        if data[12:] != self._camera_bytes:
-            self._camera_bytes = data[12:]
-            self._camera = deserialize_message(data, CameraInfo)
-
-    def _take_depth(self, data: bytes) -> None:
-        """Buffer a serialized depth image until the detections with its stamp arrive."""
-        self._depths[data[4:12]] = data
-        while len(self._depths) > _KEPT_DEPTHS:
-            del self._depths[next(iter(self._depths))]
 
     def _take(self, message: Detection3DArray) -> None:
         stamp_s = _seconds(message.header.stamp)
@@ -175,7 +108,7 @@ class ObjectMemoryNode(Node):
     def _clear(self) -> None:
         self._memory.clear()
         self._pending.clear()
-        self._depths.clear()
+        self._views.clear()
         self._stamp_s = -math.inf
 
     def _work(self) -> None:
@@ -197,7 +130,7 @@ class ObjectMemoryNode(Node):
         """Update the memory with the detections of one image."""
         told, stamp = self._parameters.current, Time.from_msg(message.header.stamp)
         position, rotation = self._pose(told.odom_frame, message.header.frame_id, stamp)
-        view = self._view(told.odom_frame, message.header.stamp, stamp)
+        view = self._views.at(told.odom_frame, stamp)
         if view is None:
             self._warn(
                 'Detections are ignored: no camera/camera_info received, which tells what should '
@@ -206,7 +139,7 @@ class ObjectMemoryNode(Node):
             return
         self._choose_frame(told)
         sightings = [
-            sighting_of(each, *_placed(self._anchor, position, rotation))
+            sighting_of(each, *placed(self._anchor, position, rotation))
             for each in message.detections
         ]
         self._memory.look(
@@ -243,7 +176,7 @@ class ObjectMemoryNode(Node):
             position, rotation = self._pose(odom, frame, stamp)
         except TransformException:
             return None
-        return _placed(self._anchor, position + rotation @ np.array(point_m), rotation)[0]
+        return placed(self._anchor, position + rotation @ np.array(point_m), rotation)[0]
 
     def _choose_frame(self, told: MemoryParameters) -> None:
         """Use the map frame if it exists; transform the memory into it when it appears."""
@@ -261,44 +194,6 @@ class ObjectMemoryNode(Node):
         if frame == child:
             return np.zeros(3), np.eye(3)
         return pose_of(self._buffer.lookup_transform(frame, child, stamp).transform)
-
-    def _view(self, frame: str, key: Any, stamp: Time) -> View | None:
-        """Create the view of an image, with its depth; None without a valid camera_info."""
-        camera = self._camera
-        if camera is None or not camera.width or not camera.k[0] > 0.0 or not camera.k[4] > 0.0:
-            return None
-        position, rotation = self._pose(frame, camera.header.frame_id, stamp)
-        turn_rad_s = 0.0
-        try:
-            _, before = self._pose(frame, camera.header.frame_id, stamp - _BEFORE)
-            cosine = (float(np.trace(before.T @ rotation)) - 1.0) / 2.0
-            turn_rad_s = math.acos(max(-1.0, min(1.0, cosine))) / (_BEFORE.nanoseconds * 1e-9)
-        except (TransformException, ValueError):
-            pass
-        return View(
-            stamp.nanoseconds * 1e-9,
-            position,
-            rotation,
-            camera.width,
-            camera.height,
-            camera.k[0],
-            camera.k[4],
-            camera.k[2],
-            camera.k[5],
-            self._depth_at(key),
-            turn_rad_s,
-        )
-
-    def _depth_at(self, stamp: Any) -> npt.NDArray[np.float32] | None:
-        """Return the depth image with a stamp, if it was received."""
-        for order in '<>':
-            data = self._depths.get(struct.pack(f'{order}iI', stamp.sec, stamp.nanosec))
-            if data is not None:
-                try:
-                    return depth_of(deserialize_message(data, Image))
-                except ImageError as error:
-                    self._warn(f'Occlusions are unknown. {error}')
-        return None
 
     def _publish(self) -> None:
         """Publish the remembered objects, if they have changed."""
@@ -370,15 +265,8 @@ def _seconds(stamp: Any) -> float:
     return float(stamp.sec) + float(stamp.nanosec) * 1e-9
 
 
-def _placed(anchor: Pose2, position: Array, rotation: Array) -> tuple[Array, Array]:
-    """Transform a pose from the odom frame into the memory frame."""
-    c, s = math.cos(anchor[2]), math.sin(anchor[2])
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return turn @ position + np.array([anchor[0], anchor[1], 0.0]), turn @ rotation
-
-
 def _seen_from(anchor: Pose2, view: View) -> View:
-    position, rotation = _placed(anchor, view.position_m, view.rotation)
+    position, rotation = placed(anchor, view.position_m, view.rotation)
     return View(**{**view.__dict__, 'position_m': position, 'rotation': rotation})
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from humanoid_perception.places import places_path, PlacesError
+from humanoid_perception.places_file import places_path, PlacesError
 from launch import LaunchContext, Substitution
 from launch.substitutions import LaunchConfiguration, SubstitutionFailure
 from launch.utilities import perform_substitutions

@@ -6,14 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 import math
 
+from humanoid_perception.planar_poses import Pose2
+from humanoid_perception.sighting import greatest_sigma_m, Sighting
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['RememberedThing', 'Sighting', 'Votes', 'greatest_sigma_m', 'sighting_noise']
+__all__ = ['RememberedThing', 'Votes']
 
 Array = npt.NDArray[np.float64]
-Pose2 = tuple[float, float, float]
-"""A pose in a plane: x (m), y (m), yaw (rad)."""
 
 _FLOOR_M = 0.012
 """Least standard deviation of a position: errors of views from about the same place correlate."""
@@ -28,82 +28,6 @@ _MOST_LOOKS = 20.0
 _MOST_VOTES = 25.0
 """Largest total weight of votes: older ones fade, so a wrong class does not persist."""
 _MOST_LOG_ODDS = 4.0
-
-
-@dataclass(frozen=True)
-class Sighting:
-    """
-    One 3-D detection, in the frame of the memory.
-
-    Attributes
-    ----------
-    class_id, score
-        Its class, and the confidence in it, from 0 to 1.
-    position_m, size_m, yaw_rad
-        Its upright bounding box: centre (3,), edge lengths (3,), and yaw.
-    colour
-        The name of its colour; empty if unknown.
-    is_cut
-        Whether the image border cuts it, which makes position and size unreliable.
-
-    """
-
-    class_id: str
-    score: float
-    position_m: Array
-    size_m: Array
-    yaw_rad: float = 0.0
-    colour: str = ''
-    is_cut: bool = False
-
-    @property
-    def is_sound(self) -> bool:
-        """Whether all values are finite and within their ranges."""
-        numbers = (self.score, *self.position_m, *self.size_m, self.yaw_rad)
-        if not all(map(math.isfinite, numbers)) or not self.class_id:
-            return False
-        return 0.0 < self.score <= 1.0 and 0.0 < min(self.size_m) and max(self.size_m) < 5.0
-
-
-def sighting_noise(
-    position_m: Array, camera_m: Array, turn_rad_s: float = 0.0, base_m: float = 0.015
-) -> Array:
-    """
-    Estimate the covariance (3, 3) in m^2 of the position of a detection.
-
-    Along the ray, the depth error grows with the square of the range, as for stereo and structured
-    light; across it, the bearing error grows with the range, and faster while the camera turns.
-
-    Parameters
-    ----------
-    position_m, camera_m
-        The positions of the detection and the camera (3,), in the frame of the covariance.
-    turn_rad_s
-        The turn rate of the camera.
-    base_m
-        The standard deviation along each axis due to the pose of the camera.
-
-    """
-    ray = position_m - camera_m
-    range_m = max(float(np.linalg.norm(ray)), 1e-3)
-    ahead = np.outer(ray, ray) / range_m**2
-    along_m = 0.01 + 0.012 * range_m**2
-    across_m = range_m * (0.010 + 0.03 * abs(turn_rad_s))
-    noise = across_m**2 * (np.eye(3) - ahead) + along_m**2 * ahead
-    return np.asarray(noise + base_m**2 * np.eye(3))
-
-
-def greatest_sigma_m(covariance_m2: Array) -> float:
-    """
-    Compute the greatest standard deviation in m along an axis of the frame.
-
-    Parameters
-    ----------
-    covariance_m2
-        The covariance (n, n) of a position in m^2.
-
-    """
-    return math.sqrt(float(np.max(np.diag(covariance_m2))))
 
 
 class Votes:
@@ -377,8 +301,8 @@ class RememberedThing:
         Parameters
         ----------
         shift
-            The motion in the frame of the memory, as from `memory.shift_between`: rotate about its
-            origin by yaw (rad), then translate by x and y (m).
+            The motion in the frame of the memory, as from `shift_between`: rotate about its origin
+            by yaw (rad), then translate by x and y (m).
 
         """
         x, y, yaw = shift

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import math
 
-from humanoid_perception.memory import MemorySettings, ObjectMemory, shift_between
+from humanoid_perception.memory import MemorySettings, ObjectMemory
 from humanoid_perception.memory_testing import around, Box, BoxWorld, TABLE, WALL
-from humanoid_perception.remembered import RememberedThing, Sighting
+from humanoid_perception.planar_poses import shift_between
+from humanoid_perception.remembered import RememberedThing
+from humanoid_perception.sighting import Sighting
 import numpy as np
 import pytest
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from humanoid_perception.places import load_places, Places, PlacesError, Room, Surface
+from humanoid_perception.places import Places, Room, Surface
+from humanoid_perception.places_file import load_places, PlacesError
 import numpy as np
 import pytest
 

@@ -9,8 +9,8 @@ import math
 
 from humanoid_perception.colours import colour_name
 from humanoid_perception.detection import Box, is_cut
+from humanoid_perception.detector_choice import DetectorParameters, make_detector
 from humanoid_perception.lifting import camera_of, lift, surface_of
-from humanoid_perception.object_detector import DetectorParameters, make_detector
 from humanoid_simulation.camera import CameraView
 from humanoid_simulation.camera.gl_painter import GlPainter
 from humanoid_simulation.camera.images import SEEN_GROUPS

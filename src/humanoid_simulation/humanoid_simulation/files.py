@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.errors import named, SimulationError
 
 SCENE_SUFFIXES = ('.yaml', '.yml')
 
@@ -21,6 +21,26 @@ def share() -> Path:
 def installed_scenes() -> dict[str, Path]:
     """Find the files of the installed scenes, by name."""
     return {path.stem: path for path in sorted((share() / 'scenes').glob('*.yaml'))}
+
+
+def scene_path(name: str) -> Path:
+    """
+    Find the file of a scene.
+
+    Parameters
+    ----------
+    name
+        The name of an installed scene, or the path of a file that ends with .yaml or .yml.
+
+    Raises
+    ------
+    SimulationError
+        There is no installed scene of that name; a path is returned unchecked.
+
+    """
+    if name.endswith(SCENE_SUFFIXES):
+        return Path(name)
+    return named('scene', name, installed_scenes())
 
 
 def replace_file(path: Path, content: bytes) -> None:

@@ -3,78 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 import math
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from humanoid_common.naming import did_you_mean
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.source_location import SourceLocation, TableError
 
-T = TypeVar('T')
-
-
-@dataclass(frozen=True)
-class SourceLocation:
-    """A location in a file; line 0 is unknown."""
-
-    file: str
-    line: int = 0
-    key: str = ''
-    """The path of the key, such as `things[0].size`; empty is the whole file."""
-
-    def of(self, key: str, line: int) -> SourceLocation:
-        """
-        Locate a value within this table.
-
-        Parameters
-        ----------
-        key
-            Name of the value.
-        line
-            Its line, from 1 on; 0 if unknown, which gives the line of the table.
-
-        """
-        return SourceLocation(
-            self.file, line or self.line, f'{self.key}.{key}' if self.key else key
-        )
-
-    def item(self, number: int, line: int) -> SourceLocation:
-        """
-        Locate an item of this list.
-
-        Parameters
-        ----------
-        number
-            Index of the item, from 0 on.
-        line
-            Its line, from 1 on; 0 if unknown, which gives the line of the list.
-
-        """
-        return SourceLocation(self.file, line or self.line, f'{self.key}[{number}]')
-
-    def error(self, sentence: str) -> TableError:
-        """
-        Make an error that names the file and the line.
-
-        Parameters
-        ----------
-        sentence
-            What is wrong there.
-
-        Returns
-        -------
-        TableError
-            To be raised by the caller.
-
-        """
-        where = f'{self.file}, line {self.line}' if self.line else self.file
-        return TableError(f'{where}: {sentence}')
-
-
-class TableError(SimulationError):
-    """An error in a file, with its location."""
+Vector = tuple[float, ...]
 
 
 class Table:
@@ -97,8 +35,7 @@ class Table:
 
     def __init__(self, values: Any, place: SourceLocation) -> None:
         if not isinstance(values, Mapping):
-            what = place.key or 'the file'
-            raise place.error(f'{what} must be a mapping of names to values, but is {values!r}.')
+            raise place.wrong('a mapping of names to values', values)
         self._values = values
         self._lines: Mapping[str, int] = getattr(values, 'lines', {})
         self.place = place
@@ -138,9 +75,7 @@ class Table:
         for name in self.names:
             if name not in names:
                 hint = did_you_mean(name, names) or f'Valid keys: {", ".join(names)}.'
-                raise self.at(name).error(
-                    f"{self.place.key or 'the file'} has an unknown key '{name}'. {hint}"
-                )
+                raise self.at(name).error(f"{self.place.name} has an unknown key '{name}'. {hint}")
 
     def number(self, name: str, default: float | None = None) -> float:
         """
@@ -161,7 +96,7 @@ class Table:
         """
         value = self._value(name, default)
         if not _is_number(value):
-            raise self._wrong(name, 'a finite number', value)
+            raise self.at(name).wrong('a finite number', value)
         return float(value)
 
     def integer(self, name: str, default: int) -> int:
@@ -183,12 +118,10 @@ class Table:
         """
         value = self._value(name, default)
         if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise self._wrong(name, 'a whole number of zero or more', value)
+            raise self.at(name).wrong('a whole number of zero or more', value)
         return value
 
-    def vector(
-        self, name: str, length: int, default: Sequence[float] | None = None
-    ) -> tuple[float, ...]:
+    def vector(self, name: str, length: int, default: Vector | None = None) -> Vector:
         """
         Read a list of finite numbers, as a tuple of floats.
 
@@ -208,37 +141,9 @@ class Table:
 
         """
         value = self._value(name, default)
-        if not _is_vector(value, length):
-            raise self._wrong(name, f'a list of {length} finite numbers', value)
+        if not is_vector(value, length):
+            raise self.at(name).wrong(f'a list of {length} finite numbers', value)
         return tuple(float(number) for number in value)
-
-    def vectors(self, name: str, length: int, least: int) -> tuple[tuple[float, ...], ...]:
-        """
-        Read a list of lists of finite numbers, such as the corners of an outline.
-
-        Parameters
-        ----------
-        name
-            Name of the value, which must be set.
-        length
-            How many numbers each of the inner lists must have.
-        least
-            Minimum number of inner lists.
-
-        Raises
-        ------
-        TableError
-            It is missing, or is not such a list.
-
-        """
-        values = self._value(name, None)
-        if (
-            not isinstance(values, list)
-            or len(values) < least
-            or not all(_is_vector(value, length) for value in values)
-        ):
-            raise self._wrong(name, f'a list of at least {least} points [x, y]', values)
-        return tuple(tuple(float(number) for number in value) for value in values)
 
     def text(self, name: str, default: str | None = None) -> str:
         """
@@ -259,7 +164,7 @@ class Table:
         """
         value = self._value(name, default)
         if not isinstance(value, str) or not (value or default == ''):
-            raise self._wrong(name, 'a string', value)
+            raise self.at(name).wrong('a string', value)
         return value
 
     def choice(self, name: str, choices: Sequence[str], default: str | None = None) -> str:
@@ -283,11 +188,7 @@ class Table:
         """
         value = self.text(name, default)
         if value not in choices:
-            hint = did_you_mean(value, choices)
-            raise self.at(name).error(
-                f'{self.at(name).key} must be one of {", ".join(choices)}, '
-                f"but is '{value}'. {hint}".rstrip()
-            )
+            raise self.at(name).not_among(choices, value)
         return value
 
     def value(self, name: str) -> Any:
@@ -341,10 +242,9 @@ class Table:
         """
         values = self._values.get(name, [])
         if not isinstance(values, list):
-            raise self._wrong(name, 'a list', values)
+            raise self.at(name).wrong('a list', values)
         for number, value in enumerate(values):
-            line = getattr(value, 'line', 0)
-            yield Table(value, self.at(name).item(number, line))
+            yield Table(value, self.at(name).item(number, getattr(value, 'line', 0)))
 
     def at(self, name: str) -> SourceLocation:
         """
@@ -358,45 +258,12 @@ class Table:
         """
         return self.place.of(name, self._lines.get(name, 0))
 
-    def checked(self, make: Callable[[], T]) -> T:
-        """
-        Build an object from this table, and add the location of the table to an error.
-
-        Parameters
-        ----------
-        make
-            Builds the object from the values of the table.
-
-        Returns
-        -------
-        T
-            What `make` returns.
-
-        Raises
-        ------
-        TableError
-            `make` raised SimulationError; a TableError, which has a location, passes unchanged.
-
-        """
-        try:
-            return make()
-        except TableError:
-            raise
-        except SimulationError as error:
-            raise self.place.error(str(error)) from error
-
     def _value(self, name: str, default: Any) -> Any:
         """Return a value, or the default; raise TableError if there is neither."""
         value = self._values.get(name, default)
         if value is None:
-            raise self.place.error(
-                f"{self.place.key or 'the file'} lacks the required key '{name}'."
-            )
+            raise self.place.missing(name)
         return value
-
-    def _wrong(self, name: str, wanted: str, value: Any) -> TableError:
-        """Create the error for a value of the wrong type."""
-        return self.at(name).error(f'{self.at(name).key} must be {wanted}, but is {value!r}.')
 
 
 def load_table(path: Path) -> Table:
@@ -458,8 +325,18 @@ def _is_number(value: Any) -> bool:
     return is_number and math.isfinite(value)
 
 
-def _is_vector(value: Any, length: int) -> bool:
-    """Check whether a value is a list of `length` finite numbers."""
+def is_vector(value: Any, length: int) -> bool:
+    """
+    Check whether a value is a list of finite numbers.
+
+    Parameters
+    ----------
+    value
+        The value.
+    length
+        How many numbers the list must have.
+
+    """
     return (
         isinstance(value, Sequence)
         and not isinstance(value, str)

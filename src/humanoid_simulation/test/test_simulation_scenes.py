@@ -7,9 +7,9 @@ import math
 from pathlib import Path
 
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.files import installed_scenes
 from humanoid_simulation.model import Placement
 from humanoid_simulation.scene import load_scene, Scene, Thing
-from humanoid_simulation.scene.loading import installed_scenes
 from humanoid_simulation.scene.terrain import Plates, plates_of, Ramp, ramp_of
 import mujoco
 import numpy as np

@@ -11,10 +11,9 @@ import signal
 from humanoid_common.testing.processes import assert_clean_exit, module_command, running_program
 from humanoid_common.testing.ros import ros_sandbox
 from humanoid_simulation.sweep import command
-from humanoid_simulation.sweep.conditions import conditions_of
+from humanoid_simulation.sweep.conditions import conditions_of, Run
 from humanoid_simulation.sweep.record import NAME, read_record
 from humanoid_simulation.sweep.results import FinishedRun
-from humanoid_simulation.sweep.sampling import Run
 from humanoid_simulation.sweep.walk import walk
 import pytest
 

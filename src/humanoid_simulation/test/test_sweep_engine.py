@@ -13,12 +13,11 @@ import sys
 from humanoid_common.testing.processes import is_alive, running_program
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.sweep.conditions import Conditions
+from humanoid_simulation.sweep.conditions import Conditions, Run
 from humanoid_simulation.sweep.engine import Crashed, Done, LocalProcesses
 from humanoid_simulation.sweep.experiment import Experiment
 from humanoid_simulation.sweep.record import find_run, NAME, Record
 from humanoid_simulation.sweep.results import RunResult
-from humanoid_simulation.sweep.sampling import Run
 from humanoid_simulation.sweep.sweeping import Sweep
 import pytest
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from humanoid_common.errors import NodeStartError
 from humanoid_common.parameters import parameter
-from humanoid_perception.places import load_places, Places, places_path, PlacesError
+from humanoid_perception.places import Places
+from humanoid_perception.places_file import load_places, places_path, PlacesError
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills, skills_path, SkillsError
 from llm_planner.world_watch import WorldWatch

@@ -9,7 +9,7 @@ from humanoid_common.inhibition import Inhibition
 from humanoid_common.qos import LATCHED
 from humanoid_perception.memory_conversions import planar_of, pose_of
 from humanoid_perception.places import Places, Room, Surface
-from humanoid_perception.remembered import greatest_sigma_m
+from humanoid_perception.sighting import greatest_sigma_m
 from llm_planner.skills import Skill, Skills
 from llm_planner.world import base_name, KnownObject, World
 import numpy as np

@@ -12,9 +12,9 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping
 from contextlib import aclosing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 import time
-from typing import Any, Protocol
+from typing import Any
 
 from action_msgs.msg import GoalStatus
 from humanoid_common.naming import did_you_mean, shortened
@@ -26,6 +26,7 @@ from llm_planner.rules import RulePlanner
 from llm_planner.world import listed
 from llm_planner.world_watch import WorldWatch
 from robot_mcp.audit import AuditLog
+from robot_mcp.clients import Answer, Client, NeedsInputError
 from robot_mcp.confirmations import Confirmations, request_of
 from robot_mcp.deadlines import in_time
 from robot_mcp.looking import ReadOnlyTools
@@ -33,7 +34,7 @@ from robot_mcp.node_thread import RobotError
 from robot_mcp.robot_link import PlanEnd, PlanRun, RobotLink
 from robot_mcp.tools import CONFIRMATION, LOOKS, plan_of_call, STOP, TELL, Tool, tools_of
 
-__all__ = ['READ_ONLY', 'Answer', 'Calls', 'Client', 'NeedsInputError']
+__all__ = ['READ_ONLY', 'Calls']
 
 READ_ONLY = (
     'This robot may only be looked at and stopped. To let assistants move it, a person has to '
@@ -44,67 +45,6 @@ _REPORT_S = 2.0
 _HEARTBEAT_S = 5.0
 """Period without feedback after which progress is reported to a client again."""
 _STOPPED = 'Somebody said stop in the meantime.'
-
-
-@dataclass(frozen=True)
-class Answer:
-    """The answer to a client: a text, PNG images, and whether it is an error."""
-
-    text: str
-    pictures: tuple[bytes, ...] = ()
-    is_error: bool = False
-
-
-class NeedsInputError(Exception):
-    """The client has to ask its user, and to call again with the answer."""
-
-    def __init__(self, question: str, code: str) -> None:
-        super().__init__(question)
-        self.question, self.code = question, code
-
-
-class Client(Protocol):
-    """Interface to the calling client."""
-
-    name: str
-    gone: asyncio.Event | None
-    """Set when the client has disconnected; None if that cancels the call anyway."""
-
-    async def asks(self, question: str, request: str) -> bool | None:
-        """
-        Request confirmation from the person at the client.
-
-        Parameters
-        ----------
-        question
-            The text shown to the person.
-        request
-            The request that a confirmation is valid for, beginning with `request_of`.
-
-        Returns
-        -------
-        bool or None
-            Whether the person agrees; None if the client cannot ask one.
-
-        Raises
-        ------
-        NeedsInputError
-            The client has to call again with the answer.
-
-        """
-
-    async def report(self, progress: float, total: float, text: str) -> None:
-        """
-        Report progress to the client.
-
-        Parameters
-        ----------
-        progress, total
-            The number of completed steps, including fractions, and the total number.
-        text
-            The current step, or its result.
-
-        """
 
 
 class Calls:

@@ -9,7 +9,8 @@ import importlib.util
 from typing import Any
 
 from humanoid_common.errors import NodeStartError
-from robot_mcp.calls import Answer, Calls, NeedsInputError
+from robot_mcp.calls import Calls
+from robot_mcp.clients import Answer, NeedsInputError
 from robot_mcp.confirmations import Confirmations
 from robot_mcp.deadlines import in_time
 from robot_mcp.gate import GONE

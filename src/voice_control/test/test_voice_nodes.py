@@ -23,8 +23,9 @@ from voice_control import speech_recognizer
 from voice_control.audio import chunks, read_wav
 from voice_control.audio_source import AudioSource
 from voice_control.noise_suppression import NoiseSuppressionError
+from voice_control.recognizer_parameters import RecognizerParameters
 from voice_control.speaker import Speaker
-from voice_control.speech_recognizer import make_listener, RecognizerParameters, SpeechRecognizer
+from voice_control.speech_recognizer import make_listener, SpeechRecognizer
 
 SPEECH = Path(__file__).parent / 'speech'
 GO_TO_THE_KITCHEN = SPEECH / 'go_to_the_kitchen.slt.wav'

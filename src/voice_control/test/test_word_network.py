@@ -6,8 +6,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from voice_control.jsgf import compile_jsgf
 from voice_control.recognition import RecognizerError
-from voice_control.word_network import compile_jsgf
 
 HEAD = '#JSGF V1.0;\ngrammar robot;\n'
 GRAMMAR = (Path(__file__).parent / 'speech' / 'robot.jsgf').read_text()

@@ -9,14 +9,14 @@ import math
 import re
 
 from pocketsphinx import Decoder, get_model_path
+from voice_control.jsgf import compile_jsgf
 from voice_control.recognition import Recognition, RecognizerError
-from voice_control.word_network import compile_jsgf, WordNetwork
+from voice_control.recognizer_parameters import THRESHOLD
+from voice_control.word_network import WordNetwork
 
-__all__ = ['STOP_GRAMMAR', 'THRESHOLD', 'GrammarRecognizer', 'read_dictionary']
+__all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
-THRESHOLD = -3.2
-"""The default minimum log-likelihood ratio per frame of a command."""
 STOP_THRESHOLD = -2.25
 """The minimum log-likelihood ratio per frame of a phrase that stops the robot."""
 STOP_MARGIN = 0.8

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 import math
 import os
 from pathlib import Path
@@ -19,7 +18,6 @@ from audio_common_msgs.msg import AudioData
 from humanoid_common.diagnostics import Diagnostics, PartStatus
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.parameters import parameter
 from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
 from humanoid_interfaces.msg import SpeechResult
@@ -27,7 +25,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
-from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary, THRESHOLD
+from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary
 from voice_control.noise_suppression import NoiseSuppressionError, NoiseSuppressor
 from voice_control.recognition import (
     FreeRecognizer,
@@ -36,76 +34,24 @@ from voice_control.recognition import (
     Recognizer,
     RecognizerError,
 )
+from voice_control.recognizer_parameters import (
+    OPENAI,
+    POCKETSPHINX,
+    RecognizerParameters,
+    WHISPER,
+    WHISPER_CPP,
+)
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper, TranscriptionServer, WhisperCpp
 
-__all__ = ['RecognizerParameters', 'SpeechRecognizer', 'main']
+__all__ = ['SpeechRecognizer', 'main']
 
-POCKETSPHINX, WHISPER, WHISPER_CPP, OPENAI = 'pocketsphinx', 'whisper', 'whisper_cpp', 'openai'
 _LONGEST_QUEUE = 400
 _END_S = 2.0
 _ECHO_S = 0.3
 """How long after its own speech the robot does not listen."""
 _SILENT_AFTER_S = 5.0
 Work = Callable[[], None]
-
-
-@dataclass(frozen=True)
-class RecognizerParameters:
-    """The parameters of the node."""
-
-    backend: str = parameter(
-        POCKETSPHINX,
-        'What recognizes speech: the grammar of commands (pocketsphinx), Whisper by '
-        'faster-whisper or whisper.cpp, or a server. The grammar hears "stop" in any case.',
-        choices=(POCKETSPHINX, WHISPER, WHISPER_CPP, OPENAI),
-        read_only=True,
-    )
-    model_path: str = parameter(
-        '', 'The folder or file of the Whisper model on this machine.', read_only=True
-    )
-    base_url: str = parameter(
-        '', 'The base URL of the server, for the backend openai.', read_only=True
-    )
-    model: str = parameter('', 'The model that the server should use.', read_only=True)
-    language: str = parameter(
-        'en', 'The language that Whisper or the server should expect.', read_only=True
-    )
-    num_threads: int = parameter(
-        1, 'The number of threads that Whisper uses.', at_least=1, at_most=64, read_only=True
-    )
-    threshold: float = parameter(
-        THRESHOLD,
-        'The minimum log-likelihood ratio per frame for pocketsphinx to accept a command.',
-        at_least=-100.0,
-        at_most=100.0,
-        read_only=True,
-    )
-    dictionary_file: str = parameter(
-        '',
-        'A dictionary file: words that pocketsphinx does not know, each with its phones.',
-        read_only=True,
-    )
-    wake_word: str = parameter(
-        '',
-        'The wake word that commands have to start with; empty to accept every command.',
-        read_only=True,
-    )
-    noise_suppression: bool = parameter(
-        True,
-        'Whether pocketsphinx decodes what fits no command well again without steady noise.',
-        read_only=True,
-    )
-    vad_mode: int = parameter(
-        0,
-        'How aggressively sound that is not speech is filtered out.',
-        at_least=0,
-        at_most=3,
-        read_only=True,
-    )
-    max_utterance_s: float = parameter(
-        10.0, 'The maximum length of an utterance (s).', at_least=1.0, at_most=60.0, read_only=True
-    )
 
 
 def make_listener(

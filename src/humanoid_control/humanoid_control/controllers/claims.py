@@ -55,7 +55,7 @@ class JointClaims:
         claimants: Sequence[ClaimingController],
     ) -> None:
         self._joints = tuple(joints)
-        self._modes = tuple(modes)
+        self._modes = {mode.name: mode for mode in modes}
         self.claimants = tuple(claimants)
         self.enter(modes[0])
         self.reset()
@@ -84,6 +84,18 @@ class JointClaims:
         self._claimable = np.isin(self._joints, mode.claimable)
         for claimant in self.claimants:
             claimant.cancel()
+
+    def replace(self, mode: Mode) -> None:
+        """
+        Replace the mode of that name, which is to be entered again if it is the present one.
+
+        Parameters
+        ----------
+        mode
+            The new mode.
+
+        """
+        self._modes[mode.name] = mode
 
     def reset(self) -> None:
         """Give all joints to the mode."""
@@ -219,7 +231,7 @@ class JointClaims:
 
     def _kept(self, joint: str) -> str:
         """Build the message about a joint that the mode keeps for itself."""
-        ways = [mode.name for mode in self._modes if joint in mode.claimable]
+        ways = [mode.name for mode in self._modes.values() if joint in mode.claimable]
         leaves = 'only other joints' if self.mode.claimable else 'no joints'
         out = f"Leave it out, or set the mode to '{ways[0]}'." if ways else 'Leave it out.'
         return (

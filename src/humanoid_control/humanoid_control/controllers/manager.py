@@ -115,6 +115,21 @@ class ControllerManager:
             )
         self._next = self._modes[mode]
 
+    def replace(self, mode: Mode) -> None:
+        """
+        Replace the mode of that name; the robot enters it again if it is, or was to be, in it.
+
+        Parameters
+        ----------
+        mode
+            The new mode, whose controller has the same joints.
+
+        """
+        self._modes[mode.name] = mode
+        self.claims.replace(mode)
+        if self._next.name == mode.name:
+            self._next = mode
+
     def reset(self) -> None:
         """Reset all controllers; restart from the joint positions of the next observation."""
         for claimant in self.claims.claimants:

@@ -10,6 +10,11 @@ from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers.interface import Controller, Mask
 import numpy as np
 
+POLICY = 'policy'
+"""Name of the mode in which a trained network moves the robot."""
+DOWN = 'the robot has fallen and is not back on its feet yet'
+"""Why a mode that watches for falls keeps all joints."""
+
 
 def _nothing(joints: Mask, held: JointTargets) -> None:
     """Accept released joints without any action."""

@@ -17,8 +17,9 @@ from humanoid_common.naming import did_you_mean
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.tree import DynamicsError
 from humanoid_description.drives import SIDES
-from humanoid_description.kinematics import chain, poses
-from humanoid_description.robot import Array, Joint, named, Robot
+from humanoid_description.errors import DescriptionError
+from humanoid_description.kinematics import chain, check_limb, poses
+from humanoid_description.robot import Array, Joint, Robot
 import numpy as np
 
 # The joints from the hip to the foot, and their axes of rotation.
@@ -114,19 +115,11 @@ def _sole(robot: Robot, side: str) -> str:
 
 def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[Array]) -> None:
     """Validate the joints and axes of a leg; poses are at zero joint positions, in the root."""
-    needed = [f'{robot.prefix}{side}_{kind}' for kind in AXES]
-    found = [joint.name for joint in joints]
-    if found != needed:
-        raise DynamicsError(
-            f'The {side} leg has the joints {", ".join(found) or "(none)"}, but needs '
-            f'{", ".join(needed)}, in this order from the hip to the foot.'
-        )
-    for joint, pose, letter in zip(joints, at_zero, AXES.values()):
-        axis = np.eye(3)['xyz'.index(letter)]
-        if not np.allclose(pose[:3, :3] @ joint.axis, axis, atol=_TOLERANCE):
-            raise DynamicsError(
-                f'{named(joint)} must rotate about {letter} of the root link at the zero pose.'
-            )
+    axes = {f'{robot.prefix}{side}_{kind}': axis for kind, axis in AXES.items()}
+    try:
+        check_limb(f'{side} leg', joints, at_zero, axes)
+    except DescriptionError as error:
+        raise DynamicsError(str(error)) from error
     _check_places([pose[:3, 3] for pose in at_zero], side)
 
 

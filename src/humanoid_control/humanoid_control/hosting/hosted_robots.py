@@ -10,6 +10,7 @@ from geometry_msgs.msg import Pose, Twist
 from humanoid_common.qos import COMMAND
 from humanoid_control.backends import Observation
 from humanoid_control.controllers import CommandError
+from humanoid_control.controllers.modes import POLICY
 from humanoid_control.emergency_stop import StopListener
 from humanoid_control.hosting.controller_actions import ControllerActions
 from humanoid_control.hosting.controller_services import ControllerServices
@@ -17,6 +18,7 @@ from humanoid_control.hosting.conversions import body_pose_of, points_of, veloci
 from humanoid_control.hosting.diagnostics import RobotHealth
 from humanoid_control.hosting.pacing import RateLimiter
 from humanoid_control.hosting.parameters import HostParameters, WALKING
+from humanoid_control.hosting.policies import Policies, PolicyHost
 from humanoid_control.hosting.reports import FallReport, ObstacleReport, Refusals
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.hosting.topics.filling import topic
@@ -38,7 +40,7 @@ BLOCKED = 'blocked'
 """Walking state of a robot that an obstacle blocks, whether it steps back or stands."""
 
 
-class HostedRobot(Protocol):
+class HostedRobot(PolicyHost, Protocol):
     """What a node needs to know of a robot, however it is built."""
 
     @property
@@ -100,6 +102,7 @@ class HostedRobots:
         log = node.get_logger()
         self._falls = {name: FallReport(log, name) for name in robots}
         self._obstacles = {name: ObstacleReport(log, name) for name in robots}
+        self._policies = Policies(node, robots, parameters)
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:
@@ -139,7 +142,7 @@ class HostedRobots:
             self.time_s = observations[name].time_s
             self._actions[name].tell(self.time_s)
             walker = self._robots[name].walker
-            self._falls[name].look(walker.has_fallen)
+            self._falls[name].look(walker.has_fallen, walker.has_given_up)
             self._obstacles[name].look(walker.is_blocked)
 
     def health(self) -> dict[str, RobotHealth]:
@@ -304,6 +307,9 @@ class RobotOutputs:
         """Publish the walking state, or the mode if the robot does not walk."""
         mode = self._robot.control.manager.mode
         walker = self._robot.walker
-        state = (BLOCKED if walker.is_blocked else walker.phase) if mode == WALKING else mode
+        if mode == WALKING or (mode == POLICY and walker.has_fallen):
+            state = BLOCKED if walker.is_blocked else walker.phase
+        else:
+            state = mode
         if state is not None:
             self._state.publish(state)

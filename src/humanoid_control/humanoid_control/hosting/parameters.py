@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import re
 
 from humanoid_common.parameters import parameter, ParameterError
+from humanoid_control.controllers.modes import POLICY
 from humanoid_control.walking.parameters import WalkParameters
 
 WALKING = 'walking'
-MODES = (WALKING, 'follow', 'hold')
+MODES = (WALKING, 'follow', 'hold', POLICY)
 _NAMESPACE = re.compile(r'[A-Za-z][A-Za-z0-9_]{0,59}')
 
 
@@ -43,8 +44,13 @@ class HostParameters:
     mode: str = parameter(
         WALKING,
         'What the robots do, and which joints controllers may claim: those above the legs with '
-        'walking, all with follow, none with hold.',
+        'walking, all with follow, none with hold, those that it does not move with policy.',
         choices=MODES,
+    )
+    policy: str = parameter(
+        'stand',
+        'What the mode policy runs: an installed policy, or the path of a file that ends with '
+        '.yaml. Setting it loads the file again.',
     )
     joint_states_rate_hz: float = parameter(
         50.0, 'Rate of joint_states; 0 turns it off.', at_least=0.0, at_most=500.0

@@ -9,8 +9,13 @@ import time
 from typing import Protocol
 
 FALLEN = (
-    'has fallen, and its joints are limp until it is stood up again. '
-    "In simulation, call the service 'stand_up'."
+    'has fallen, and its joints are limp. It soon gets up by itself, unless a stop or the '
+    'parameter walk.fall.get_up forbids it. In simulation, the service '
+    "'stand_up' lifts it at once."
+)
+GIVEN_UP = (
+    'has not managed to get up: it stays limp until it is stood up. Move what it lies on or what '
+    "is in its way; in simulation, call the service 'stand_up'."
 )
 BLOCKED = (
     'Something is in the way. It steps back and does not walk in that direction: turn it, walk '
@@ -61,12 +66,12 @@ class Log(Protocol):
 
 class FallReport:
     """
-    Reporter that logs a message when a robot falls, and one when it stands again.
+    Reporter that logs when a robot falls, gives up getting up, and stands again.
 
     Parameters
     ----------
     log
-        The logger; a fall is logged as an error.
+        The logger; a fall and giving up are logged as errors.
     robot
         Name of the robot, for the messages; empty if it is alone.
 
@@ -75,18 +80,23 @@ class FallReport:
     def __init__(self, log: Log, robot: str) -> None:
         self._log = log
         self._who = f"The robot '{robot}'" if robot else 'The robot'
-        self._was_down = False
+        self._was_down = self._had_given_up = False
 
-    def look(self, is_down: bool) -> None:
+    def look(self, is_down: bool, has_given_up: bool = False) -> None:
         """
-        Log a fall, or that the robot stands again, when that has changed since the last call.
+        Log what has changed since the last call.
 
         Parameters
         ----------
         is_down
-            Whether the robot lies, falls or is being put onto its feet.
+            Whether the robot lies, falls, gets up or is being put onto its feet.
+        has_given_up
+            Whether it lies and no longer tries to get up.
 
         """
+        if has_given_up and not self._had_given_up:
+            self._log.error(f'{self._who} {GIVEN_UP}')
+        self._had_given_up = has_given_up
         if is_down == self._was_down:
             return
         self._was_down = is_down

@@ -9,18 +9,20 @@ from dataclasses import dataclass
 from humanoid_control.backends import ImuNoise, JointLimits, JointTargets, Observation
 from humanoid_control.controllers import follow_mode, hold_mode
 from humanoid_control.controllers.command_controllers import Clock
-from humanoid_control.controllers.modes import Mode
+from humanoid_control.controllers.modes import DOWN, Mode
 from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.policy.controller import PolicyController
+from humanoid_control.policy.policy import Policy, PolicyRobot
 from humanoid_control.walking.commands import BodyPose, VelocityCommand
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.walker import Walker
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
+import numpy as np
 
 CLAIMABLE = ('head_', 'waist_', 'shoulder', 'elbow', 'wrist', 'gripper')
 """A joint whose name contains one of these is not needed to walk."""
 MOVING = ('walk', 'stop', 'stand_up')
-DOWN = 'the robot has fallen and is not back on its feet yet'
 Able = Callable[[VelocityCommand], VelocityCommand]
 """Maps a commanded velocity to what the robot can do, before the limits of the gait."""
 
@@ -127,10 +129,11 @@ def walking_mode(controller: WalkingController) -> Mode:
 
 @dataclass(frozen=True, eq=False)
 class WalkingRobotControl:
-    """The walker of a robot, and its control."""
+    """The walker of a robot, its control, and what runs policies on it."""
 
     walker: Walker
     control: RobotControl
+    policy: PolicyController
 
     @property
     def home_rad(self) -> dict[str, float]:
@@ -174,8 +177,19 @@ class WalkingRobotControl:
         joints = tuple(drives)
         walker = Walker.of(robot, drives, joints, walk, imu)
         walking = WalkingController(walker, able)
-        modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))
         limits = JointLimits.of(drives, joints)
+        kd_nm_s_rad = np.array([drives[joint].kd for joint in joints])
+        known = PolicyRobot(
+            joints, walker.robot.prefix, limits, kd_nm_s_rad, walker.robot.imu_in_base
+        )
+        policy = PolicyController(known, walker, say)
+        modes = (
+            walking_mode(walking), follow_mode(joints), hold_mode(joints), policy.mode()
+        )  # fmt: skip
+
+        def walk_at(velocity: VelocityCommand) -> None:
+            walking.walk(velocity)
+            policy.walk(velocity)
 
         def hold_body(pose: BodyPose | None) -> None:
             if pose is None:
@@ -183,5 +197,19 @@ class WalkingRobotControl:
             else:
                 walker.hold(pose)
 
-        control = RobotControl(joints, limits, modes, walking.walk, clock, say, hold_body)
-        return cls(walker, control)
+        control = RobotControl(joints, limits, modes, walk_at, clock, say, hold_body)
+        walker.may_get_up = lambda: not control.must_hold
+        return cls(walker, control, policy)
+
+    def use_policy(self, policy: Policy) -> None:
+        """
+        Let the mode `policy` run a policy from now on.
+
+        Parameters
+        ----------
+        policy
+            The policy, loaded for this robot.
+
+        """
+        self.policy.policy = policy
+        self.control.manager.replace(self.policy.mode())

@@ -248,9 +248,7 @@ class Stepping:
 
         """
         step = self._step
-        step.advance(now.passed_s)
-        step.feel(now)
-        if not step.has_landed(now):
+        if not step.advance(now):
             return self
         self._context.learn_slope(self._context.footing[step.support].plane.tilt)
         self._context.path.advance(step.support, self._context.velocity, step.duration_s)

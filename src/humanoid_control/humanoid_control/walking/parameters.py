@@ -334,6 +334,20 @@ class FallParameters:
     )
     collapse_s: float = _time(1.5, 'Time for which joints stay compliant before they are limp.')
     collapse_stiffness: float = _share(0.15, 'Share of the stiffness of the joints meanwhile.')
+    get_up: bool = parameter(
+        True, 'Whether the robot gets up from the ground by itself.', read_only=True
+    )
+    lie_s: float = _time(2.0, 'Time for which the robot lies limp before it gets up.')
+    get_up_tries: int = parameter(
+        3,
+        'How often it tries to get up before it gives up and stays limp.',
+        at_least=1,
+        at_most=20,
+        read_only=True,
+    )
+    get_up_unit_s: float = _time(
+        1.0, 'Unit of time of the motions of getting up; more makes them slower.'
+    )
     stand_up_s: float = _time(1.5, 'Time in which the joints reach the standing posture.')
     standing_load: float = _share(
         0.6, 'Share of the weight on the soles at which the robot walks again.'

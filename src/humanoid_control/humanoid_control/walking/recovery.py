@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fall recovery: detection of a fall, a compliant fall, and standing up again."""
+"""Fall recovery: detection of a fall, a compliant fall, getting up, and standing again."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 import math
 
 from humanoid_control.backends import Array, JointTargets
+from humanoid_control.walking.get_up import GetUp, Rising
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import NAMES, outwards, SIDES
+from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.walking_robot import HomePosture, RobotState, WalkingRobot
 import numpy as np
 
@@ -21,43 +24,56 @@ class Recovery:
     """
     Fall recovery: takes control when the robot falls, and returns it when the robot stands.
 
-    The robot cannot get up from the ground by itself. When it is held upright above its feet, by
-    hand or by a hoist, or is placed there, it moves to the standing posture; when its feet then
-    carry it, it is ready to walk.
+    A robot that falls goes limp. When it has lain for a while, it gets up by itself, unless a stop
+    forbids that, or it has given up. When it is upright above its feet, by itself, by hand or by a
+    hoist, it moves to the standing posture; when its feet then carry it, it is ready to walk.
 
     Parameters
     ----------
-    robot
-        The robot.
+    robot, shape
+        The robot, and the supporting rectangle of its soles.
     home
         Standing posture, and the height of the base in it.
     parameters : WalkParameters
         Gait parameters, with the thresholds of fall detection and the durations.
+    may_get_up
+        Returns whether the robot may get up by itself now; a stop forbids it.
+
+    Attributes
+    ----------
+    has_given_up
+        Whether the robot has not managed to get up: it stays limp until it is helped up.
 
     """
 
-    def __init__(self, robot: WalkingRobot, home: HomePosture, parameters: WalkParameters) -> None:
-        self._robot, self._home, self._parameters = robot, home, parameters
+    def __init__(
+        self,
+        robot: WalkingRobot,
+        shape: FootShape,
+        home: HomePosture,
+        parameters: WalkParameters,
+        may_get_up: Callable[[], bool] = lambda: True,
+    ) -> None:
+        self._robot, self._shape, self._home = robot, shape, home
+        self._parameters = parameters
         self._detector = FallDetector(parameters, home.base_height_m)
-        self._action: Collapse | Rising | None = None
+        self._may_get_up = may_get_up
+        self._action: Collapse | GetUp | Rising | None = None
+        self.has_given_up = False
 
     @property
     def phase(self) -> str | None:
         """Return 'fallen' or 'stand_up', or None as long as the robot stands by itself."""
         return self._action.name if self._action else None
 
-    def update(
-        self, time_s: float, stance: StandingState, positions_rad: Array
-    ) -> JointTargets | None:
+    def update(self, sensed: RobotState, positions_rad: Array) -> JointTargets | None:
         """
         Advance the recovery from a fall by one control period.
 
         Parameters
         ----------
-        time_s
-            Time of the observation.
-        stance
-            Tilt and height of the base, and the load on the feet.
+        sensed
+            Estimated state of the robot.
         positions_rad
             Measured joint positions (n,).
 
@@ -67,25 +83,55 @@ class Recovery:
             Targets of the joints (n,); None if the robot stands by itself.
 
         """
+        time_s, stance = sensed.time_s, StandingState.of(self._robot, sensed)
         self._action = self._next(time_s, stance, positions_rad)
         if isinstance(self._action, Collapse):
             return self._action.targets(time_s, positions_rad)
+        if isinstance(self._action, GetUp):
+            return self._action.update(sensed, self._detector.can_stand(stance))
         return self._action.targets(time_s) if self._action else None
 
     def _next(
         self, time_s: float, stance: StandingState, positions_rad: Array
-    ) -> Collapse | Rising | None:
+    ) -> Collapse | GetUp | Rising | None:
         """Select the next action from the stance of the robot."""
         action = self._action
         if isinstance(action, Collapse):
-            if self._detector.can_stand(stance):
-                return Rising(positions_rad, self._home.positions_rad, self._parameters, time_s)
-            return action
+            return self._lying(time_s, action, stance, positions_rad)
+        if isinstance(action, GetUp):
+            return self._getting_up(time_s, action, stance, positions_rad)
         if self._detector.is_falling(stance):
             return Collapse(self._robot, self._parameters, time_s)
         if isinstance(action, Rising) and self._carries_itself(time_s, action, stance):
+            self.has_given_up = False
             return None
         return action
+
+    def _lying(
+        self, time_s: float, action: Collapse, stance: StandingState, positions_rad: Array
+    ) -> Collapse | GetUp | Rising:
+        """Select the next action of a robot that is limp."""
+        if self._detector.can_stand(stance):
+            return Rising(positions_rad, self._home.positions_rad, self._parameters, time_s)
+        may = self._parameters.fall.get_up and not self.has_given_up and self._may_get_up()
+        if may and action.has_lain(time_s):
+            return GetUp(self._robot, self._shape, self._parameters, time_s, positions_rad)
+        return action
+
+    def _getting_up(
+        self, time_s: float, action: GetUp, stance: StandingState, positions_rad: Array
+    ) -> Collapse | GetUp | Rising | None:
+        """Select the next action of a robot that gets up."""
+        can_stand = self._detector.can_stand(stance)
+        goes_on = self._may_get_up() and not action.is_over
+        if goes_on and (action.is_rising or not can_stand):
+            return action
+        if not can_stand:
+            self.has_given_up = action.is_over
+            return Collapse(self._robot, self._parameters, time_s)
+        if action.is_over and stance.load > self._parameters.fall.standing_load:
+            return None
+        return Rising(positions_rad, self._home.positions_rad, self._parameters, time_s)
 
     def _carries_itself(self, time_s: float, rising: Rising, stance: StandingState) -> bool:
         """Check whether the robot is in the standing posture and its feet carry it."""
@@ -206,6 +252,19 @@ class Collapse:
         self._start_s = time_s
         self._posture_rad = _protective_posture(robot)
 
+    def has_lain(self, time_s: float) -> bool:
+        """
+        Check whether the robot has been limp for so long that it may get up.
+
+        Parameters
+        ----------
+        time_s
+            Present time, on the same clock as the start.
+
+        """
+        fall = self._parameters.fall
+        return time_s - self._start_s >= fall.collapse_s + fall.lie_s
+
     def targets(self, time_s: float, positions_rad: Array) -> JointTargets:
         """
         Compute the joint targets of a compliant fall.
@@ -240,63 +299,3 @@ def _protective_posture(robot: WalkingRobot) -> Array:
         roll = robot.index(f'{NAMES[side]}_shoulder_roll')
         posture[roll] = outwards(side) * _ARM_ROLL_RAD
     return posture
-
-
-class Rising:
-    """
-    Minimum-jerk motion of the joints to the standing posture (Flash and Hogan, 1985).
-
-    Parameters
-    ----------
-    start_rad, home_rad
-        Joint positions (n,) at the start, as measured, and in the standing posture.
-    parameters : WalkParameters
-        Gait parameters, with the duration.
-    time_s
-        Time of the observation at which the motion starts.
-
-    """
-
-    name = 'stand_up'
-
-    def __init__(
-        self, start_rad: Array, home_rad: Array, parameters: WalkParameters, time_s: float
-    ) -> None:
-        self._start_rad, self._way_rad = start_rad.copy(), home_rad - start_rad
-        self._duration_s = parameters.fall.stand_up_s
-        self._start_s = time_s
-
-    def is_done(self, time_s: float) -> bool:
-        """
-        Check whether the targets have arrived at the standing posture.
-
-        Parameters
-        ----------
-        time_s
-            Present time, on the same clock as the start.
-
-        """
-        return time_s - self._start_s >= self._duration_s
-
-    def targets(self, time_s: float) -> JointTargets:
-        """
-        Compute the joint targets of the minimum-jerk motion to the standing posture.
-
-        Parameters
-        ----------
-        time_s
-            Present time, on the same clock as the start.
-
-        Returns
-        -------
-        JointTargets
-            Positions and velocities (n,); efforts are zero.
-
-        """
-        t = min(1.0, (time_s - self._start_s) / self._duration_s)
-        share = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
-        rate_1_s = 30.0 * t**2 * (1.0 - t) ** 2 / self._duration_s
-        zeros = np.zeros(len(self._start_rad))
-        return JointTargets(
-            self._start_rad + share * self._way_rad, rate_1_s * self._way_rad, zeros
-        )

@@ -6,9 +6,8 @@ from __future__ import annotations
 from humanoid_control.walking.footing import Foothold, SoleReading
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gait_context import GaitContext, GaitInput
-from humanoid_control.walking.landing import LandingPlan
 from humanoid_control.walking.obstacle_guard import LegInAir
-from humanoid_control.walking.pendulum import BalanceReference
+from humanoid_control.walking.pendulum import BalanceReference, DcmPlan
 from humanoid_control.walking.planar import (
     GroundPlane,
     other,
@@ -18,7 +17,9 @@ from humanoid_control.walking.planar import (
     smooth_turn,
     Turning,
 )
-from humanoid_control.walking.swing_foot import Lift, SoleMotion, StepClock, Swing, SwingFoot
+from humanoid_control.walking.step_adjustment import Residual, StepAdjuster
+from humanoid_control.walking.swing_foot import StepClock, Swing, SwingTrajectory
+from humanoid_control.walking.touchdown import Touchdown
 
 _INSTANT_S = 1e-4
 """Until the foot has landed, the plan is evaluated no later than this before the step ends."""
@@ -56,14 +57,8 @@ class CurrentStep:
         self.error_m = 0.0
         self._lifted_from = context.footing[self.side]
         self._lift_off = self._lifted_from.pose
-        self._foot = SwingFoot(self._lift_off)
-        p = context.parameters
-        self._lift = Lift(
-            p.swing.height_m, p.timing.swing_s, p.swing.reach_down_m_s, p.swing.deepest_m
-        )
-        self._tilt = context.slope
-        self._has_touched = False
-        self._lost_s = 0.0
+        self._trajectory = SwingTrajectory(context.parameters, self._lift_off, context.slope)
+        self._touchdown = Touchdown(context.parameters.swing)
         self._landing = LandingPlan(context, support, shift_s, zmp)
 
     @property
@@ -81,20 +76,49 @@ class CurrentStep:
         """Return the planned footsteps, this one first."""
         return self._landing.footsteps
 
-    def advance(self, passed_s: float) -> None:
+    def advance(self, now: GaitInput) -> bool:
         """
-        Advance the clock of the step by one control period.
+        Advance the step by one control period, and detect the touchdown of the swing foot.
 
         During a gap in control the swing foot received no targets. It must not rush to catch up:
-        the step waits for it.
+        the step waits for it. The foot stays where it touches the ground, early or late, until
+        the step ends. A contact that is lost was not the ground: it gave way, or the foot only
+        grazed it, and the swing resumes.
 
         Parameters
         ----------
-        passed_s
-            Time since the last control period.
+        now
+            Estimates and measurements of this control period.
+
+        Returns
+        -------
+        bool
+            Whether the foot can take the weight, or its landing is overdue.
 
         """
-        self._clock.advance(passed_s, waits=not self._has_touched)
+        sole, clock, touchdown = now.soles[self.side], self._clock, self._touchdown
+        clock.advance(now.passed_s, waits=not touchdown.has_touched)
+        swings = clock.swing_phase > 0.0 and not touchdown.has_touched
+        if swings and now.passed_s > clock.passed_s:
+            self._trajectory.restart(sole.pose)
+        if touchdown.update(sole, clock, now.passed_s):
+            if touchdown.has_touched:
+                self._stay(sole)
+            else:
+                self._swing_on(sole)
+        return touchdown.may_bear(sole, clock)
+
+    def _stay(self, sole: SoleReading) -> None:
+        """Make a foothold of where the foot has touched the ground."""
+        plane = GroundPlane(sole.plane.height_m, self._trajectory.tilt)
+        self._context.footing.put(self.side, Foothold(sole.pose, plane))
+
+    def _swing_on(self, sole: SoleReading) -> None:
+        """Resume the swing from where the foot has lost its contact."""
+        self._context.footing.put(self.side, self._lifted_from)
+        self._trajectory.restart(sole.pose)
+        if self._clock.arrival_s < self._context.parameters.swing.least_s:
+            self._landing.move(sole.pose)
 
     def replan(self, now: GaitInput) -> None:
         """
@@ -108,24 +132,14 @@ class CurrentStep:
             As for `Phase.replan`.
 
         """
-        if self._has_touched or self._clock.elapsed_s > self._clock.adjustable_until_s:
+        clock = self._clock
+        if self._touchdown.has_touched or clock.elapsed_s > clock.adjustable_until_s:
             return
         blockage = self._context.guard.blockage
         if blockage and blockage.leg is not None:
             # The foot is not where it was planned to be.
-            self._foot = SwingFoot(now.soles[self.side].pose)
-        self._landing.restart(self._in_time(self._landing.next_pose()))
-
-    def _in_time(self, landing: PlanarPose) -> PlanarPose:
-        """Limit a landing to what the foot can reach in time: a faster swing topples the robot."""
-        if self._clock.swing_phase <= 0.0:
-            return landing
-        start_m = self._foot.pose.position_m
-        way_m = landing.position_m - start_m
-        most_m = self._context.parameters.obstacles.turn_back_m_s * max(0.0, self._clock.arrival_s)
-        if abs(way_m) <= most_m:
-            return landing
-        return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
+            self._trajectory.restart(now.soles[self.side].pose)
+        self._landing.restart(self._trajectory.in_time(self._landing.next_pose(), clock))
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
         """
@@ -145,65 +159,11 @@ class CurrentStep:
         p, sole = self._context.parameters, now.soles[self.side]
         swings = (
             p.obstacles.leg_touch_from_phase < self._clock.swing_phase < 1.0
-            and not self._has_touched
+            and not self._touchdown.has_touched
         )
         if not swings or sole.load > p.swing.touch_load:
             return None
         return LegInAir(self.side, now.touch.legs_nm[self.side], sole.pose.position_m)
-
-    def feel(self, now: GaitInput) -> None:
-        """
-        Detect the touchdown of the swing foot, early or late, and the loss of that contact.
-
-        The foot stays where it touches the ground until the step ends. A contact that is lost was
-        not the ground: it gave way, or the foot only grazed it, and the swing resumes.
-
-        Parameters
-        ----------
-        now
-            Estimates and measurements of this control period.
-
-        """
-        sole = now.soles[self.side]
-        if self._has_touched:
-            self._notice_loss(sole, now.passed_s)
-            return
-        if now.passed_s > self._clock.passed_s and self._clock.swing_phase > 0.0:
-            self._foot = SwingFoot(sole.pose)
-        if not (self._touches(sole) or self._clock.is_late):
-            return
-        self._has_touched = True
-        plane = GroundPlane(sole.plane.height_m, self._tilt)
-        self._context.footing.put(self.side, Foothold(sole.pose, plane))
-
-    def _notice_loss(self, sole: SoleReading, passed_s: float) -> None:
-        """Resume the swing if the foot loses contact before its planned landing."""
-        p = self._context.parameters
-        bears = sole.load > p.swing.lost_load or self._clock.swing_phase > 1.0
-        self._lost_s = 0.0 if bears else self._lost_s + passed_s
-        if self._lost_s < p.swing.lost_s:
-            return
-        self._has_touched, self._lost_s = False, 0.0
-        self._context.footing.put(self.side, self._lifted_from)
-        self._foot = SwingFoot(sole.pose)
-        if self._clock.arrival_s < p.swing.least_s:
-            self._landing.move(sole.pose)
-
-    def has_landed(self, now: GaitInput) -> bool:
-        """
-        Check whether the foot can take the weight, or its landing is overdue.
-
-        Parameters
-        ----------
-        now
-            Estimates and measurements of this control period.
-
-        """
-        p, phase = self._context.parameters, self._clock.swing_phase
-        bears = now.soles[self.side].load > p.swing.touchdown_load or phase > 1.0
-        return self._clock.is_late or (
-            self._has_touched and phase > p.swing.landing_phase and bears
-        )
 
     def reference(self, now: GaitInput) -> BalanceReference:
         """
@@ -235,26 +195,16 @@ class CurrentStep:
 
     def swing(self) -> Swing | None:
         """Compute the swing foot target, or None without one; call it once per control period."""
-        clock, foot = self._clock, self._foot
-        if clock.in_air_s <= 0.0 or self._has_touched:
+        if self._clock.in_air_s <= 0.0 or self._touchdown.has_touched:
             return None
-        passed_s = min(clock.passed_s, clock.in_air_s / clock.rate)
-        foot.advance(self._landing.pose, clock.arrival_s + passed_s, passed_s)
-        start, rise_m = self._context.footing[self.side].plane, self._rise_m
-        height_m, climb_m_s, climb_m_s2 = self._lift.at(clock.in_air_s, rise_m)
-        share = min(1.0, clock.swing_phase)
-        self._tilt = start.tilt + share * (self._context.slope - start.tilt)
-        motion = SoleMotion(
-            foot.pose,
-            GroundPlane(start.height_m + height_m, self._tilt),
-            foot.velocity_m_s,
-            climb_m_s * clock.rate,
-            foot.turn_rad_s,
-            foot.acceleration_m_s2,
-            climb_m_s2 * clock.rate**2,
-            foot.turn_rad_s2,
+        sole = self._trajectory.advance(
+            self._clock,
+            self._landing.pose,
+            self._context.footing[self.side].plane,
+            self._rise_m,
+            self._context.slope,
         )
-        return Swing(self.side, motion)
+        return Swing(self.side, sole)
 
     @property
     def _rise_m(self) -> float:
@@ -264,10 +214,135 @@ class CurrentStep:
         landing_m = footing[self.support].plane.height_beside(way_m, slope)
         return landing_m - footing[self.side].plane.height_m
 
-    def _touches(self, sole: SoleReading) -> bool:
-        """Detect contact of the descending foot with the ground."""
-        p, phase = self._context.parameters, self._clock.swing_phase
-        enough = p.swing.touch_load if phase > p.swing.gentle_phase else p.swing.touchdown_load
-        # Friction on the front of an obstacle is not ground contact.
-        is_below = abs(sole.drag) < sole.load
-        return phase > p.swing.touchdown_phase and sole.load > enough and is_below
+
+class LandingPlan:
+    """
+    The landing of a step, and the plan of the DCM from the start of the step until rest.
+
+    Parameters
+    ----------
+    context
+        Context shared by the phases of the gait.
+    support
+        Side of the foot that carries the robot.
+    shift_s
+        Duration of double support at the start.
+    zmp
+        Zero-moment point in use at the start (m), in the odom frame.
+
+    Attributes
+    ----------
+    pose
+        Pose at which the swing foot lands, in the odom frame.
+
+    """
+
+    def __init__(self, context: GaitContext, support: int, shift_s: float, zmp: Point) -> None:
+        self._context = context
+        self._support, self._shift_s, self._start_m = support, shift_s, zmp
+        self._adjuster = StepAdjuster(context.planner, context.pendulum.rate_1_s)
+        self.restart(self.next_pose())
+
+    @property
+    def footsteps(self) -> list[Footstep]:
+        """Return the planned footsteps, this one first."""
+        return self._context.footsteps(self.pose, self._support)
+
+    def next_pose(self) -> PlanarPose:
+        """Plan a landing, corrected to the reference path unless the robot stops."""
+        planner, support = self._context.planner, self._context.footing.pose(self._support)
+        start = planner.middle_beside(support, self._support)
+        if not self._context.is_stopping:
+            start = self._context.path.corrected(start)
+        goal = planner.next_middle(start, self._support, self._context.velocity)
+        landing = planner.landing(support, self._support, goal)
+        return PlanarPose(self._context.guard.kept_off(landing.position_m), landing.yaw_rad)
+
+    def restart(self, nominal: PlanarPose) -> None:
+        """
+        Plan anew for another nominal landing.
+
+        Parameters
+        ----------
+        nominal
+            Pose of the landing as long as the DCM has no error, in the odom frame.
+
+        """
+        self._is_for_stop = self._context.is_stopping
+        self._nominal = self.pose = nominal
+        self._nominal_plan = self._plan = self._planned(nominal)
+
+    def move(self, pose: PlanarPose) -> None:
+        """
+        Land elsewhere than at the nominal landing.
+
+        Parameters
+        ----------
+        pose
+            Pose of the landing, in the odom frame.
+
+        """
+        self.pose = pose
+        self._plan = self._planned(pose)
+
+    def heed_stop(self) -> None:
+        """Replan the DCM when the robot has started to stop, or no longer stops."""
+        if self._context.is_stopping != self._is_for_stop:
+            self._is_for_stop = self._context.is_stopping
+            self._nominal_plan = self._planned(self._nominal)
+            self._plan = self._planned(self.pose)
+
+    def at(self, time_s: float) -> BalanceReference:
+        """
+        Evaluate the plan.
+
+        Parameters
+        ----------
+        time_s
+            Time on the clock of the step.
+
+        """
+        return self._plan.at(time_s)
+
+    def adjust(self, dcm: Point, sides: tuple[int, ...], time_s: float, clock: StepClock) -> None:
+        """
+        Adjust the position and the timing of the landing to the error of the DCM.
+
+        Parameters
+        ----------
+        dcm
+            Divergent component of motion (m), in the odom frame.
+        sides
+            Sides of the feet that carry the robot.
+        time_s
+            Time at which the plan is evaluated, on the clock.
+        clock
+            Clock of the step, whose rate is set.
+
+        """
+        support = self._context.footing.pose(self._support)
+        residual = Residual.of(
+            self._nominal_plan.at(time_s),
+            dcm,
+            self._context.parameters.balance.dcm_gain,
+            self._context.footing.polygon(sides),
+            support,
+        )
+        adjustment = self._adjuster.adjusted(
+            self._nominal,
+            support,
+            self._support,
+            residual,
+            clock.end_s - time_s,
+            clock.rate,
+        )
+        clock.rate = adjustment.rate
+        if adjustment.landing != self.pose:
+            self.move(adjustment.landing)
+
+    def _planned(self, landing: PlanarPose) -> DcmPlan:
+        """Plan the DCM from the start of the step until the robot rests, for a landing."""
+        steps = self._context.footsteps(landing, self._support)
+        return self._context.plan(
+            self._context.step_segments(self._support, steps, self._start_m, self._shift_s)
+        )

@@ -218,6 +218,109 @@ class Lift:
         )
 
 
+class SwingTrajectory:
+    """
+    Trajectory of a swing foot, from its lift-off to a landing that may move, over sloping ground.
+
+    Parameters
+    ----------
+    parameters : WalkParameters
+        Gait parameters.
+    lift_off
+        Pose of the foot before, in the odom frame.
+    tilt
+        Tilt of its sole as long as it has not moved.
+
+    Attributes
+    ----------
+    tilt
+        Present tilt of its sole.
+
+    """
+
+    def __init__(self, parameters: WalkParameters, lift_off: PlanarPose, tilt: Point) -> None:
+        p = parameters
+        self._turn_back_m_s = p.obstacles.turn_back_m_s
+        self._foot = SwingFoot(lift_off)
+        self._lift = Lift(
+            p.swing.height_m, p.timing.swing_s, p.swing.reach_down_m_s, p.swing.deepest_m
+        )
+        self.tilt = tilt
+
+    def restart(self, pose: PlanarPose) -> None:
+        """
+        Go on at rest from where the foot is.
+
+        Parameters
+        ----------
+        pose
+            Measured pose of its sole, in the odom frame.
+
+        """
+        self._foot = SwingFoot(pose)
+
+    def in_time(self, landing: PlanarPose, clock: StepClock) -> PlanarPose:
+        """
+        Limit a landing to what the foot can reach in time: a faster swing topples the robot.
+
+        Parameters
+        ----------
+        landing
+            Pose of the landing, in the odom frame.
+        clock
+            Clock of the step.
+
+        """
+        if clock.swing_phase <= 0.0:
+            return landing
+        start_m = self._foot.pose.position_m
+        way_m = landing.position_m - start_m
+        most_m = self._turn_back_m_s * max(0.0, clock.arrival_s)
+        if abs(way_m) <= most_m:
+            return landing
+        return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
+
+    def advance(
+        self,
+        clock: StepClock,
+        landing: PlanarPose,
+        start: GroundPlane,
+        rise_m: float,
+        slope: Point,
+    ) -> SoleMotion:
+        """
+        Compute the swing foot target. Call once per control period.
+
+        Parameters
+        ----------
+        clock
+            Clock of the step.
+        landing
+            Pose of the landing, in the odom frame.
+        start
+            Ground plane at the lift-off.
+        rise_m, slope
+            Expected height of the ground at the landing above that at the lift-off, and its tilt.
+
+        """
+        foot = self._foot
+        passed_s = min(clock.passed_s, clock.in_air_s / clock.rate)
+        foot.advance(landing, clock.arrival_s + passed_s, passed_s)
+        height_m, climb_m_s, climb_m_s2 = self._lift.at(clock.in_air_s, rise_m)
+        share = min(1.0, clock.swing_phase)
+        self.tilt = start.tilt + share * (slope - start.tilt)
+        return SoleMotion(
+            foot.pose,
+            GroundPlane(start.height_m + height_m, self.tilt),
+            foot.velocity_m_s,
+            climb_m_s * clock.rate,
+            foot.turn_rad_s,
+            foot.acceleration_m_s2,
+            climb_m_s2 * clock.rate**2,
+            foot.turn_rad_s2,
+        )
+
+
 def _quintic(
     start: tuple[Point, Point, Point], duration: float, time: float
 ) -> tuple[Point, Point, Point]:

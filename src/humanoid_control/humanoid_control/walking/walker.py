@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
@@ -11,7 +11,7 @@ from humanoid_control.walking.commands import BodyPose, STANDING, UPRIGHT, Veloc
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, PlanarPose, Point, RIGHT
-from humanoid_control.walking.recovery import Recovery, StandingState
+from humanoid_control.walking.recovery import Recovery
 from humanoid_control.walking.state_estimator import StateEstimator
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.walk import Walk, WalkStatus
@@ -19,6 +19,11 @@ from humanoid_control.walking.walking_robot import HomePosture, RobotState, Walk
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
 from humanoid_description.rotations import quaternion_of
+
+
+def _always() -> bool:
+    """Let the robot get up at any time."""
+    return True
 
 
 @dataclass(eq=False)
@@ -35,6 +40,8 @@ class Walker:
     home: HomePosture
     parameters: WalkParameters
     imu: ImuNoise = field(default_factory=ImuNoise)
+    may_get_up: Callable[[], bool] = _always
+    """Returns whether the robot may get up by itself when it lies on the ground."""
     _estimator: StateEstimator = field(init=False)
     _velocity: VelocityCommand = field(init=False, default=STANDING)
     _body: BodyPose = field(init=False, default=UPRIGHT)
@@ -45,9 +52,7 @@ class Walker:
     _recovery: Recovery = field(init=False)
 
     def __post_init__(self) -> None:
-        self._estimator = StateEstimator(self.robot)
-        self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
-        self._recovery = Recovery(self.robot, self.home, self.parameters)
+        self.reset()
 
     @classmethod
     def of(
@@ -92,7 +97,9 @@ class Walker:
     def reset(self) -> None:
         """Reset all state, after the robot has been placed elsewhere; odometry starts again."""
         self._estimator = StateEstimator(self.robot)
-        self._recovery = Recovery(self.robot, self.home, self.parameters)
+        self._recovery = Recovery(
+            self.robot, self.shape, self.home, self.parameters, lambda: self.may_get_up()
+        )
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._start_m = 0j
         self._walk = self._targets = None
@@ -181,14 +188,44 @@ class Walker:
         if targets is None:
             walk = self._walk or self._begin(sensed)
             targets = walk.update(sensed, self._velocity, self._body)
-        self._uncertainty.update(self._pose(walk), sensed.time_s)
+        self._uncertainty.update(_pose(walk), sensed.time_s)
         self._targets = self.robot.whole(targets)
         return self._targets
+
+    def watch(self, observation: Observation) -> JointTargets | None:
+        """
+        Watch for a fall while another controller moves the robot; call it instead of `update`.
+
+        Parameters
+        ----------
+        observation
+            Observation of all actuated joints.
+
+        Returns
+        -------
+        JointTargets or None
+            Targets of all actuated joints while the robot is down; None while it stands.
+
+        Raises
+        ------
+        WalkingError
+            As for `update`.
+
+        """
+        own = self.robot.own(observation)
+        sensed = self._estimator.read(own)
+        targets = self._recovery.update(sensed, own.positions_rad)
+        return None if targets is None else self.robot.whole(targets)
 
     @property
     def has_fallen(self) -> bool:
         """Whether the robot is falling, lies on the ground or is standing up."""
         return self._recovery.phase is not None
+
+    @property
+    def has_given_up(self) -> bool:
+        """Whether the robot lies on the ground and has not managed to get up by itself."""
+        return self._recovery.has_given_up
 
     @property
     def is_blocked(self) -> bool:
@@ -213,8 +250,7 @@ class Walker:
     ) -> JointTargets | None:
         """Advance the fall recovery; return its targets, or None if the robot walks (again)."""
         was_down = self.has_fallen
-        stance = StandingState.of(self.robot, sensed)
-        targets = self._recovery.update(sensed.time_s, stance, positions_rad)
+        targets = self._recovery.update(sensed, positions_rad)
         if targets is not None:
             walk.lie(sensed)
         elif was_down:
@@ -224,7 +260,7 @@ class Walker:
     @property
     def phase(self) -> str | None:
         """Return the phase, as in `WalkStatus`; None before the first update."""
-        return (self._recovery.phase or self._walk.gait.phase) if self._walk else None
+        return self._recovery.phase or (self._walk.gait.phase if self._walk else None)
 
     @property
     def status(self) -> WalkStatus | None:
@@ -239,27 +275,29 @@ class Walker:
             support=output.sides if output else (),
             feet=(walk.footing.pose(LEFT), walk.footing.pose(RIGHT)),
             footsteps=walk.gait.footsteps if output else (),
-            odometry=self._odometry(walk),
+            odometry=_odometry(walk, self._uncertainty.covariance),
             dcm_m=walk.dcm_m,
             dcm_reference_m=output.reference.dcm_m if output else walk.dcm_m,
             zmp_m=output.zmp_m if output else walk.dcm_m,
             zmp_reference_m=output.reference.zmp_m if output else walk.dcm_m,
         )
 
-    def _pose(self, walk: Walk) -> PlanarPose:
-        """Return the pose of the base in the plane of the odom frame."""
-        x, y, _ = walk.base.position_m.tolist()
-        return PlanarPose(complex(x, y), walk.sensed.attitude.yaw_rad)
 
-    def _odometry(self, walk: Walk) -> Odometry:
-        """Build the odometry: pose, velocities and covariance of the base."""
-        state = walk.sensed.state
-        to_base = state.base_rotation.T
-        return Odometry(
-            pose=self._pose(walk),
-            height_m=walk.height_m,
-            orientation=quaternion_of(state.base_rotation),
-            linear_velocity_m_s=to_base @ walk.base.velocity_m_s,
-            angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
-            covariance=self._uncertainty.covariance,
-        )
+def _pose(walk: Walk) -> PlanarPose:
+    """Return the pose of the base in the plane of the odom frame."""
+    x, y, _ = walk.base.position_m.tolist()
+    return PlanarPose(complex(x, y), walk.sensed.attitude.yaw_rad)
+
+
+def _odometry(walk: Walk, covariance: Array) -> Odometry:
+    """Build the odometry: pose, velocities and covariance of the base."""
+    state = walk.sensed.state
+    to_base = state.base_rotation.T
+    return Odometry(
+        pose=_pose(walk),
+        height_m=walk.height_m,
+        orientation=quaternion_of(state.base_rotation),
+        linear_velocity_m_s=to_base @ walk.base.velocity_m_s,
+        angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
+        covariance=covariance,
+    )

@@ -16,7 +16,7 @@ from humanoid_simulation.scene.outlines import Outline, Point, turned
 from humanoid_simulation.scene.parts import COLOURS, Finish, PATTERNS, Vector
 from humanoid_simulation.scene.scene import Place, Room, room_at, Surface, Thing
 from humanoid_simulation.scene.walls import Door, flooring_of, Wall, wall_of
-from humanoid_simulation.tables import Table
+from humanoid_simulation.tables import is_vector, Table
 
 KEYS = ('rooms', 'walls', 'furniture', 'objects', 'places')
 _GAP_M = 0.001
@@ -56,7 +56,7 @@ def home_of(table: Table) -> Home:
         home.things.append(wall_of(wall, home.rooms))
     for each in table.tables('furniture'):
         piece = _piece(each, home.surfaces)
-        home.things.append(each.checked(partial(furniture_of, piece)))
+        home.things.append(each.place.checked(partial(furniture_of, piece)))
         home.surfaces.update({surface.name: surface for surface in surfaces_of(piece)})
     for each in table.tables('objects'):
         home.things.append(_object(each, home.surfaces))
@@ -67,8 +67,8 @@ def home_of(table: Table) -> Home:
 def _room(table: Table) -> Room:
     """Read a room."""
     table.allow('name', 'outline', 'floor', 'walls', 'ceiling')
-    outline: Outline = tuple((x, y) for x, y in table.vectors('outline', 2, 3))
-    return table.checked(
+    outline = _outline(table)
+    return table.place.checked(
         lambda: Room(
             table.text('name'),
             outline,
@@ -79,12 +79,26 @@ def _room(table: Table) -> Room:
     )
 
 
+def _outline(table: Table) -> Outline:
+    """Read the corners of a room."""
+    corners = table.value('outline')
+    if corners is None:
+        raise table.place.missing('outline')
+    if (
+        not isinstance(corners, list)
+        or len(corners) < 3
+        or not all(is_vector(corner, 2) for corner in corners)
+    ):
+        raise table.at('outline').wrong('a list of at least 3 points [x, y]', corners)
+    return tuple((float(x), float(y)) for x, y in corners)
+
+
 def _finish(table: Table) -> Finish:
     """Read the finish of a floor or wall."""
     table.allow('pattern', 'first', 'second', 'tile')
     default = Finish()
     first = colour_in(table, 'first', default.first_rgb)[1]
-    return table.checked(
+    return table.place.checked(
         lambda: Finish(
             table.choice('pattern', PATTERNS, default.pattern),
             first,
@@ -98,7 +112,7 @@ def _wall(table: Table) -> Wall:
     """Read a wall."""
     table.allow('name', 'from', 'to', 'height', 'thickness', 'colour', 'doors')
     doors = tuple(map(_door, table.tables('doors')))
-    return table.checked(
+    return table.place.checked(
         lambda: Wall(
             table.text('name'),
             _point(table, 'from'),
@@ -154,7 +168,7 @@ def _object(table: Table, surfaces: Mapping[str, Surface]) -> Thing:
             )
     bottom = (*at, height_m + _GAP_M)
     graspable = ObjectInstance(table.text('name'), kind, name, rgb, bottom, yaw_rad, size)
-    return table.checked(lambda: thing_of(graspable))
+    return table.place.checked(lambda: thing_of(graspable))
 
 
 def _axes(surface: Surface) -> tuple[Point, float]:

@@ -4,10 +4,8 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
-from humanoid_simulation.errors import named
-from humanoid_simulation.files import installed_scenes, SCENE_SUFFIXES
+from humanoid_simulation.files import scene_path
 from humanoid_simulation.scene.home_reading import colour_in, home_of, KEYS
 from humanoid_simulation.scene.scene import Floor, Scene, SIZES, Thing, Vector
 from humanoid_simulation.scene.terrain import Plates, plates_of, Ramp, ramp_of
@@ -31,26 +29,6 @@ def load_scene(name: str = 'flat') -> Scene:
     """
     path = scene_path(name)
     return scene_of(load_table(path), path.stem)
-
-
-def scene_path(name: str) -> Path:
-    """
-    Find the file of a scene.
-
-    Parameters
-    ----------
-    name
-        The name of an installed scene, or the path of a file that ends with .yaml or .yml.
-
-    Raises
-    ------
-    SimulationError
-        There is no installed scene of that name; a path is returned unchecked.
-
-    """
-    if name.endswith(SCENE_SUFFIXES):
-        return Path(name)
-    return named('scene', name, installed_scenes())
 
 
 def scene_of(table: Table, name: str) -> Scene:
@@ -79,7 +57,7 @@ def scene_of(table: Table, name: str) -> Scene:
     ]
     _refuse_names_twice(table)
     home = home_of(table)
-    return table.checked(
+    return table.place.checked(
         lambda: Scene(
             name,
             floor,
@@ -112,7 +90,7 @@ def _floor(table: Table) -> Floor:
     colours = table.table('colours')
     colours.allow('first', 'second')
     first, second = default.colours_rgb
-    return table.checked(
+    return table.place.checked(
         lambda: Floor(
             table.number('friction', default.friction),
             (colours.vector('first', 3, first), colours.vector('second', 3, second)),
@@ -145,7 +123,7 @@ def thing_in(table: Table, name: str | None = None, position_m: Vector | None = 
     shape = table.choice('shape', tuple(SIZES))
     roll, pitch, yaw = table.vector('turn_deg', 3, (0.0, 0.0, 0.0))
     colour, rgb = colour_in(table, 'colour', (0.6, 0.6, 0.6))
-    return table.checked(
+    return table.place.checked(
         lambda: Thing(
             table.text('name', name),
             shape,
@@ -164,7 +142,7 @@ def thing_in(table: Table, name: str | None = None, position_m: Vector | None = 
 def _ramp(table: Table) -> Ramp:
     """Read a ramp."""
     table.allow('name', 'start', 'direction_deg', 'slope_deg', 'length', 'width', 'top')
-    return table.checked(
+    return table.place.checked(
         lambda: Ramp(
             table.text('name'),
             table.vector('start', 2),
@@ -180,7 +158,7 @@ def _ramp(table: Table) -> Ramp:
 def _plates(table: Table) -> Plates:
     """Read a field of plates."""
     table.allow('name', 'seed', 'from', 'to', 'edge', 'height', 'cover')
-    return table.checked(
+    return table.place.checked(
         lambda: Plates(
             table.text('name'),
             table.integer('seed', 0),

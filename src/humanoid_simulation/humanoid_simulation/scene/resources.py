@@ -178,7 +178,7 @@ def _described(table: Table, name: str) -> Thing:
     colour, rgb = colour_in(table, 'colour', COLOURS[default])
     size = table.vector('size', 3) if table.has('size') else None
     graspable = ObjectInstance(name, kind, colour, rgb, (0.0, 0.0, 0.0), size_m=size)
-    return replace(table.checked(lambda: thing_of(graspable)), position_m=(0.0, 0.0, 0.0))
+    return replace(table.place.checked(lambda: thing_of(graspable)), position_m=(0.0, 0.0, 0.0))
 
 
 def _rigid(urdf: str, source: str, name: str) -> Thing:

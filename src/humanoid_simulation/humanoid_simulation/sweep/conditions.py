@@ -11,8 +11,8 @@ from typing import Any
 
 from humanoid_common.parameters import build, parameter, ParameterError, values_of
 from humanoid_control.walking.parameters import WalkParameters
+from humanoid_simulation.files import scene_path
 from humanoid_simulation.model.description import SELF_COLLISIONS
-from humanoid_simulation.scene.loading import scene_path
 
 STEADY, RANDOM = 'steady', 'random'
 SHORTEST_PUSH_PERIOD_S = 0.2
@@ -149,6 +149,14 @@ class Conditions:
         """
         values = values_of(self) | {'scene': _content_digest(self.scene)}
         return _sha256(json.dumps(values, sort_keys=True).encode())
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of an experiment: its conditions, and their digest, which is its key."""
+
+    conditions: Conditions
+    key: str
 
 
 def conditions_of(values: dict[str, Any]) -> Conditions:

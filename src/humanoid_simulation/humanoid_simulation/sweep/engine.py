@@ -22,7 +22,7 @@ from humanoid_simulation.sweep import ENVIRONMENT
 from humanoid_simulation.sweep.results import RunResult
 
 if TYPE_CHECKING:  # processes of tests need not import the walk
-    from humanoid_simulation.sweep.sampling import Run
+    from humanoid_simulation.sweep.conditions import Run
 
 Work = Callable[['Run'], RunResult]
 """Does one run; other processes import it by its module and name."""

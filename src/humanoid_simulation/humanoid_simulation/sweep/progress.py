@@ -8,8 +8,7 @@ import os
 import time
 from typing import IO
 
-from humanoid_simulation.sweep.report import ending
-from humanoid_simulation.sweep.results import Summary, time_left_s
+from humanoid_simulation.sweep.results import ending_text, Summary, time_left_s
 
 _TERMINAL_PERIOD_S, _LOG_PERIOD_S = 0.2, 10.0
 
@@ -36,7 +35,7 @@ def progress_line(summary: Summary, planned: int, done: int, left: int, elapsed_
         parts.append(f'{duration_text(left_s)} left')
     for name, run in (('best', summary.best), ('worst', summary.worst)):
         if run is not None:
-            parts.append(f'{name} {run.key[:8]} {ending(run)}')
+            parts.append(f'{name} {run.key[:8]} {ending_text(run)}')
     return ' | '.join(parts)
 
 

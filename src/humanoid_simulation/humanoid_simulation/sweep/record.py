@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict
 from datetime import datetime, timezone
 import errno
 import fcntl
@@ -15,24 +15,12 @@ from types import TracebackType
 from typing import Any
 
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.sweep.conditions import values_to_store
-from humanoid_simulation.sweep.results import FinishedRun, RunResult
-from humanoid_simulation.sweep.sampling import Run
+from humanoid_simulation.sweep.conditions import Run, values_to_store
+from humanoid_simulation.sweep.results import Crash, FinishedRun, RunResult
 
 NAME = 'runs.jsonl'
 _LONGEST_LINE = 1_000_000
 """In bytes; a line has about a thousandth of that."""
-
-
-@dataclass(frozen=True)
-class Crash:
-    """A run whose process crashed: version of the code, key, attempt and reason."""
-
-    version: str
-    key: str
-    conditions: Mapping[str, Any]
-    attempt: int
-    reason: str
 
 
 class Record:

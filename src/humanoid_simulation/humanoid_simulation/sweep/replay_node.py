@@ -21,8 +21,8 @@ from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.sweep.conditions import conditions_of
 from humanoid_simulation.sweep.motion import Motion
 from humanoid_simulation.sweep.record import find_run
-from humanoid_simulation.sweep.report import ending as ending_text
-from humanoid_simulation.sweep.results import FELL, FinishedRun
+from humanoid_simulation.sweep.results import ending_text, FELL, FinishedRun
+from humanoid_simulation.sweep.walk import Walk
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -88,12 +88,13 @@ class Replay(Node):
     def _begin(self) -> None:
         """Put the robot at the start of the run."""
         try:
-            self._motion = Motion(conditions_of(dict(self._run.conditions)))
+            self._walk = Walk(conditions_of(dict(self._run.conditions)))
         except (SimulationError, WalkingError, DescriptionError) as error:
             raise NodeStartError(
                 f'Run {self._run.key} cannot be simulated, so there is nothing to show. {error}'
             ) from error
-        self._ticks: Iterator[None] | None = self._motion.walk.ticks()
+        self._motion = Motion(self._walk.robot.backend)
+        self._ticks: Iterator[None] | None = self._walk.ticks()
         self._last_s, self._ahead_s, self._markers_s = time.monotonic(), 0.0, -math.inf
         self._outcome, self._end_s, self._ended_s = '', 0.0, math.inf
 
@@ -110,12 +111,13 @@ class Replay(Node):
         self._tf.publish(self._motion.transform(stamp))
         if now_s - self._markers_s >= _MARKERS_PERIOD_S:
             self._markers_s = now_s
-            self._markers.publish(self._motion.markers(self._title()))
+            walk = self._walk
+            self._markers.publish(self._motion.markers(self._title(), walk.push_ns, walk.push_s))
 
     def _advance(self, passed_s: float) -> None:
         """Do the control periods that are due."""
         self._ahead_s += passed_s
-        period_s = self._motion.walk.robot.backend.period_s
+        period_s = self._walk.robot.backend.period_s
         for _ in range(_MOST_TICKS):
             if self._ahead_s < period_s:
                 return
@@ -128,29 +130,27 @@ class Replay(Node):
 
     def _tick(self) -> None:
         """Do one control period of the run; after a fall, let the robot come to rest."""
-        walk = self._motion.walk
         if self._ticks is not None:
             try:
                 next(self._ticks)
             except StopIteration:
-                self._end(walk.result().outcome)
+                self._end(self._walk.result().outcome)
         elif self._outcome == FELL:
-            walk.robot.tick()
+            self._walk.robot.tick()
 
     def _end(self, outcome: str) -> None:
         """Note that the run is over; it starts again after a pause."""
         self._ticks, self._outcome, self._ended_s = None, outcome, time.monotonic()
-        self._end_s = self._motion.walk.robot.backend.time_s
+        self._end_s = self._walk.robot.backend.time_s
         self.get_logger().info(f'The run has ended: {self._title()}')
 
     def _title(self) -> str:
         """Return the text above the robot."""
-        walk = self._motion.walk
-        command = walk.segment.command
+        command = self._walk.segment.command
         if self._ticks is None:
             time_s, state = self._end_s, self._outcome
         else:
-            time_s = walk.robot.backend.time_s
+            time_s = self._walk.robot.backend.time_s
             state = (
                 f'commanded {command.forward_m_s:.2f} {command.left_m_s:.2f} '
                 f'{command.turn_rad_s:.2f}'

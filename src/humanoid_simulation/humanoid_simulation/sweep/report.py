@@ -10,9 +10,10 @@ import math
 from typing import Any
 
 from humanoid_simulation.sweep.plots import falls_by, survival_over
-from humanoid_simulation.sweep.record import Crash
 from humanoid_simulation.sweep.results import (
     bins_of,
+    Crash,
+    ending_text,
     FAILED,
     FELL,
     FinishedRun,
@@ -153,25 +154,6 @@ class Report:
         return f'<div class="wide"><table><tr>{head}</tr>{rows}</table></div>{more}'
 
 
-def ending(run: FinishedRun) -> str:
-    """
-    Describe how a run ended, in a few words.
-
-    Parameters
-    ----------
-    run
-        The run.
-
-    """
-    result = run.result
-    if result.outcome == STOOD:
-        return f'stood, largest tilt {math.degrees(result.largest_tilt_rad):.0f}°'
-    if result.outcome == FAILED:
-        return f'could not be simulated: {result.problem}'
-    phase = f' ({result.phase})' if result.phase else ''
-    return f'fell at {result.survived_s:.1f} s{phase}'
-
-
 def _cells(run: FinishedRun, varied: Iterable[str]) -> str:
     """Return the cells of a row."""
     result = run.result
@@ -191,7 +173,9 @@ def _cells(run: FinishedRun, varied: Iterable[str]) -> str:
     ]
     kind = 'bad' if result.outcome in (FELL, FAILED) else 'good'
     cells = ''.join(f'<td>{escape(number_text(text))}</td>' for text in texts)
-    return f'<td><code>{run.key}</code></td><td class="{kind}">{escape(ending(run))}</td>{cells}'
+    return (
+        f'<td><code>{run.key}</code></td><td class="{kind}">{escape(ending_text(run))}</td>{cells}'
+    )
 
 
 def _is_number(value: Any) -> bool:

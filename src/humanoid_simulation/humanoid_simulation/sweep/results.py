@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is measured in a run, and how runs are counted, ranked and compared."""
+"""What is measured in a run, how it ended, and how runs are counted, ranked and compared."""
 
 from __future__ import annotations
 
@@ -65,6 +65,36 @@ class FinishedRun:
         """Return what runs are sorted by: the worst one is the least."""
         result = self.result
         return result.outcome == STOOD, result.survived_s, -result.largest_tilt_rad
+
+
+def ending_text(run: FinishedRun) -> str:
+    """
+    Describe how a run ended, in a few words.
+
+    Parameters
+    ----------
+    run
+        The run.
+
+    """
+    result = run.result
+    if result.outcome == STOOD:
+        return f'stood, largest tilt {math.degrees(result.largest_tilt_rad):.0f}°'
+    if result.outcome == FAILED:
+        return f'could not be simulated: {result.problem}'
+    phase = f' ({result.phase})' if result.phase else ''
+    return f'fell at {result.survived_s:.1f} s{phase}'
+
+
+@dataclass(frozen=True)
+class Crash:
+    """A run whose process crashed: version of the code, key, attempt and reason."""
+
+    version: str
+    key: str
+    conditions: Mapping[str, Any]
+    attempt: int
+    reason: str
 
 
 @dataclass(frozen=True)

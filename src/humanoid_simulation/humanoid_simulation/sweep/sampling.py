@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from humanoid_simulation.sweep.conditions import Conditions, conditions_of
+from humanoid_simulation.sweep.conditions import conditions_of, Run
 import numpy as np
 
 GRID, RANDOM, LATIN_HYPERCUBE = 'grid', 'random', 'latin_hypercube'
@@ -103,14 +103,6 @@ class Range:
 
 
 Factor = Choices | Range
-
-
-@dataclass(frozen=True)
-class Run:
-    """A run of an experiment: its conditions, and their digest, which is its key."""
-
-    conditions: Conditions
-    key: str
 
 
 @dataclass(frozen=True)

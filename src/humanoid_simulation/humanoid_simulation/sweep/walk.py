@@ -12,14 +12,14 @@ import time
 from humanoid_control.controllers import TrajectoryPoint, TrajectoryRequest
 from humanoid_control.walking import VelocityCommand, WalkingError
 from humanoid_description.errors import DescriptionError
-from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
+from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.model import Physics
-from humanoid_simulation.scene import load_scene, Scene
-from humanoid_simulation.sweep.conditions import Conditions, RANDOM
+from humanoid_simulation.scene.loading import load_scene
+from humanoid_simulation.scene.scene import Scene
+from humanoid_simulation.sweep.conditions import Conditions, RANDOM, Run
 from humanoid_simulation.sweep.results import FAILED, FELL, RunResult, STOOD
-from humanoid_simulation.sweep.sampling import Run
 from humanoid_simulation.testing.lockstep_robot import DropOuts, LockstepRobot
 import numpy as np
 

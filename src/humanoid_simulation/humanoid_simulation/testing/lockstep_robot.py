@@ -4,18 +4,20 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import math
 
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking import PlanarPose, VelocityCommand, WalkParameters
 from humanoid_description.loading import load_robot
 from humanoid_description.rotations import from_quaternion, yaw_of
-from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
+from humanoid_simulation.backend.mujoco_backend import MujocoBackend
+from humanoid_simulation.backend.settings import BackendSettings
+from humanoid_simulation.backend.state import EntityState
 from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
 from humanoid_simulation.keyframes import Keyframe, load_keyframes
 from humanoid_simulation.model import humanoid
-from humanoid_simulation.scene import Scene
+from humanoid_simulation.scene.scene import Scene
 import numpy as np
 
 DEFAULT_WALK = WalkParameters()
@@ -51,6 +53,8 @@ class LockstepRobot:
         Whether the robot has wrists and grippers.
     walk
         Parameters of the walk; others than the defaults also change the initial posture.
+    keyframes
+        Further postures for `reset`, by name.
 
     Attributes
     ----------
@@ -71,16 +75,17 @@ class LockstepRobot:
         misses: Callable[[], bool] = never,
         hands: bool = False,
         walk: WalkParameters = DEFAULT_WALK,
+        keyframes: Mapping[str, Keyframe] = {},
     ) -> None:
         description = humanoid(hands=hands)
         robot = load_robot(description.urdf, 'the humanoid')
         self.walking = WalkingRobotControl.of(
             robot, description.drives, walk, imu=settings.noise.imu(settings.period_s)
         )
-        keyframes = load_keyframes()
+        known = {**load_keyframes(), **keyframes}
         if walk != DEFAULT_WALK:
-            keyframes['home'] = Keyframe(self.walking.home_rad)
-        self.backend = MujocoBackend(description, scene, settings=settings, keyframes=keyframes)
+            known['home'] = Keyframe(self.walking.home_rad)
+        self.backend = MujocoBackend(description, scene, settings=settings, keyframes=known)
         self._velocity = VelocityCommand()
         self._misses = misses
         self._fall_watch = FallWatch()

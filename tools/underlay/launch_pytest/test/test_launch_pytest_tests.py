@@ -141,7 +141,8 @@ def late():
 def test_it(late, launch_context):
     assert late[1].process_details is not None
     assert tools.wait_for_start_sync(launch_context, late[1], timeout=100)
-    assert not tools.wait_for_exit_sync(launch_context, late[1], timeout=0.01)
+    named = {'launch_context': launch_context, 'execute_process_action': late[1]}
+    assert not tools.wait_for_exit_sync(**named, timeout=0.01)
 """)
     assert report.outcomes == [('test_it', 'PASSED')], report.text
 

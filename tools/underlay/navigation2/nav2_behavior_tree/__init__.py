@@ -2,7 +2,8 @@
 """Behavior trees of BehaviorTree.CPP v4 with the nodes of Nav2, executed on py_trees."""
 
 from nav2_behavior_tree.blackboard import Blackboard
-from nav2_behavior_tree.node import Control, Decorator, NodeConfig, TreeContext, TreeNode
+from nav2_behavior_tree.control_node import Control, Decorator
+from nav2_behavior_tree.node import NodeConfig, TreeContext, TreeNode
 from nav2_behavior_tree.ports import in_port, out_port, Port
 from nav2_behavior_tree.registry import register, registered_types
 from nav2_behavior_tree.status import Failure, NodeStatus, StatusChange, TreeError

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from xml.sax.saxutils import escape, quoteattr
 
-from nav2_behavior_tree.node import Control, Decorator, TreeNode
+from nav2_behavior_tree.control_node import Control, Decorator
+from nav2_behavior_tree.node import TreeNode
 from nav2_behavior_tree.ports import Port
 from nav2_behavior_tree.registry import registered_types
 

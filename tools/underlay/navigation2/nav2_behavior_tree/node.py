@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Base classes of all tree nodes: py_trees behaviours with the semantics of BehaviorTree.CPP.
+Base class of all tree nodes: a py_trees behaviour with the semantics of BehaviorTree.CPP.
 
-They differ from those of py_trees in that a parent ticks and resets its children itself, that a
-node keeps its state until then, and that it can be skipped. The py_trees tools that inspect trees
+It differs from that of py_trees in that a parent ticks and resets its children itself, that a node
+keeps its state until then, and that it can be skipped. The py_trees tools that inspect trees
 (display, visitors, `BehaviourTree`) work with them.
 """
 
@@ -27,7 +27,7 @@ from nav2_util.errors import NavigationError
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-__all__ = ['Control', 'Decorator', 'NodeConfig', 'TreeContext', 'TreeNode']
+__all__ = ['NodeConfig', 'TreeContext', 'TreeNode']
 
 IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED = tuple(NodeStatus)
 _MISSING = object()
@@ -307,58 +307,3 @@ def _plain(default: Any) -> Any:
 _INSTEAD = {'_failureIf': FAILURE, '_successIf': SUCCESS, '_skipIf': SKIPPED}
 PRECONDITIONS = ('_failureIf', '_successIf', '_skipIf', '_while')
 POSTCONDITIONS = ('_onHalted', '_onFailure', '_onSuccess', '_post')
-
-
-class Control(TreeNode):
-    """Base class of nodes with children."""
-
-    least_children = 1
-    most_children = 10_000
-    children: list[TreeNode]
-
-    def halt_child(self, child: TreeNode) -> None:
-        """
-        Halt a child if it is running, and reset it to IDLE.
-
-        Parameters
-        ----------
-        child
-            One of the children.
-
-        """
-        if child.state is RUNNING:
-            child.halt_node()
-        child.set_state(IDLE)
-
-    def halt_children(self) -> None:
-        """Halt all children, and reset them to IDLE."""
-        for child in self.children:
-            self.halt_child(child)
-
-    def on_halt(self) -> None:
-        """Halt all children."""
-        self.halt_children()
-
-    def finish(self, status: NodeStatus) -> NodeStatus:
-        """
-        Halt all children, reset them to IDLE, and return a status.
-
-        Parameters
-        ----------
-        status
-            The final status of the node, which is returned unchanged.
-
-        """
-        self.halt_children()
-        return status
-
-
-class Decorator(Control):
-    """Base class of nodes with one child."""
-
-    most_children = 1
-
-    @property
-    def child(self) -> TreeNode:
-        """Return the child."""
-        return self.children[0]

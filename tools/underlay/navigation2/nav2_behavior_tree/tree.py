@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from nav2_behavior_tree.blackboard import Blackboard
+from nav2_behavior_tree.control_node import Decorator
 from nav2_behavior_tree.node import (
-    Decorator,
     NodeConfig,
     POSTCONDITIONS,
     PRECONDITIONS,

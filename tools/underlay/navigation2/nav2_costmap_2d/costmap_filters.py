@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Costmap filters: keepout zones, speed limits and other areas of a filter mask."""
+"""Costmap filters, which look up the robot in a mask: the base class, speed limits and areas."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ from dataclasses import dataclass
 import math
 from typing import Any, TYPE_CHECKING
 
-from nav2_costmap_2d.costs import LETHAL_OBSTACLE, NO_INFORMATION
-from nav2_costmap_2d.footprint import transformed
-from nav2_costmap_2d.grid import CellArray, Costmap2D
+from nav2_costmap_2d.grid import Costmap2D
 from nav2_costmap_2d.layers import Layer
-from nav2_costmap_2d.regions import Region, write_maximum
+from nav2_costmap_2d.regions import Region
 from nav2_msgs.msg import CostmapFilterInfo, SpeedLimit
 from nav2_util.errors import ConfigurationError
 from nav2_util.geometry import planar_pose, Pose2D
@@ -27,11 +25,18 @@ from std_srvs.srv import SetBool
 if TYPE_CHECKING:
     from nav2_costmap_2d.costmap_node import Costmap2DROS
 
-__all__ = ['BinaryFilter', 'CostmapFilter', 'KeepoutFilter', 'SpeedFilter']
+__all__ = [
+    'UNKNOWN',
+    'BinaryFilter',
+    'CostmapFilter',
+    'FilterParameters',
+    'SpeedFilter',
+]
 
 _QUIET_S = 5.0
-_KEEPOUT, _SPEED_PERCENTAGE, _SPEED_ABSOLUTE, _BINARY = 0, 1, 2, 3
-_UNKNOWN = 255
+_SPEED_PERCENTAGE, _SPEED_ABSOLUTE, _BINARY = 1, 2, 3
+UNKNOWN = 255
+"""The value of a mask where it says nothing."""
 
 
 @dataclass(frozen=True)
@@ -42,18 +47,6 @@ class FilterParameters:
     filter_info_topic: str = parameter('', 'The topic that names the mask and what it means.')
     transform_tolerance: float = parameter(
         0.1, 'How old the pose of the frame of the mask may be, in s; the newest counts.', low=0.0
-    )
-
-
-@dataclass(frozen=True)
-class KeepoutParameters(FilterParameters):
-    """The parameters of `nav2_costmap_2d::KeepoutFilter`."""
-
-    override_lethal_cost: bool = parameter(
-        False, 'Whether the robot may leave a keepout area in which it is.'
-    )
-    lethal_override_cost: int = parameter(
-        252, 'The cost of keepout areas while the robot is in one and may leave.', low=0, high=252
     )
 
 
@@ -185,97 +178,13 @@ class CostmapFilter(Layer):
         at = pose @ robot
         cell = self._mask.world_to_map(at.x, at.y)
         value = 0 if cell is None else int(self._mask.cells[cell[1], cell[0]])
-        return None if value == _UNKNOWN else value
+        return None if value == UNKNOWN else value
 
     def _meaning(self, value: int) -> float:
         """Convert a mask value by the base and multiplier of the filter info."""
         if self._info is None:
             return 0.0
         return float(self._info.base + self._info.multiplier * value)
-
-
-class KeepoutFilter(CostmapFilter):
-    """
-    Keepout filter: marks areas as obstacles, or changes their cost.
-
-    Parameters
-    ----------
-    node, name
-        As for `CostmapFilter`.
-
-    Raises
-    ------
-    ConfigurationError
-        `filter_info_topic` is not set.
-
-    """
-
-    parameters_kind = KeepoutParameters
-    types = (_KEEPOUT,)
-
-    def __init__(self, node: Costmap2DROS, name: str) -> None:
-        super().__init__(node, name)
-        occupancies = np.arange(256)
-        self._table = np.rint(np.minimum(occupancies, 100) * LETHAL_OBSTACLE / 100.0).astype(
-            np.uint8
-        )
-        self._table[_UNKNOWN] = NO_INFORMATION
-        self._pose: Pose2D | None = None
-        self._robot: Pose2D | None = None
-
-    def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """
-        Check whether the mask has moved, or the exemption of a trapped robot has changed.
-
-        Parameters
-        ----------
-        grid, robot
-            As for `Layer.update`.
-
-        Returns
-        -------
-        Region or None
-            All cells if so; None otherwise.
-
-        """
-        if self._mask is None:
-            return None
-        before, self._pose = (self._pose, self._robot is None), self._pose_in_mask()
-        self._robot = self._trapped(grid, robot)
-        after = (self._pose, self._robot is None)
-        return Region.whole(grid) if after != before else None
-
-    def apply(self, grid: Costmap2D, region: Region) -> None:
-        """
-        Raise the costs to those of the mask, in place.
-
-        Parameters
-        ----------
-        grid, region
-            As for `Layer.apply`.
-
-        """
-        if self._mask is None or self._pose is None:
-            return
-        columns, rows = np.meshgrid(
-            np.arange(region.x, region.x_end), np.arange(region.y, region.y_end)
-        )
-        points = grid.map_to_world_array(np.stack([columns, rows], axis=-1))
-        values = self._mask.costs_at(transformed(points, *self._pose), outside=_UNKNOWN)
-        costs: CellArray = self._table[values]
-        if self._robot is not None:
-            costs[costs == LETHAL_OBSTACLE] = self._settings.current.lethal_override_cost
-        write_maximum(grid.cells[region.slices], costs)
-
-    def _trapped(self, grid: Costmap2D, robot: Pose2D | None) -> Pose2D | None:
-        """Return the pose of a robot that is trapped in a keepout zone and may leave it."""
-        if not self._settings.current.override_lethal_cost or robot is None:
-            return None
-        if self._mask is None or self._pose is None:
-            return None
-        at = self._pose @ robot
-        value = int(self._mask.costs_at(np.array([at.x, at.y]), outside=_UNKNOWN))
-        return robot if self._table[value] == LETHAL_OBSTACLE else None
 
 
 class SpeedFilter(CostmapFilter):

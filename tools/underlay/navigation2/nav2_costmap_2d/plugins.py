@@ -19,7 +19,7 @@ PLUGINS: dict[str, str] = {
     'nav2_costmap_2d::RangeSensorLayer': 'nav2_costmap_2d.range_sensor_layer:RangeSensorLayer',
     'nav2_costmap_2d::DenoiseLayer': 'nav2_costmap_2d.denoise_layer:DenoiseLayer',
     'nav2_costmap_2d::InflationLayer': 'nav2_costmap_2d.inflation_layer:InflationLayer',
-    'nav2_costmap_2d::KeepoutFilter': 'nav2_costmap_2d.costmap_filters:KeepoutFilter',
+    'nav2_costmap_2d::KeepoutFilter': 'nav2_costmap_2d.keepout_filter:KeepoutFilter',
     'nav2_costmap_2d::SpeedFilter': 'nav2_costmap_2d.costmap_filters:SpeedFilter',
     'nav2_costmap_2d::BinaryFilter': 'nav2_costmap_2d.costmap_filters:BinaryFilter',
 }

@@ -16,7 +16,7 @@ from nav2_controller.control import (
 )
 from nav2_controller.plugins import PluginContext
 from nav2_controller.tracking import path_lengths
-from nav2_mppi_controller import critics, obstacle_critics
+from nav2_mppi_controller import critics, obstacle_critics, path_critics
 from nav2_mppi_controller.critics import Critic
 from nav2_mppi_controller.motion import (
     limit_controls,
@@ -44,10 +44,10 @@ _CRITICS: dict[str, type[Critic]] = {
     'GoalAngleCritic': critics.GoalAngleCritic,
     'GoalCritic': critics.GoalCritic,
     'ObstaclesCritic': obstacle_critics.ObstaclesCritic,
-    'PathAlignCritic': critics.PathAlignCritic,
-    'PathAlignLegacyCritic': critics.PathAlignCritic,
-    'PathAngleCritic': critics.PathAngleCritic,
-    'PathFollowCritic': critics.PathFollowCritic,
+    'PathAlignCritic': path_critics.PathAlignCritic,
+    'PathAlignLegacyCritic': path_critics.PathAlignCritic,
+    'PathAngleCritic': path_critics.PathAngleCritic,
+    'PathFollowCritic': path_critics.PathFollowCritic,
     'PreferForwardCritic': critics.PreferForwardCritic,
     'TwirlingCritic': critics.TwirlingCritic,
     'VelocityDeadbandCritic': critics.VelocityDeadbandCritic,

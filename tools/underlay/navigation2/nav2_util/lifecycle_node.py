@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of the servers: a lifecycle node that reports configuration errors."""
+"""The base class of the servers: a lifecycle node with parameters, transforms and actions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-import traceback
 from typing import Any, ClassVar
 
 from nav2_util.actions import ActionServer
-from nav2_util.errors import NavigationError
 from nav2_util.parameters import ParameterServer
 from nav2_util.services import wait_for
 from nav2_util.timing import give_way, is_of_coroutine
 from nav2_util.transforms import Transforms
-from rclpy._rclpy_pybind11 import RCLError
+from nav2_util.transitions import TransitioningNode
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
-from rclpy.lifecycle import Node as RclpyLifecycleNode
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -29,16 +26,14 @@ _UNSUPPORTED = {
 }
 _END_S = 1.0
 _LOOK_S = 0.02
-_KINDS = ('publisher', 'subscription', 'client', 'service', 'timer')
 
 
-class LifecycleNode(RclpyLifecycleNode):
+class LifecycleNode(TransitioningNode):
     """
     Lifecycle node that can be configured, activated, deactivated and cleaned up.
 
-    Subclasses override `configure`, `activate`, `deactivate` and `cleanup`. Publishers,
-    subscriptions, clients, services and timers that they create in `configure` or `activate` are
-    destroyed by the base class on cleanup.
+    Subclasses override `configure`, `activate`, `deactivate` and `cleanup`, as those of
+    `TransitioningNode`.
 
     Parameters
     ----------
@@ -55,8 +50,6 @@ class LifecycleNode(RclpyLifecycleNode):
 
     def __init__(self, node_name: str, **options: Any) -> None:
         super().__init__(node_name, **options)
-        self._answer_change = self._service_change_state.callback
-        self._service_change_state.callback = self._change_if_possible
         self.node_options = options
         """The arguments of this node, for nodes that it creates."""
         self.parameters = ParameterServer(self)
@@ -68,26 +61,7 @@ class LifecycleNode(RclpyLifecycleNode):
         self.owner: LifecycleNode | None = None
         """The node that owns this one, and shares its transforms."""
         self.action_servers: list[ActionServer] = []
-        self.is_active = False
         self._transforms: Transforms | None = None
-        self._kept: dict[str, set[int]] = {}
-
-    def configure(self) -> None:
-        """Read parameters and create resources; raise NavigationError if that is impossible."""
-
-    def activate(self) -> None:
-        """Start operation."""
-
-    def deactivate(self) -> None:
-        """Stop operation."""
-
-    def cleanup(self) -> None:
-        """Release the resources of `configure`, besides those that the base class destroys."""
-
-    @property
-    def state(self) -> str:
-        """Return the state: unconfigured, inactive, active, or a transition state."""
-        return str(self._state_machine.current_state[1])
 
     @property
     def transforms(self) -> Transforms:
@@ -158,7 +132,7 @@ class LifecycleNode(RclpyLifecycleNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """
-        Configure the node; destroy what was created if that fails.
+        Configure the node, and report parameters without effect.
 
         Parameters
         ----------
@@ -168,19 +142,16 @@ class LifecycleNode(RclpyLifecycleNode):
         Returns
         -------
         TransitionCallbackReturn
-            FAILURE after a NavigationError, ERROR after any other exception, else SUCCESS.
+            As of `TransitioningNode`.
 
         """
-        self._kept = {kind: set(map(id, getattr(self, f'{kind}s'))) for kind in _KINDS}
-        outcome = self._try('configured', self.configure)
+        outcome = super().on_configure(state)
         self.parameters.report()
-        if outcome is not TransitionCallbackReturn.SUCCESS:
-            self._try('cleaned up', self._clean_up)
         return outcome
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """
-        Activate publishers, actions and the node.
+        Activate publishers, the node and its actions.
 
         Parameters
         ----------
@@ -193,14 +164,10 @@ class LifecycleNode(RclpyLifecycleNode):
             As of `on_configure`.
 
         """
-        super().on_activate(state)
-        outcome = self._try('activated', self.activate)
+        outcome = super().on_activate(state)
         if outcome is TransitionCallbackReturn.SUCCESS:
-            self.is_active = True
             for server in self.action_servers:
                 server.activate()
-        else:
-            super().on_deactivate(state)
         return outcome
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -221,62 +188,7 @@ class LifecycleNode(RclpyLifecycleNode):
         self.is_active = False
         for server in self.action_servers:
             server.deactivate()
-        outcome = self._try('deactivated', self.deactivate)
-        super().on_deactivate(state)
-        return outcome
-
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """
-        Destroy the resources of `configure` and `activate`.
-
-        Parameters
-        ----------
-        state
-            The state before the transition.
-
-        Returns
-        -------
-        TransitionCallbackReturn
-            As of `on_configure`.
-
-        """
-        return self._try('cleaned up', self._clean_up)
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """
-        Deactivate the node if it is active, and clean it up.
-
-        Parameters
-        ----------
-        state
-            The state before the transition.
-
-        Returns
-        -------
-        TransitionCallbackReturn
-            As of `on_configure`.
-
-        """
-        if self.is_active:
-            self.on_deactivate(state)
-        return self._try('shut down', self._clean_up)
-
-    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """
-        Clean up the node, which becomes unconfigured if that succeeds.
-
-        Parameters
-        ----------
-        state
-            The state before the transition.
-
-        Returns
-        -------
-        TransitionCallbackReturn
-            As of `on_configure`.
-
-        """
-        return self._try('cleaned up', self._clean_up)
+        return super().on_deactivate(state)
 
     async def wind_up(self) -> None:
         """
@@ -315,35 +227,3 @@ class LifecycleNode(RclpyLifecycleNode):
                 each.destroy_node()
         super().destroy_node()
         self._state_machine.destroy_when_not_in_use()  # otherwise its services stay in the graph
-
-    def _change_if_possible(self, request: Any, response: Any) -> Any:
-        """Reject a transition that is invalid in this state; rclpy would end the process."""
-        try:
-            return self._answer_change(request, response)
-        except RCLError:
-            wanted = request.transition.label or request.transition.id
-            self.get_logger().error(
-                f"There is no transition '{wanted}' from the state of this node, {self.state}."
-            )
-            response.success = False
-            return response
-
-    def _clean_up(self) -> None:
-        self.cleanup()
-        for kind, kept in self._kept.items():
-            destroy = getattr(self, f'destroy_{kind}')
-            for each in list(getattr(self, f'{kind}s')):
-                if id(each) not in kept and not is_of_coroutine(each):
-                    destroy(each)
-        self._kept = {}
-
-    def _try(self, what: str, step: Callable[[], None]) -> TransitionCallbackReturn:
-        try:
-            step()
-        except NavigationError as error:
-            self.get_logger().error(f'This node could not be {what}. {error}')
-            return TransitionCallbackReturn.FAILURE
-        except Exception:
-            self.get_logger().error(f'This node could not be {what}:\n{traceback.format_exc()}')
-            return TransitionCallbackReturn.ERROR
-        return TransitionCallbackReturn.SUCCESS

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import pytest
 from robot_console.control import stopped_by
-from robot_console.panels.robot import slowness, words
 from robot_console.simulator_link import choose_simulator, failure_of, simulators_among
+from robot_console.state_words import slowness, words
 from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import ResetSimulation
 from std_srvs.srv import Trigger

@@ -250,7 +250,8 @@ class Participant:
         if len(payload) > FRAGMENT_BYTES:
             parts = list(fragments(_reader(writer), writer, number, payload))
         else:
-            parts = [data(_reader(writer), writer, number, payload, qos if gone else b'')]
+            ends = _reader(writer), writer, number
+            parts = [data(*ends, payload, qos, is_key=True) if gone else data(*ends, payload)]
         self._samples[writer][number] = parts
         if self._is_known:
             self._send_sample(writer, number)

@@ -11,7 +11,7 @@ from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph import census as module
 from ros2cli.graph.census import AGAIN_S, Census, find_holders, Holder, SILENCE_S
-from ros2cli.graph.link import Link, MAX_WAITING
+from ros2cli.graph.link import MAX_WAITING, NeighbourLink
 from ros2cli.graph.reach import LOCALHOST, Reach, read_interfaces, SUBNET
 from ros2cli.graph.watch import GraphWatch
 from ros2cli.rtps.identifiers import unicast_ports
@@ -132,7 +132,7 @@ def test_ports_of_another_program(domain: int, capfd: pytest.CaptureFixture[str]
 
 def test_flood_is_no_endless_loop(monkeypatch: pytest.MonkeyPatch) -> None:
     """However much arrives, an exchange ends, and what waits is bounded."""
-    link = Link(Reach(0, LOCALHOST))
+    link = NeighbourLink(Reach(0, LOCALHOST))
     link.close()
     flood = Flood()
     monkeypatch.setattr(link, '_socket', flood)
@@ -156,4 +156,4 @@ def test_peer_without_address(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(socket, 'gethostbyname', fail)
     with pytest.raises(RuntimeError, match="ROS_STATIC_PEERS names 'robot'.*unset"):
-        Link(Reach(0, SUBNET, ('robot',)))
+        NeighbourLink(Reach(0, SUBNET, ('robot',)))

@@ -17,8 +17,9 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from ros2cli.graph.census import participant_ports, ports_in_table
 from ros2cli.graph.graph import Graph
-from ros2cli.graph.reach import read_reach
-from ros2cli.graph.watch import GraphWatch, INCOMPLETE
+from ros2cli.graph.link import INCOMPLETE
+from ros2cli.graph.reach import Reach, read_reach
+from ros2cli.graph.watch import GraphWatch
 from ros2cli.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
 
 DISCOVERY_S = 20.0
@@ -235,11 +236,12 @@ def test_topics_and_services_have_prefixes() -> None:
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': ''}, (0, 'SUBNET', ())),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'subnet'}, (0, 'LOCALHOST', ())),
         ({'ROS_STATIC_PEERS': '10.0.0.2; robot;'}, (0, 'SUBNET', ('10.0.0.2', 'robot'))),
+        ({'ROS_DISCOVERY_SERVER': ';robot:7'}, (0, 'SUBNET', (), ((1, 'robot', 7, 'UDPv4'),))),
     ],
 )
 def test_reach(environment: dict[str, str], expected: tuple[Any, ...]) -> None:
     """The variables of ROS say which domain and how far."""
-    assert read_reach(environment) == expected
+    assert read_reach(environment) == Reach(*expected)
 
 
 @pytest.mark.parametrize(
@@ -247,7 +249,7 @@ def test_reach(environment: dict[str, str], expected: tuple[Any, ...]) -> None:
     [
         ({'ROS_DOMAIN_ID': '-1'}, "ROS_DOMAIN_ID is '-1'.*0 to 232.*unset ROS_DOMAIN_ID"),
         ({'ROS_DOMAIN_ID': '233'}, "ROS_DOMAIN_ID is '233'"),
-        ({'ROS_DISCOVERY_SERVER': '10.0.0.1:11811'}, 'ROS_DISCOVERY_SERVER.*unset'),
+        ({'ROS_DISCOVERY_SERVER': '10.0.0.1:x'}, 'ROS_DISCOVERY_SERVER.*write HOST:PORT'),
     ],
 )
 def test_impossible_reach(environment: dict[str, str], reason: str) -> None:

@@ -14,7 +14,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from ros2cli.graph.probe import Answer
 from ros2cli.graph.reach import Interface
+from ros2cli.graph.servers import Server
 from ros2doctor.api.extension import Finding, Severity
 from ros2doctor.check.clock import clock_findings
 from ros2doctor.check.environment import Environment, environment_findings
@@ -32,6 +34,7 @@ from ros2doctor.check.nodes import (
 )
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, Script, script_findings
+from ros2doctor.check.servers import Discovery, server_findings
 from ros2doctor.check.transports import CLEAN_UP, read_shared_memory, SharedMemory
 from ros2doctor.check.wheels import install_command, wheel_findings, Wheels
 from ros2doctor.check.workspace import PackageState, Workspace, workspace_findings
@@ -312,6 +315,42 @@ def test_interfaces(network: Network) -> None:
     assert sentences(network_findings(nameless)) == [
         'ERROR: the loopback interface has no address'
     ]
+
+
+def test_discovery_servers() -> None:
+    """One that is missing is worse if there is no other; another ID is as bad as none."""
+    first, second = Server(0, 'robot', 11811), Server(1, 'lab', 7, 'TCPv4')
+    answers = (Answer(first, error='no answer'), Answer(second, error='no program'))
+    assert sentences(server_findings(Discovery({}, answers))) == [
+        'ERROR: no discovery server answers at robot:11811: no answer',
+        'ERROR: no discovery server answers at lab:7: no program',
+    ]
+    [finding] = server_findings(Discovery({}, (Answer(first, number=0), answers[1])))
+    assert finding.severity is Severity.WARNING
+    assert (
+        'fastdds discovery -i 1 -t 0.0.0.0 -q 7; a firewall there has to let TCP' in finding.mend
+    )
+    [finding] = server_findings(Discovery({}, (Answer(first, number=2),)))
+    assert finding.what.startswith('the discovery server at robot:11811 has the ID 2, but')
+    assert finding.mend == "export ROS_DISCOVERY_SERVER=';;robot:11811', or start it with -i 0"
+    assert not sentences(server_findings(Discovery({}, (Answer(first, 0), Answer(second)))))
+
+
+def test_variables_of_discovery_servers(network: Network) -> None:
+    """Mistakes are named; with a server multicast no longer matters."""
+    wrong = {'ROS_SUPER_CLIENT': 'yes'}
+    assert sentences(server_findings(Discovery(wrong, mistake="the entry 'x' is wrong"))) == [
+        "ERROR: the entry 'x' is wrong",
+        "WARNING: ROS_SUPER_CLIENT is 'yes', which is neither TRUE nor FALSE",
+    ]
+    assert not sentences(server_findings(Discovery({'ROS_SUPER_CLIENT': 'True'})))
+    both = {'ROS_DISCOVERY_SERVER': 'robot', 'ROS_STATIC_PEERS': 'laptop'}
+    assert sentences(server_findings(Discovery(both))) == [
+        'WARNING: ROS_STATIC_PEERS has no effect, because ROS_DISCOVERY_SERVER is set'
+    ]
+    variables = {'ROS_DISCOVERY_SERVER': 'robot'}
+    deaf = replace(network, multicast={'lo': None, 'eth0': TimeoutError()}, variables=variables)
+    assert sentences(network_findings(deaf)) == []
 
 
 def test_multicast_without_route(network: Network) -> None:

@@ -258,7 +258,7 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
     )
     assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
     assert 'the running nodes were not examined' in result.stdout
-    assert '2/13 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
+    assert '2/14 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import sys
 from typing import TYPE_CHECKING
 
+from ros2cli.graph.servers import as_super_client
 from rviz_common.config import ConfigError, Configuration
 from tf2_ros.program import run, spin
 
@@ -35,7 +36,8 @@ def main(args: Sequence[str] | None = None) -> None:
         Always: status 1 if the .rviz file cannot be read or the page cannot be served.
 
     """
-    sys.exit(run(_job, _show, args))
+    with as_super_client():  # panels list topics, services and nodes that nobody here uses
+        sys.exit(run(_job, _show, args))
 
 
 def _job(words: list[str]) -> Job:

@@ -15,10 +15,12 @@ from tf2_py.poses import Pose as Numbers
 from tf2_py.samples import Sample
 from tf2_ros import Buffer, TransformException, TransformListener
 
-__all__ = ['FIXED_FRAME', 'FrameError', 'FrameListener', 'Frames', 'Pose']
+__all__ = ['FIXED_FRAME', 'WORLD', 'FrameError', 'FrameListener', 'Frames', 'Pose']
 
 FIXED_FRAME = '<Fixed Frame>'
 """The value of a property that stands for the current fixed frame."""
+WORLD = '/world'
+"""The path of the scene below which everything in the fixed frame is drawn."""
 
 # More than robots publish between two frames; older messages are dropped.
 DEPTH = 1000

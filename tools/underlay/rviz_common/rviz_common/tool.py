@@ -36,6 +36,8 @@ class Tool:
     ----------
     values
         The properties.
+    browser
+        The number of the browser whose click or drag it gets; None before the first one.
 
     """
 
@@ -55,6 +57,7 @@ class Tool:
         self.context = context
         self.root = root
         self.values = Values(self.PROPERTIES, given)
+        self.browser: int | None = None
 
     @property
     def unknown(self) -> list[str]:

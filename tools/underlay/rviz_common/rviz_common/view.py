@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from rviz_common.context import Context
-from rviz_common.frames import FrameError, Pose
+from rviz_common.frames import FrameError, Pose, WORLD
 from rviz_common.properties import Values
 from rviz_common.view_kinds import (
     CameraPose,
@@ -20,7 +20,7 @@ from rviz_common.view_kinds import (
     XYOrbit,
 )
 
-__all__ = ['KINDS', 'WORLD', 'Cameras', 'View']
+__all__ = ['KINDS', 'Cameras', 'View']
 
 KINDS: dict[str, ViewKind] = {
     kind.CLASS: kind for kind in (Orbit(), XYOrbit(), TopDown(), Fps(), ThirdPersonFollower())
@@ -144,10 +144,6 @@ class View:
         if not self._given or self.name != self._first_name:
             written['Name'] = self.name
         return written
-
-
-WORLD = '/world'
-"""The path of the scene below which everything in the fixed frame is drawn."""
 
 
 class Cameras:

@@ -118,11 +118,14 @@ def test_clicks_reach_the_tool_in_the_thread_of_the_node(shown: Visualizer) -> N
     tool = box.tools[0]
     box.use(tool)
     shown.cameras._at = (10.0, 20.0, 0.0)
-    event = SimpleNamespace(ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.5, 0.0, -1.0))
+    event = SimpleNamespace(
+        ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.5, 0.0, -1.0), client_id=7
+    )
     asyncio.run(box._pointer._on_click(event))
     assert said(tool) == ['up']
     shown.context.queue.run()
     assert said(tool) == ['up', (11.0, 20.0, 0.0), 'down']
+    assert tool.browser == 7
     assert box.in_use is None
 
 
@@ -177,7 +180,7 @@ def test_tools_for_objects_get_rays(probe: tuple[Visualizer, ObjectProbe]) -> No
     """Also towards the sky; in the fixed frame, wherever the camera is."""
     shown, tool = probe
     shown.cameras._at = (10.0, 0.0, 0.0)
-    click = SimpleNamespace(ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.0, 0.0, 1.0))
+    click = SimpleNamespace(ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.0, 0.0, 1.0), client_id=6)
     asyncio.run(shown.tools._pointer._on_click(click))
     drag = SimpleNamespace(
         client=SimpleNamespace(camera=SimpleNamespace(position=(0.0, 0.0, 2.0))),
@@ -191,6 +194,7 @@ def test_tools_for_objects_get_rays(probe: tuple[Visualizer, ObjectProbe]) -> No
     eye = (10.0, 0.0, 2.0)
     assert tool.rays == [Ray(eye, (0.0, 0.0, 1.0))]
     assert tool.drags == [Drag(Ray(eye, (0.0, 1.0, 0.0)), Ray(eye, (1.0, 0.0, 0.0)), False, 7)]
+    assert tool.browser == 7
 
 
 def test_drags_turn_the_scene_unless_the_tool_takes_them(

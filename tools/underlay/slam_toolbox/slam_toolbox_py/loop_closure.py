@@ -86,8 +86,8 @@ def close_loops(mapper: Mapper, node: int) -> Iterator[str]:
             continue
         disagreement = mapper.graph.error_of(edge)
         mapper.graph.add_edge(edge)
-        mapper.last_loop = node
         if disagreement < _ALREADY_AGREES2:
+            mapper.last_loop = node
             continue
         yield from _corrected(mapper, edge)
 
@@ -102,6 +102,7 @@ def _corrected(mapper: Mapper, edge: Edge) -> Iterator[str]:
         mapper.graph.poses = carried(mapper.graph.poses, before)
         mapper.follow_graph()
         return
+    mapper.last_loop = edge.second
     shift = mapper.graph.poses[: len(before), :2] - before[:, :2]
     mapper.follow_graph()
     most = float(np.hypot(*shift.T).max())

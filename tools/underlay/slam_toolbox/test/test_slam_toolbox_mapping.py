@@ -143,6 +143,7 @@ def test_rejected_loop_leaves_no_trace(monkeypatch):
     said += closing
     assert len(said) > 2 and not any(said)
     assert wrong not in mapper.graph.edges
+    assert mapper.last_loop == Mapper().last_loop
     assert mapper.graph.poses == pytest.approx(np.arange(11)[:, None] * ahead, abs=1e-12)
     assert mapper.map_to_odom == pytest.approx(np.zeros(3), abs=1e-12)
 

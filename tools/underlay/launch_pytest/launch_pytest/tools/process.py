@@ -5,15 +5,17 @@ Wait for events of a process and assert its output.
 Each function accepts the launch context and the action of the process; for output, the action
 must have been created with cached_output=True. Validators return whether the output is valid, or
 raise an AssertionError. Without a timeout, functions wait until the process ends. Asynchronous
-tests await the functions; other tests use those with the suffix `_sync`.
+tests await the functions; other tests use those with the suffix `_sync`, which have the same
+arguments and block; from the event loop of the launch, they raise a RuntimeError.
 """
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Coroutine
-from functools import partial
-from typing import Any, Optional, TYPE_CHECKING, TypeVar
+from functools import partial, wraps
+from inspect import signature
+from typing import Any, Optional, ParamSpec, TYPE_CHECKING, TypeVar
 
 from launch_pytest.tools._process_watch import until
 
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 
 __tracebackhide__ = True  # for pytest
 
+ParametersT = ParamSpec('ParametersT')
 ResultT = TypeVar('ResultT')
 Validate = Callable[[str], Any]
 
@@ -212,166 +215,6 @@ async def assert_stderr(
         )
 
 
-wait_for_output = wait_for_stdout
-assert_output = assert_stdout
-
-
-def wait_for_start_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    timeout: Optional[float] = None,
-) -> bool:
-    """
-    Wait until a process has started, and return whether it has.
-
-    Parameters
-    ----------
-    launch_context, execute_process_action, timeout
-        As for `wait_for_start`.
-
-    Raises
-    ------
-    RuntimeError
-        Called from the event loop of the launch.
-
-    """
-    return _sync(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
-
-
-def wait_for_exit_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    timeout: Optional[float] = None,
-) -> bool:
-    """
-    Wait until a process has ended, and return whether it has.
-
-    Parameters
-    ----------
-    launch_context, execute_process_action, timeout
-        As for `wait_for_exit`.
-
-    Raises
-    ------
-    RuntimeError
-        Called from the event loop of the launch.
-
-    """
-    return _sync(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
-
-
-def wait_for_stdout_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: Optional[float] = None,
-) -> bool:
-    """
-    Wait until the standard output of a process is valid, and return whether it is.
-
-    Parameters
-    ----------
-    launch_context, execute_process_action, validate_output, timeout
-        As for `wait_for_stdout`.
-
-    Raises
-    ------
-    RuntimeError
-        Called from the event loop of the launch, or the output is not cached.
-
-    """
-    return _sync(
-        launch_context,
-        wait_for_stdout(launch_context, execute_process_action, validate_output, timeout),
-    )
-
-
-def wait_for_stderr_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: Optional[float] = None,
-) -> bool:
-    """
-    Wait until the standard error of a process is valid, and return whether it is.
-
-    Parameters
-    ----------
-    launch_context, execute_process_action, validate_output, timeout
-        As for `wait_for_stdout`.
-
-    Raises
-    ------
-    RuntimeError
-        Called from the event loop of the launch, or the output is not cached.
-
-    """
-    return _sync(
-        launch_context,
-        wait_for_stderr(launch_context, execute_process_action, validate_output, timeout),
-    )
-
-
-def assert_stdout_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: Optional[float] = None,
-) -> None:
-    """
-    Wait until the standard output of a process is valid, and fail if it is not.
-
-    Parameters
-    ----------
-    launch_context, execute_process_action, validate_output, timeout
-        As for `wait_for_stdout`.
-
-    Raises
-    ------
-    AssertionError
-        The error of the validation, or one that shows the output.
-    RuntimeError
-        Called from the event loop of the launch, or the output is not cached.
-
-    """
-    _sync(
-        launch_context,
-        assert_stdout(launch_context, execute_process_action, validate_output, timeout),
-    )
-
-
-def assert_stderr_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: Optional[float] = None,
-) -> None:
-    """
-    Wait until the standard error of a process is valid, and fail if it is not.
-
-    Parameters
-    ----------
-    launch_context, execute_process_action, validate_output, timeout
-        As for `wait_for_stdout`.
-
-    Raises
-    ------
-    AssertionError
-        The error of the validation, or one that shows the output.
-    RuntimeError
-        Called from the event loop of the launch, or the output is not cached.
-
-    """
-    _sync(
-        launch_context,
-        assert_stderr(launch_context, execute_process_action, validate_output, timeout),
-    )
-
-
-wait_for_output_sync = wait_for_stdout_sync
-assert_output_sync = assert_stdout_sync
-
-
 def _is_right(get_output: Callable[[], str], validate_output: Validate) -> bool:
     """Whether an output is valid; a validator that returns None accepts it."""
     try:
@@ -388,7 +231,23 @@ def _fail(action: ExecuteProcess, what: str, output: str, validate_output: Valid
     raise AssertionError(f"the {what} of '{name}' is not what the test waits for:\n{output}")
 
 
-def _sync(launch_context: LaunchContext, coroutine: Coroutine[Any, Any, ResultT]) -> ResultT:
+def _blocking(
+    function: Callable[ParametersT, Coroutine[Any, Any, ResultT]],
+) -> Callable[ParametersT, ResultT]:
+    """Return the variant of a function that blocks a test which is not asynchronous."""
+
+    @wraps(function)
+    def call(*args: ParametersT.args, **kwargs: ParametersT.kwargs) -> ResultT:
+        context = signature(function).bind(*args, **kwargs).arguments['launch_context']
+        return _run_in_launch(context, function(*args, **kwargs))
+
+    call.__name__ = call.__qualname__ = f'{function.__name__}_sync'
+    return call
+
+
+def _run_in_launch(
+    launch_context: LaunchContext, coroutine: Coroutine[Any, Any, ResultT]
+) -> ResultT:
     """Run a coroutine in the event loop of the launch, from another thread."""
     loop = launch_context.asyncio_loop
     if loop is None:  # the launch has ended, so the coroutine will not wait
@@ -408,3 +267,16 @@ def _running_loop() -> Optional[asyncio.AbstractEventLoop]:
         return asyncio.get_running_loop()
     except RuntimeError:
         return None
+
+
+wait_for_start_sync = _blocking(wait_for_start)
+wait_for_exit_sync = _blocking(wait_for_exit)
+wait_for_stdout_sync = _blocking(wait_for_stdout)
+wait_for_stderr_sync = _blocking(wait_for_stderr)
+assert_stdout_sync = _blocking(assert_stdout)
+assert_stderr_sync = _blocking(assert_stderr)
+
+wait_for_output = wait_for_stdout
+wait_for_output_sync = wait_for_stdout_sync
+assert_output = assert_stdout
+assert_output_sync = assert_stdout_sync

@@ -11,6 +11,7 @@ from launch_testing.pytest.launch_test_module import LaunchTestItem, LaunchTestM
 
 _DISABLED = 'DISABLE_ROS_ISOLATION'
 _NAMES = ('ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE')
+_SERVER = 'ROS_DISCOVERY_SERVER'  # which brings nodes of all domains together
 
 
 class LaunchRosTestItem(LaunchTestItem):
@@ -37,7 +38,7 @@ def isolated_domain() -> Iterator[None]:
         return
     from domain_coordinator import domain_id
 
-    before = {name: os.environ.pop(name, None) for name in _NAMES}
+    before = {name: os.environ.pop(name, None) for name in (*_NAMES, _SERVER)}
     try:
         with domain_id() as domain:
             os.environ.update(zip(_NAMES, (str(domain), 'LOCALHOST')))

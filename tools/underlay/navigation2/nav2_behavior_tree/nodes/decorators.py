@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from nav2_behavior_tree.node import Decorator, NodeConfig
+from nav2_behavior_tree.control_node import Decorator
+from nav2_behavior_tree.node import NodeConfig
 from nav2_behavior_tree.ports import in_port, Port, REQUIRED
 from nav2_behavior_tree.registry import register
 from nav2_behavior_tree.scripting import Script

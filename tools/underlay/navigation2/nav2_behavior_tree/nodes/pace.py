@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
+from nav2_behavior_tree.control_node import Decorator
 from nav2_behavior_tree.geometry import path_length_m
-from nav2_behavior_tree.node import Decorator, NodeConfig
+from nav2_behavior_tree.node import NodeConfig
 from nav2_behavior_tree.ports import in_port, Port
 from nav2_behavior_tree.registry import register
 from nav2_behavior_tree.status import NodeStatus

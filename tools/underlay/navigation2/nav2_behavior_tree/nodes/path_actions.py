@@ -7,8 +7,9 @@ import math
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import PoseStamped
+from nav2_behavior_tree.control_node import Decorator
 from nav2_behavior_tree.geometry import distances_along_m, nearest_index, within
-from nav2_behavior_tree.node import Decorator, NodeConfig, TreeNode
+from nav2_behavior_tree.node import NodeConfig, TreeNode
 from nav2_behavior_tree.ports import in_port, out_port, Port
 from nav2_behavior_tree.registry import register
 from nav2_behavior_tree.status import NodeStatus

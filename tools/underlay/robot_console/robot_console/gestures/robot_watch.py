@@ -11,6 +11,7 @@ from robot_console.gestures.gesture_file import GestureError
 from robot_console.gestures.gesture_plan import RobotState
 from robot_console.namespaces import topic_of_robot
 from robot_console.robot_link import LATCHED, RobotLink
+from robot_console.state_words import WALKING
 from rviz_common.polled_topic import PolledTopic
 from rviz_default_plugins.robot.description import DescriptionTopic
 from sensor_msgs.msg import JointState
@@ -23,13 +24,6 @@ if TYPE_CHECKING:
 __all__ = ['RobotWatch', 'why_not']
 
 STANDING = 'stand'
-WALKING = {
-    'walk': 'The robot is walking. Let it stand first.',
-    'stop': 'The robot is walking. Let it stand first.',
-    'blocked': 'The robot is walking, and an obstacle blocks it. Let it stand first.',
-    'fallen': 'The robot has fallen. Stand it up first.',
-    'stand_up': 'The robot is getting up.',
-}
 STOPPED = 'The emergency stop is pressed. Release it first.'
 NO_ROBOT = 'The robot is not known: there is no robot description yet.'
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -53,7 +47,8 @@ def why_not(walking: str, is_stopped: bool, holds_because: str) -> str:
         return STOPPED
     if holds_because:
         return f'The robot holds still: {holds_because}.'
-    return WALKING.get(walking, '')
+    state = WALKING.get(walking)
+    return f'{state.reason}. {state.advice}'.rstrip() if state and state.reason else ''
 
 
 class RobotWatch:

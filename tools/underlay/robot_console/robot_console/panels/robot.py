@@ -15,6 +15,7 @@ from robot_console.panels.safety import RealTimeFactor
 from robot_console.robot_link import LATCHED, link_of
 from robot_console.service_calls import ServiceCalls
 from robot_console.simulator_link import failure_of, SILENT, SimulatorLink
+from robot_console.state_words import slowness, words
 from rviz_common.pace import Pace
 from rviz_common.page.channel import Action, Viewer
 from rviz_common.panel import BAR_ORDER
@@ -29,89 +30,11 @@ from simulation_interfaces.srv import (
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-__all__ = ['Robot', 'slowness', 'words']
+__all__ = ['Robot']
 
-WALKING = {
-    'stand': ('Ready', 'good'),
-    'walk': ('Walking', 'good'),
-    'stop': ('Coming to a halt', 'good'),
-    'blocked': ('Blocked: turn it, or walk another way', 'warn'),
-    'fallen': ('Fallen', 'bad'),
-    'stand_up': ('Getting up', 'warn'),
-}
-SIMULATION = {
-    SILENT: ('The simulator does not respond', 'bad'),
-    SimulationState.STATE_STOPPED: ('Paused at the start', 'warn'),
-    SimulationState.STATE_PAUSED: ('Paused', 'warn'),
-    SimulationState.STATE_QUITTING: ('The simulator is shutting down', 'warn'),
-    SimulationState.STATE_NO_WORLD: ('No scene is loaded: choose one', 'warn'),
-    SimulationState.STATE_LOADING_WORLD: ('Loading the scene', 'warn'),
-}
-UNKNOWN = ('The robot does not report its state', 'dim')
-MATTERS = ('blocked', 'fallen', 'stand_up')
-"""States of the walk that are shown beside a pause or a stop."""
-SLOW = 0.5
-TOO_SLOW = (
-    'The simulation takes more than twice as long as reality: this computer is overloaded, or the '
-    'simulation was slowed down on purpose.'
-)
 NO_STAND_UP = "Nothing can stand this robot up: there is no service '{}'. A simulator offers it."
 LOAD_S = 60.0
 """The time that a simulator may take to load a scene."""
-
-Word = tuple[str, str]
-"""A text, and how it looks: `good`, `warn`, `bad` or `dim`."""
-
-
-def words(
-    walking: str | None, stopped: str, holds_because: str, simulation: int | None, can_rise: bool
-) -> list[Word]:
-    """
-    Describe the state of a robot, what matters most first.
-
-    Parameters
-    ----------
-    walking
-        The walking state; None if no node publishes it.
-    stopped
-        By whom or where the emergency stop was pressed; '' while it is not pressed.
-    holds_because
-        Why the robot holds still, as it reports; '' if it moves or does not report it.
-    simulation
-        The state of the simulation, as that of a `SimulatorLink`.
-    can_rise
-        Whether a service can stand the robot up.
-
-    """
-    found: list[Word] = []
-    if simulation in SIMULATION:
-        found.append(SIMULATION[simulation])
-    if stopped and holds_because:
-        found.append((f'Stopped {stopped}', 'bad'))
-    elif stopped:
-        found.append((f'Stop pressed {stopped}; the robot has not confirmed it', 'bad'))
-    elif holds_because:
-        found.append((f'Holds still: {holds_because}', 'warn'))
-    if walking is None:
-        return found or [UNKNOWN]
-    if walking in MATTERS or not found:
-        text, look = WALKING.get(walking, (f"Does not walk: mode '{walking}'", 'dim'))
-        advice = ': press Stand up' if can_rise else ': hold it upright'
-        found.append((text + advice if walking == 'fallen' else text, look))
-    return found
-
-
-def slowness(factor: float | None) -> str:
-    """
-    Explain a real-time factor that is too low; '' if it is not.
-
-    Parameters
-    ----------
-    factor
-        Simulated seconds per real second; None if it is unknown.
-
-    """
-    return TOO_SLOW if factor is not None and factor < SLOW else ''
 
 
 class Robot(LivePanel):

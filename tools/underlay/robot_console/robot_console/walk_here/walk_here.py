@@ -197,7 +197,7 @@ class WalkHere(Tool):
 
     def _send(self, point: Point, yaw_rad: float | None) -> None:
         """Make a new goal, which the page of the person who has clicked takes."""
-        goal = WalkGoal(*self._target(point, yaw_rad))
+        goal = WalkGoal(*self._target(point, yaw_rad), self.browser)
         open_goals = [each for each in self._goals if not each.text]
         self._goals = [*open_goals, goal]
         if not goal.text and yaw_rad is None:

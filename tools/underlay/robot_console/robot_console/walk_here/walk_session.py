@@ -12,6 +12,7 @@ from typing import Any
 from robot_console.control_page import Session
 from robot_console.panels.drive import SpeedLimits, STILL, STOPPED, Velocity
 from robot_console.robot_link import RobotLink
+from robot_console.state_words import WALKING
 from robot_console.walk_here.straight_walk import Outcome, Place, StraightWalk, Target
 
 __all__ = ['STALE_S', 'RobotNow', 'WalkGoal', 'WalkSession', 'present_goal']
@@ -27,11 +28,7 @@ LOST = 'Stopped: the page of {} was lost, or stalled.'
 DRIVEN = 'Ended: somebody drives the robot.'
 LEFT = '{left}'
 """What stands for how far it still is in a sentence."""
-DOWN = {
-    'fallen': 'The robot has fallen, {left}.',
-    'stand_up': 'The robot is getting up.',
-}
-BLOCKED = 'Stopped: an obstacle is in the way, {left}.'
+DOWN = ('fallen', 'stand_up')
 OUTCOMES = {
     Outcome.ARRIVED: 'Arrived.',
     Outcome.STUCK: 'Stopped: the robot gets no nearer, {left}. Something may be in its way.',
@@ -64,6 +61,8 @@ class WalkGoal:
         Where to walk.
     end_text
         How it has ended already, for a click that is refused; '' for one that is not.
+    browser
+        The number of the browser in which somebody has clicked, whose page takes the goal.
 
     Attributes
     ----------
@@ -80,9 +79,9 @@ class WalkGoal:
 
     """
 
-    def __init__(self, target: Target, end_text: str = '') -> None:
+    def __init__(self, target: Target, end_text: str = '', browser: int | None = None) -> None:
         self.number = next(_numbers)
-        self.target, self.text = target, end_text
+        self.target, self.text, self.browser = target, end_text, browser
         self.walk: StraightWalk | None = None
         self.owner: WalkSession | None = None
         self.is_refused = False
@@ -180,10 +179,13 @@ class WalkSession(Session):
         state = {
             **super().state(),
             'goal': None,
-            'waiting': newest.number if newest is not None and newest.is_waiting else 0,
+            'waiting': 0,
+            'browser': None,
             'refused': refused.number if refused is not None else 0,
             'refusal': refused.text if refused is not None else '',
         }
+        if newest is not None and newest.is_waiting:
+            state.update(waiting=newest.number, browser=newest.browser)
         if goal is not None:
             state['goal'] = {
                 'number': goal.number,
@@ -243,10 +245,9 @@ class WalkSession(Session):
             return STOPPED
         if self.link.holds_because:
             return f'The robot holds still: {self.link.holds_because}.'
-        if walking in DOWN:
-            return DOWN[walking]
-        if walking == 'blocked' and walk.is_ahead:  # a blocked robot can turn away
-            return BLOCKED
+        # A blocked robot can turn away.
+        if walking in DOWN or (walking == 'blocked' and walk.is_ahead):
+            return f'{WALKING[walking].reason}, {LEFT}.'
         if not self.link.control.take(self.person, self):
             return f'{self.link.control.person} is in control.'
         return '' if self.link.mover is self else DRIVEN

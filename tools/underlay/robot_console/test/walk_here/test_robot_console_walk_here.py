@@ -16,7 +16,6 @@ from obstacles import obstacles
 import pytest
 from rclpy.action import ActionServer
 from robot_console.walk_here import walk_here, walk_session
-from robot_console.walk_here.straight_walk import Target
 from robot_console.walk_here.walk_here import WalkHere
 from rviz_common.context import Context
 from rviz_common.frames import Frames
@@ -183,34 +182,30 @@ def test_a_robot_has_one_such_tool(world: LiveWorld, tool: WalkHere, capfd: Any)
 
 def test_in_a_browser(patience: None, world: LiveWorld, tool: WalkHere, open_tab: Any) -> None:
     """The page in which somebody clicks walks, elsewhere too, until it is stopped or hidden."""
-    walker, tab = Walker(world.robot), open_tab(360, 100)
-    tab.goto(f'http://127.0.0.1:{world.page.port}/walk_here/robot1')
-    assert tab.locator('#row').is_hidden()
+    walker, other, tab = Walker(world.robot), open_tab(360, 100), open_tab(360, 100)
+    for browser, each in enumerate((other, tab)):
+        each.add_init_script(f'window.rvizViewer = {browser}')
+        each.goto(f'http://127.0.0.1:{world.page.port}/walk_here/robot1')
+        assert each.locator('#row').is_hidden()
+    tool.browser = 1
     world.wait_until(lambda: tool._now is not None, 'no odometry')
-
-    def click_both(x_m: float, y_m: float) -> None:
-        """Click in the scene, unless that walk goes on, and in the page, until it takes it."""
-        if not any(each.is_open and each.target == Target(x_m, y_m) for each in tool._goals):
-            tool.click((x_m, y_m, 0.0))
-        tab.mouse.click(5, 90)
+    tool.click((100.0, 0.0, 0.0))
 
     def is_walking() -> bool:
-        click_both(100.0, 0.0)
         return 'm to go' in tab.locator('#what').text_content()
 
+    other.mouse.click(5, 90)
     world.wait_until(is_walking, 'no walk')
+    world.wait_until(lambda: '(' in other.locator('#what').text_content(), 'not told elsewhere')
     world.wait_until(lambda: walker.x_m > 0.1, 'it does not walk')
-
-    def has_turned() -> bool:
-        click_both(0.0, 1000.0)
-        return walker.y_m > 0.5
-
-    world.wait_until(has_turned, 'it does not walk to the other place')
+    tool.click((0.0, 1000.0, 0.0))
+    world.wait_until(lambda: walker.y_m > 0.5, 'it does not walk to the other place')
     tab.get_by_role('button', name='Stop walking').click()
     world.wait_until(lambda: tab.locator('#what').text_content() == 'Stopped.', 'no stop')
     world.wait_until(lambda: walker.commands[-1] == Twist(), 'no zero')
     tab.get_by_role('button', name='Close').click()
     world.wait_until(lambda: tab.locator('#row').is_hidden(), 'still shown')
+    tool.click((100.0, 0.0, 0.0))
     world.wait_until(is_walking, 'no second walk')
     tab.evaluate(HIDE)
     world.wait_until(lambda: tab.locator('#what').text_content() == 'Stopped.', 'it walks on')

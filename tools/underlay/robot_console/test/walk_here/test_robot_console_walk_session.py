@@ -48,7 +48,7 @@ class World:
 
     def click(self) -> dict[str, Any]:
         """Click two metres ahead; return what the page sends then."""
-        self.goals.append(WalkGoal(Target(2.0, 0.0)))
+        self.goals.append(WalkGoal(Target(2.0, 0.0), browser=3))
         return {'do': 'walk', 'number': self.goals[-1].number}
 
 
@@ -65,9 +65,10 @@ def test_to_the_end(world: World) -> None:
     page = world.page('ann')
     assert page.take({'do': 'beat'})['goal'] is None
     walk = world.click()
-    assert page.take({'do': 'beat'})['waiting'] == walk['number']
+    state = page.take({'do': 'beat'})
+    assert (state['waiting'], state['browser']) == (walk['number'], 3)
     state = page.take(walk)
-    assert state['waiting'] == 0
+    assert (state['waiting'], state['browser']) == (0, None)
     assert state['goal']['distance'] == 2.0 and state['goal']['who'] == 'ann'
     assert world.said == [Velocity(0.3, 0.0, 0.0)] and world.control.person == 'ann'
     assert page.is_watched and world.beats == [True]
@@ -83,7 +84,7 @@ def test_to_the_end(world: World) -> None:
     ('change', 'said'),
     [
         ({'walking': 'fallen'}, 'The robot has fallen, 2.0 m before the place.'),
-        ({'walking': 'blocked'}, 'Stopped: an obstacle is in the way, 2.0 m before the place.'),
+        ({'walking': 'blocked'}, 'An obstacle is in the way, 2.0 m before the place.'),
         ({'heard_s': -math.inf}, 'Stopped: the odometry of the robot is missing.'),
         ({'time_s': 1000.0}, 'Stopped: it took too long, 2.0 m before the place.'),
     ],
@@ -120,7 +121,7 @@ def test_a_blocked_robot_can_turn_away(world: World) -> None:
     assert page.take(walk)['goal']['text'] == '' and world.said == [Velocity(0.0, 0.0, -0.6)]
     world.now = replace(world.now, place=Place(0.0, 0.0, 0.0))
     page.take(walk)
-    assert 'an obstacle is in the way' in page.take(walk)['goal']['text']
+    assert 'An obstacle is in the way' in page.take(walk)['goal']['text']
 
 
 def test_lost_page(world: World) -> None:

@@ -276,8 +276,9 @@ def remember(subject: str, data: Any) -> None:
 
 
 def _cache_path(subject: str) -> Path:
-    """Return the cache file for a subject, by domain and discovery range of this shell."""
+    """Return the cache file for a subject, by what this shell discovers."""
     folder = Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser()
     reach = read_reach()
-    name = quote(f'{reach.domain_id}_{reach.extent}_{subject}', safe='')
+    servers = ';'.join(str(each) for each in reach.servers)
+    name = quote(f'{reach.domain_id}_{reach.extent}_{servers}_{subject}', safe='')
     return folder / 'completion' / f'{name}.json'

@@ -140,13 +140,31 @@ def participant_sockets(domain_id: int) -> dict[int, str] | None:
         The inodes of the sockets by UDP port; None if the kernel does not provide them.
 
     """
+    table = _read_table()
+    return None if table is None else ports_in_table(*table, domain_id)
+
+
+def foreign_ports() -> set[int] | None:
+    """
+    Return the UDP ports that other processes on this machine have open.
+
+    Returns
+    -------
+    set of int or None
+        The ports; None if the kernel does not provide them.
+
+    """
+    table = _read_table()
+    return None if table is None else set(_sockets(*table))
+
+
+def _read_table() -> tuple[list[str], set[str]] | None:
+    """Read the kernel's table of UDP sockets, and the inodes of this process's sockets."""
     try:
         with open('/proc/net/udp', encoding='ascii') as stream:
-            rows = stream.readlines()[1:]
-        own = set(_own_sockets())
+            return stream.readlines()[1:], set(_own_sockets())
     except OSError:
         return None
-    return ports_in_table(rows, own, domain_id)
 
 
 def ports_in_table(rows: Iterable[str], own_inodes: set[str], domain_id: int) -> dict[int, str]:
@@ -168,14 +186,20 @@ def ports_in_table(rows: Iterable[str], own_inodes: set[str], domain_id: int) ->
         The inodes of the sockets by UDP port, ascending.
 
     """
+    found = _sockets(rows, own_inodes)
+    ports = unicast_ports(domain_id)
+    return {port: found[port] for port in ports if port in found and port + 1 in found}
+
+
+def _sockets(rows: Iterable[str], own_inodes: set[str]) -> dict[int, str]:
+    """Return the inodes of the sockets of other processes by UDP port."""
     found = {}
     for row in rows:
         columns = row.split()
         if columns[INODE_COLUMN] not in own_inodes:
             port = int(columns[LOCAL_ADDRESS_COLUMN].partition(':')[2], 16)
             found[port] = columns[INODE_COLUMN]
-    ports = unicast_ports(domain_id)
-    return {port: found[port] for port in ports if port in found and port + 1 in found}
+    return found
 
 
 def _own_sockets() -> Iterator[str]:

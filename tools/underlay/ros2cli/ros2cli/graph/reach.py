@@ -11,6 +11,8 @@ import socket
 import struct
 from typing import NamedTuple
 
+from ros2cli.graph.servers import read_servers, Server
+
 LOCALHOST, SUBNET, SYSTEM_DEFAULT, OFF = 'LOCALHOST', 'SUBNET', 'SYSTEM_DEFAULT', 'OFF'
 MAX_DOMAIN_ID = 232
 # ioctl requests and flags of Linux, from netdevice(7).
@@ -25,17 +27,19 @@ ADDRESS_BYTES = slice(20, 24)
 
 class Reach(NamedTuple):
     """
-    The domain, the discovery range and the static peers.
+    The domain, the discovery range, the static peers and the discovery servers.
 
     With LOCALHOST no socket is open to other machines (see the profile of ros_environment), so
     that other hosts are not asked, either.
 
     :param extent: a value of ROS_AUTOMATIC_DISCOVERY_RANGE
+    :param servers: the discovery servers, which take the place of multicast and static peers
     """
 
     domain_id: int
     extent: str
     peers: tuple[str, ...] = ()
+    servers: tuple[Server, ...] = ()
 
     @property
     def is_local(self) -> bool:
@@ -60,18 +64,12 @@ def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
     Raises
     ------
     RuntimeError
-        The domain ID is not valid, or a discovery server is set, which is not supported.
+        The domain ID or an address of a discovery server is not valid.
 
     """
-    if environment.get('ROS_DISCOVERY_SERVER'):
-        raise RuntimeError(
-            'ROS_DISCOVERY_SERVER is set, but these commands query the nodes directly and do '
-            'not support it; start the nodes without it, after: unset ROS_DISCOVERY_SERVER'
-        )
-    reach = Reach(_domain_id(environment), _extent(environment))
-    if reach.is_local:
-        return reach
-    return Reach(reach.domain_id, reach.extent, _peers(environment))
+    extent = _extent(environment)
+    peers = () if extent in (OFF, LOCALHOST) else _peers(environment)
+    return Reach(_domain_id(environment), extent, peers, read_servers(environment))
 
 
 def _domain_id(environment: Mapping[str, str]) -> int:

@@ -11,9 +11,9 @@ from typing import TypeVar
 
 from ros2cli.graph import DEFAULT_SPIN_TIME_S
 from ros2cli.graph.graph import Graph
-from ros2cli.graph.link import Link
+from ros2cli.graph.link import Link, open_link
 from ros2cli.graph.reach import read_reach
-from ros2cli.rtps.observer import LEASE_S
+from ros2cli.rtps.announcement import LEASE_S
 from ros2cli.waiting import Patience
 
 T = TypeVar('T')
@@ -22,10 +22,6 @@ T = TypeVar('T')
 # last decreased, and in total.
 PATIENCE = 8
 MAX_PATIENCE = 40
-INCOMPLETE = (
-    'WARNING: a ROS process on this machine does not answer (is it stopped, or just starting?); '
-    'what follows may be incomplete'
-)
 
 
 class GraphWatch:
@@ -110,8 +106,8 @@ class GraphWatch:
             The graph at the end of the wait.
 
         """
-        patience = Patience('the answers of all ROS processes on this machine')
         self._exchange(waits=False)
+        patience = Patience(self._link.awaited if self._link else '')
         while not self._is_settled() and not is_done(self.graph):
             if self._is_in_vain():
                 self._tell_incomplete()
@@ -180,9 +176,9 @@ class GraphWatch:
         return found
 
     def _tell_incomplete(self) -> None:
-        if not self._has_told:
+        if self._link and not self._has_told:
             self._has_told = True
-            print(INCOMPLETE, file=sys.stderr)
+            print(self._link.why_incomplete, file=sys.stderr)
 
     def _exchange(self, *, waits: bool) -> None:
         """Exchange datagrams; restart discovery if our lease may have expired in a pause."""
@@ -191,7 +187,7 @@ class GraphWatch:
         if self._link and now_s - self._latest_s > LEASE_S / 2:
             self.close()
         if self._link is None:
-            self._link = Link(self._reach)
+            self._link = open_link(self._reach)
             self._start_s = self._news_s = now_s
             self._fewest_missing = sys.maxsize
         self._latest_s = now_s

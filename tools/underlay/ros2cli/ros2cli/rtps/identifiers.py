@@ -5,12 +5,15 @@ from __future__ import annotations
 
 PROTOCOL_VERSION = b'\x02\x03'
 VENDOR_UNKNOWN = b'\x00\x00'
+VENDOR_EPROSIMA = b'\x01\x0f'
 PREFIX_BYTES = 12
+VENDOR_BYTES = 2  # with which a GUID prefix begins
 MAX_NUMBERS = 256  # in a set of sequence numbers
 
 UNKNOWN_ENTITY = bytes.fromhex('00000000')
 PARTICIPANT = bytes.fromhex('000001c1')
 PARTICIPANTS_WRITER = bytes.fromhex('000100c2')
+PARTICIPANTS_READER = bytes.fromhex('000100c7')
 PUBLICATIONS_WRITER = bytes.fromhex('000003c2')
 PUBLICATIONS_READER = bytes.fromhex('000003c7')
 SUBSCRIPTIONS_WRITER = bytes.fromhex('000004c2')
@@ -32,9 +35,11 @@ PID_DEFAULT_UNICAST_LOCATOR = 0x31
 PID_METATRAFFIC_UNICAST_LOCATOR = 0x32
 PID_PARTICIPANT_GUID = 0x50
 PID_BUILTIN_ENDPOINTS = 0x58
+PID_PROPERTY_LIST = 0x59
 PID_ENDPOINT_GUID = 0x5A
 PID_KEY_HASH = 0x70
 PID_STATUS_INFO = 0x71
+PID_SAMPLE_IDENTITY = 0x800F  # of Fast DDS: the related sample identity
 
 # Our announced built-in endpoints (9.3.2): all of PDP and EDP except the publications writer,
 # since we have no publications.

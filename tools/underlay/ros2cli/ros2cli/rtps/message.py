@@ -12,7 +12,7 @@ from ros2cli.rtps.identifiers import (
     PID_STATUS_INFO,
     PREFIX_BYTES,
     PROTOCOL_VERSION,
-    VENDOR_UNKNOWN,
+    VENDOR_BYTES,
 )
 from ros2cli.rtps.parameters import Parameters, read_parameters
 
@@ -212,7 +212,7 @@ def message(own_prefix: bytes, *parts: bytes) -> bytes:
         The submessages.
 
     """
-    return b''.join((MAGIC, PROTOCOL_VERSION, VENDOR_UNKNOWN, own_prefix, *parts))
+    return b''.join((MAGIC, PROTOCOL_VERSION, own_prefix[:VENDOR_BYTES], own_prefix, *parts))
 
 
 def info_destination(prefix: bytes) -> bytes:
@@ -228,7 +228,15 @@ def info_destination(prefix: bytes) -> bytes:
     return _submessage(INFO_DESTINATION, 0, prefix)
 
 
-def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: bytes = b'') -> bytes:
+def data(
+    reader: bytes,
+    writer: bytes,
+    number: int,
+    payload: bytes,
+    inline: bytes = b'',
+    *,
+    is_key: bool = False,
+) -> bytes:
     """
     Build a DATA submessage, which carries a sample.
 
@@ -240,13 +248,15 @@ def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: byt
         The sequence number of the sample.
     payload
         The serialized sample, with its encapsulation header.
-    key_qos
-        Inline QoS parameters; with them the payload is only the key.
+    inline
+        Inline QoS parameters.
+    is_key
+        Whether the payload is only the key.
 
     """
-    flags = INLINE_QOS | KEY if key_qos else PAYLOAD
+    flags = (KEY if is_key else PAYLOAD) | (INLINE_QOS if inline else 0)
     ends = struct.pack('<HH', 0, 16) + reader + writer
-    return _submessage(DATA, flags, ends + _sequence_number(number) + key_qos + payload)
+    return _submessage(DATA, flags, ends + sequence_number(number) + inline + payload)
 
 
 def heartbeat(reader: bytes, writer: bytes, first: int, last: int, count: int) -> bytes:
@@ -263,7 +273,7 @@ def heartbeat(reader: bytes, writer: bytes, first: int, last: int, count: int) -
         The number of this heartbeat, by which duplicates are recognized.
 
     """
-    numbers = _sequence_number(first) + _sequence_number(last)
+    numbers = sequence_number(first) + sequence_number(last)
     return _submessage(HEARTBEAT, 0, reader + writer + numbers + struct.pack('<I', count))
 
 
@@ -290,11 +300,20 @@ def acknack(reader: bytes, writer: bytes, base: int, missing: list[int], count: 
     words = [0] * ((size + 31) // 32)
     for i in wanted:
         words[i // 32] |= 1 << (31 - i % 32)
-    numbers = _sequence_number(base) + struct.pack(f'<I{len(words)}I', size, *words)
+    numbers = sequence_number(base) + struct.pack(f'<I{len(words)}I', size, *words)
     return _submessage(ACKNACK, flags, reader + writer + numbers + struct.pack('<I', count))
 
 
-def _sequence_number(number: int) -> bytes:
+def sequence_number(number: int) -> bytes:
+    """
+    Encode the sequence number of a sample.
+
+    Parameters
+    ----------
+    number
+        The number, from 1 on.
+
+    """
     return struct.pack('<iI', number >> 32, number & 0xFFFFFFFF)
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cli.rtps.entities import (
     decode_entities,
@@ -53,6 +53,8 @@ class Neighbour:
         Its address for participant and endpoint discovery.
     user
         Its address for user traffic.
+    built_in
+        The streams of its discovery: its readers and writers, unless a server describes them.
 
     Attributes
     ----------
@@ -68,7 +70,12 @@ class Neighbour:
     """
 
     def __init__(
-        self, own_prefix: bytes, prefix: bytes, discovery: Address, user: Address
+        self,
+        own_prefix: bytes,
+        prefix: bytes,
+        discovery: Address,
+        user: Address,
+        built_in: Sequence[Stream],
     ) -> None:
         self.prefix = prefix
         self.discovery = discovery
@@ -78,8 +85,7 @@ class Neighbour:
         self.nodes: tuple[NodeEntities, ...] = ()
         self._own_prefix = own_prefix
         self._user = user
-        self._publications = Stream(PUBLICATIONS_READER, PUBLICATIONS_WRITER)
-        self._subscriptions = Stream(SUBSCRIPTIONS_READER, SUBSCRIPTIONS_WRITER)
+        self._built_in = built_in
         self._entities: Stream | None = None
         self._latest_entities = 0
         self._patience_s = PATIENCE_S
@@ -157,10 +163,59 @@ class Neighbour:
         self._is_acknowledged = self.is_complete
         self._ask_again_s = now_s + self._patience_s
         self._patience_s = min(2 * self._patience_s, MAX_PATIENCE_S)
-        built_in = [_request(self._publications), _request(self._subscriptions)]
-        yield self._message(*built_in), self.discovery
+        if self._built_in:
+            yield self._message(*map(_request, self._built_in)), self.discovery
         if self._entities:
             yield self._message(_request(self._entities)), self._user
+
+    def add(self, endpoint: Endpoint) -> None:
+        """
+        Add one of its readers and writers.
+
+        Parameters
+        ----------
+        endpoint
+            The endpoint.
+
+        """
+        self.endpoints[endpoint.guid] = endpoint
+        if endpoint.is_writer and endpoint.topic == TOPIC and not self._entities:
+            self._entities = Stream(ENTITIES_READER, endpoint.guid[PREFIX_BYTES:])
+
+    def found_at(self, host: str) -> None:
+        """
+        Set the host that its datagrams come from, as it may have announced several addresses.
+
+        Parameters
+        ----------
+        host
+            The IP address; THIS_HOST if it is on this machine.
+
+        """
+        self.discovery = (host, self.discovery[1])
+        self._user = (host, self._user[1])
+
+    def on_described(self, sample: Data) -> None:
+        """
+        Handle the description of a reader or writer, or its end.
+
+        Parameters
+        ----------
+        sample
+            The sample of a built-in writer.
+
+        Raises
+        ------
+        ValueError
+            The sample is damaged.
+
+        """
+        if sample.is_disposed:
+            described = decode_parameters(sample.payload) if sample.payload else sample.inline
+            self.endpoints.pop(guid_of(described), None)
+        else:
+            is_writer = sample.writer == PUBLICATIONS_WRITER
+            self.add(endpoint_of(decode_parameters(sample.payload), is_writer=is_writer))
 
     def _on_sample(self, stream: Stream, sample: Data) -> None:
         """Handle a sample; a damaged one is not requested again."""
@@ -168,7 +223,7 @@ class Neighbour:
         if stream is self._entities:
             self._on_nodes(sample)
         else:
-            self._on_endpoint(sample)
+            self.on_described(sample)
 
     def _hurry(self) -> None:
         """Make the next request due as soon as the previous one is answered."""
@@ -180,8 +235,7 @@ class Neighbour:
             self._patience_s = PATIENCE_S
 
     def _streams(self) -> list[Stream]:
-        streams = (self._publications, self._subscriptions, self._entities)
-        return [stream for stream in streams if stream]
+        return [*self._built_in, *([self._entities] if self._entities else [])]
 
     def _message(self, *parts: bytes) -> bytes:
         return message(self._own_prefix, info_destination(self.prefix), *parts)
@@ -196,18 +250,13 @@ class Neighbour:
             self._latest_entities = news.number
             self.nodes = decode_entities(news.payload)
 
-    def _on_endpoint(self, news: Data) -> None:
-        if news.is_disposed:
-            described = decode_parameters(news.payload) if news.payload else news.inline
-            self.endpoints.pop(guid_of(described), None)
-        else:
-            is_writer = news.writer == PUBLICATIONS_WRITER
-            self._add(endpoint_of(decode_parameters(news.payload), is_writer=is_writer))
 
-    def _add(self, endpoint: Endpoint) -> None:
-        self.endpoints[endpoint.guid] = endpoint
-        if endpoint.is_writer and endpoint.topic == TOPIC and not self._entities:
-            self._entities = Stream(ENTITIES_READER, endpoint.guid[PREFIX_BYTES:])
+def endpoint_streams() -> list[Stream]:
+    """Return the streams by which a participant describes its readers and writers."""
+    return [
+        Stream(PUBLICATIONS_READER, PUBLICATIONS_WRITER),
+        Stream(SUBSCRIPTIONS_READER, SUBSCRIPTIONS_WRITER),
+    ]
 
 
 def _request(stream: Stream) -> bytes:

@@ -12,52 +12,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-import os
 
-from ros2cli.rtps.entities import RELIABLE, TOPIC, TRANSIENT_LOCAL, TYPE_NAME
+from ros2cli.rtps.announcement import farewell, greeting, LEASE_S, new_prefix
 from ros2cli.rtps.identifiers import (
-    BUILTIN_ENDPOINTS,
-    ENTITIES_READER,
-    PARTICIPANT,
     PARTICIPANTS_WRITER,
-    PID_BUILTIN_ENDPOINTS,
     PID_DEFAULT_UNICAST_LOCATOR,
-    PID_DURABILITY,
-    PID_ENDPOINT_GUID,
-    PID_KEY_HASH,
     PID_LEASE_DURATION,
     PID_METATRAFFIC_UNICAST_LOCATOR,
-    PID_PARTICIPANT_GUID,
-    PID_PROTOCOL_VERSION,
-    PID_RELIABILITY,
-    PID_STATUS_INFO,
-    PID_TOPIC_NAME,
-    PID_TYPE_NAME,
-    PID_VENDOR_ID,
-    PREFIX_BYTES,
-    PROTOCOL_VERSION,
-    SUBSCRIPTIONS_READER,
-    SUBSCRIPTIONS_WRITER,
-    UNKNOWN_ENTITY,
     VENDOR_UNKNOWN,
 )
-from ros2cli.rtps.message import Data, data, heartbeat, message, sender, Submessage, submessages
-from ros2cli.rtps.neighbour import Neighbour
-from ros2cli.rtps.parameters import (
-    Address,
-    decode_parameters,
-    duration_value,
-    encode_inline,
-    encode_parameters,
-    locator_value,
-    number_value,
-    Parameters,
-    text_value,
-    THIS_HOST,
-)
+from ros2cli.rtps.message import Data, sender, Submessage, submessages
+from ros2cli.rtps.neighbour import endpoint_streams, Neighbour
+from ros2cli.rtps.parameters import Address, decode_parameters, Parameters, THIS_HOST
 
-LEASE_S = 10
-DISPOSED = b'\0\0\0\3'
 PACE_S = 0.004
 GREET_AGAIN_S = 0.1
 NEVER_S = float('-inf')
@@ -79,7 +46,7 @@ class Observer:
     def __init__(
         self, addresses: Sequence[Address], send: Callable[[bytes, Address], None]
     ) -> None:
-        self._prefix = new_prefix()
+        self._prefix = new_prefix(VENDOR_UNKNOWN)
         self._greeting = greeting(self._prefix, addresses)
         self._send = send
         self._neighbours: dict[bytes, Neighbour] = {}
@@ -223,89 +190,19 @@ class Observer:
             self._meet(prefix, host, decode_parameters(news.payload))
 
     def _meet(self, prefix: bytes, host: str, described: Parameters) -> None:
-        discovery = described.ports(PID_METATRAFFIC_UNICAST_LOCATOR)
-        user = described.ports(PID_DEFAULT_UNICAST_LOCATOR)
+        discovery = described.addresses(PID_METATRAFFIC_UNICAST_LOCATOR)
+        user = described.addresses(PID_DEFAULT_UNICAST_LOCATOR)
         if not discovery or not user:
             return
-        address = (host, discovery[0])
+        address = (host, discovery[0][1])
         if host == THIS_HOST and address not in self._expected:
             return
         for each in self.neighbours:
             if each.discovery == address:
                 del self._neighbours[each.prefix]
-        self._neighbours[prefix] = met = Neighbour(self._prefix, prefix, address, (host, user[0]))
+        met = Neighbour(self._prefix, prefix, address, (host, user[0][1]), endpoint_streams())
+        self._neighbours[prefix] = met
         met.heard_s = self._now_s
         met.lease_s = described.duration_ns(PID_LEASE_DURATION) / 10**9
         if self._silent.pop(address, None) is None:
             self.greet(address)  # multicast announces participants to it, but not readers
-
-
-def new_prefix() -> bytes:
-    """Return a new unique GUID prefix for us."""
-    return VENDOR_UNKNOWN + os.urandom(PREFIX_BYTES - len(VENDOR_UNKNOWN))
-
-
-def greeting(prefix: bytes, addresses: Sequence[Address]) -> bytes:
-    """
-    Build the datagram that makes a participant describe itself to us.
-
-    Parameters
-    ----------
-    prefix
-        Our GUID prefix (12 bytes).
-    addresses
-        The addresses at which others reach our socket.
-
-    """
-    return message(
-        prefix,
-        data(UNKNOWN_ENTITY, PARTICIPANTS_WRITER, 1, _participant(prefix, addresses)),
-        data(SUBSCRIPTIONS_READER, SUBSCRIPTIONS_WRITER, 1, _reader(prefix)),
-        heartbeat(SUBSCRIPTIONS_READER, SUBSCRIPTIONS_WRITER, 1, 1, 1),
-    )
-
-
-def farewell(prefix: bytes) -> bytes:
-    """
-    Build the datagram that makes a participant forget us.
-
-    Parameters
-    ----------
-    prefix
-        Our GUID prefix (12 bytes).
-
-    """
-    guid = prefix + PARTICIPANT
-    qos = encode_inline([(PID_KEY_HASH, guid), (PID_STATUS_INFO, DISPOSED)])
-    key = encode_parameters([(PID_PARTICIPANT_GUID, guid)])
-    return message(prefix, data(UNKNOWN_ENTITY, PARTICIPANTS_WRITER, 2, key, qos))
-
-
-def _participant(prefix: bytes, addresses: Sequence[Address]) -> bytes:
-    locators = [locator_value(address) for address in addresses]
-    return encode_parameters(
-        [
-            (PID_PROTOCOL_VERSION, PROTOCOL_VERSION),
-            (PID_VENDOR_ID, VENDOR_UNKNOWN),
-            (PID_PARTICIPANT_GUID, prefix + PARTICIPANT),
-            *((PID_METATRAFFIC_UNICAST_LOCATOR, locator) for locator in locators),
-            *((PID_DEFAULT_UNICAST_LOCATOR, locator) for locator in locators),
-            (PID_LEASE_DURATION, duration_value(LEASE_S)),
-            (PID_BUILTIN_ENDPOINTS, number_value(BUILTIN_ENDPOINTS)),
-        ]
-    )
-
-
-def _reader(prefix: bytes) -> bytes:
-    guid = prefix + ENTITIES_READER
-    return encode_parameters(
-        [
-            (PID_PARTICIPANT_GUID, prefix + PARTICIPANT),
-            (PID_ENDPOINT_GUID, guid),
-            (PID_KEY_HASH, guid),
-            (PID_TOPIC_NAME, text_value(TOPIC)),
-            (PID_TYPE_NAME, text_value(TYPE_NAME)),
-            (PID_RELIABILITY, number_value(RELIABLE) + duration_value(0)),
-            (PID_DURABILITY, number_value(TRANSIENT_LOCAL)),
-        ]
-    )

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+import itertools
 import socket
 import struct
 from typing import NamedTuple
@@ -12,6 +13,7 @@ PID_SENTINEL = 0x01
 PL_CDR_LE = b'\x00\x03\x00\x00'
 UDP_V4 = 1
 MAX_PORT = 65535
+LOCATOR_BYTES = 24
 NO_PARAMETER = b''
 INFINITE = (0x7FFFFFFF, 0xFFFFFFFF)
 INFINITE_NS = 2**63 - 1
@@ -128,9 +130,9 @@ class Parameters(NamedTuple):
             return INFINITE_NS
         return seconds * 10**9 + round(fraction * 10**9 / 2**32)
 
-    def ports(self, identifier: int) -> list[int]:
+    def addresses(self, identifier: int) -> list[Address]:
         """
-        Decode the UDP ports of locators; those of other transports are left out.
+        Decode UDPv4 locators; those of other transports are left out.
 
         Parameters
         ----------
@@ -143,8 +145,14 @@ class Parameters(NamedTuple):
             A value is damaged.
 
         """
-        found = [self._unpack('iI', raw) for raw in self.values.get(identifier, [])]
-        return [port for kind, port in found if kind == UDP_V4 and 0 < port <= MAX_PORT]
+        values = [raw for raw in self.values.get(identifier, []) if len(raw) >= LOCATOR_BYTES]
+        hosts = [socket.inet_ntoa(raw[LOCATOR_BYTES - 4 : LOCATOR_BYTES]) for raw in values]
+        found = [self._unpack('iI', raw) for raw in values]
+        return [
+            (host, port)
+            for host, (kind, port) in zip(hosts, found, strict=True)
+            if kind == UDP_V4 and 0 < port <= MAX_PORT
+        ]
 
     def _unpack(self, layout: str, raw: bytes) -> tuple[int, ...]:
         try:
@@ -292,6 +300,23 @@ def locator_value(address: Address) -> bytes:
     """
     host, port = address
     return struct.pack('<iI', UDP_V4, port) + bytes(12) + socket.inet_aton(host)
+
+
+def properties_value(properties: Mapping[str, str]) -> bytes:
+    """
+    Encode a list of properties as the value of a parameter.
+
+    Parameters
+    ----------
+    properties
+        The values by name.
+
+    """
+    value = number_value(len(properties))
+    for text in itertools.chain.from_iterable(properties.items()):
+        value += text_value(text)
+        value += bytes(-len(value) % 4)
+    return value
 
 
 def text_of(raw: bytes) -> str:

@@ -17,6 +17,7 @@ from ros2cli.graph.reach import (
     SUBNET,
     SYSTEM_DEFAULT,
 )
+from ros2cli.graph.servers import is_loopback, read_servers
 from ros2cli.rtps.identifiers import multicast_port, PORT_BASE, PORTS_PER_DOMAIN
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 from ros2doctor.check.transports import (
@@ -193,8 +194,10 @@ def _peers(facts: Network) -> Iterator[Finding]:
     """Yield the settings that name other machines although no socket is open to them."""
     if discovery_range(facts) != LOCALHOST:
         return
-    for name in (PEERS_VARIABLE, SERVER_VARIABLE):
-        others = [host for host in _hosts(facts.variables.get(name, '')) if not _is_here(host)]
+    peers = [each.strip() for each in facts.variables.get(PEERS_VARIABLE, '').split(';')]
+    named = {PEERS_VARIABLE: peers, SERVER_VARIABLE: _server_hosts(facts.variables)}
+    for name, hosts in named.items():
+        others = [host for host in hosts if host and not is_loopback(host)]
         if others:
             yield Finding(
                 Severity.WARNING,
@@ -205,13 +208,12 @@ def _peers(facts: Network) -> Iterator[Finding]:
             )
 
 
-def _hosts(text: str) -> list[str]:
-    """Return the hosts of a list like ROS_STATIC_PEERS, or with ports as for discovery servers."""
-    return [each.strip().rpartition(':')[0] or each.strip() for each in text.split(';') if each]
-
-
-def _is_here(host: str) -> bool:
-    return host == 'localhost' or host.startswith('127.')
+def _server_hosts(variables: Mapping[str, str]) -> list[str]:
+    """Return the hosts of the discovery servers; none if the list has a mistake."""
+    try:
+        return [each.host for each in read_servers(variables)]
+    except RuntimeError:  # which the check of the servers reports
+        return []
 
 
 def _domain(facts: Network) -> Iterator[Finding]:
@@ -248,7 +250,7 @@ def _interfaces(facts: Network) -> Iterator[Finding]:
             'nodes on this machine do not find each other',
             'sudo ip addr add 127.0.0.1/8 dev lo' if usable else 'sudo ip link set lo up',
         )
-    elif discovery_range(facts) in WITH_MULTICAST:
+    elif discovery_range(facts) in WITH_MULTICAST and not facts.variables.get(SERVER_VARIABLE):
         yield from multicast_findings(facts.interfaces, facts.multicast, facts.has_multicast_route)
 
 

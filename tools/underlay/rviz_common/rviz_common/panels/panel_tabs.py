@@ -112,11 +112,12 @@ class PanelTabs:
     def _move(self, panel: Panel) -> None:
         """Move the tab of a panel on demand next to that of the panel that it follows."""
         tab = self._places[panel]
-        others = [each for each in self._tabs._tab_handles if each is not tab]
+        handles = self._tabs._tab_handles  # viser has only a way to append tabs
+        others = [each for each in handles if each is not tab]
         followed = [self._places[each] for each in self.panels if each.CLASS == panel.FOLLOWS]
         for index, other in enumerate(others, 1):
-            if any(other is each for each in followed):  # viser has only a way to append tabs
-                self._tabs._tab_handles = [*others[:index], tab, *others[index:]]
+            if any(other is each for each in followed):
+                handles[:] = [*others[:index], tab, *others[index:]]
                 self._tabs._rebuild_tab_props()
                 return
 

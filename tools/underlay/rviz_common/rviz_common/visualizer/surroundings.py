@@ -10,8 +10,8 @@ from typing import Any, Final, TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+from rviz_common.frames import WORLD
 from rviz_common.glb import glb_of
-from rviz_common.view import WORLD
 
 if TYPE_CHECKING:
     from viser import SceneApi

@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import Any
 
 from rviz_common.context import Context
+from rviz_common.frames import WORLD
 from rviz_common.page.watchdog import wait_until_lost
 from rviz_common.plugins import load_plugin, TOOLS
 from rviz_common.selection import Ray
 from rviz_common.status import described_error
 from rviz_common.tool import Drag, ObjectTool, Point, Tool
-from rviz_common.view import WORLD
 
 __all__ = ['BUILT_IN', 'ToolBox', 'ground_point']
 
@@ -126,8 +126,8 @@ class ToolBox:
             return entry
         return tool
 
-    def _click(self, ray: Ray) -> None:
-        self._pass_on(lambda tool: _clicked(tool, ray))
+    def _click(self, ray: Ray, browser: int) -> None:
+        self._pass_on(lambda tool: _clicked(tool, ray, browser))
 
     def _drag(self, drag: Drag) -> None:
         self._pass_on(lambda tool: _dragged(tool, drag))
@@ -151,8 +151,9 @@ def _updated(tool: Tool) -> bool:
     return False
 
 
-def _clicked(tool: Tool, ray: Ray) -> bool:
-    """Pass a click on to a tool; return whether the tool is done."""
+def _clicked(tool: Tool, ray: Ray, browser: int) -> bool:
+    """Pass a click in a browser on to a tool; return whether the tool is done."""
+    tool.browser = browser
     if isinstance(tool, ObjectTool):
         return tool.click_along(ray)
     point = ground_point(ray.origin, ray.direction)
@@ -161,6 +162,7 @@ def _clicked(tool: Tool, ray: Ray) -> bool:
 
 def _dragged(tool: Tool, drag: Drag) -> bool:
     """Pass a drag on to a tool; return whether the tool is done."""
+    tool.browser = drag.browser
     if isinstance(tool, ObjectTool):
         return tool.drag_along(drag)
     start, end = (ground_point(ray.origin, ray.direction) for ray in (drag.start, drag.now))
@@ -182,7 +184,7 @@ class _Pointer:
     origin
         Returns the position of the camera's target frame, in m in the fixed frame.
     click
-        Called with the ray of a click.
+        Called with the ray of a click, and the number of the browser.
     drag
         Called for each movement of a drag.
 
@@ -192,7 +194,7 @@ class _Pointer:
         self,
         context: Context,
         origin: Callable[[], Point],
-        click: Callable[[Ray], None],
+        click: Callable[[Ray, int], None],
         drag: Callable[[Drag], None],
     ) -> None:
         self._context = context
@@ -244,7 +246,7 @@ class _Pointer:
 
     async def _on_click(self, event: Any) -> None:
         ray = Ray(self._moved(event.ray_origin), _floats(event.ray_direction))
-        self._context.queue.post(lambda: self._click(ray))
+        self._context.queue.post(lambda: self._click(ray, event.client_id))
 
     async def _on_drag(self, event: Any) -> None:
         eye = self._moved(event.client.camera.position)

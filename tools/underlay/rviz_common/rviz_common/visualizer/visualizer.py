@@ -10,7 +10,7 @@ from rviz_common.config import ConfigError, Configuration, Place
 from rviz_common.config.configuration import DISPLAYS, PANELS, SAVED_VIEWS, TOOLS, VIEW
 from rviz_common.config.configuration import OPTIONS as OPTIONS_PLACE
 from rviz_common.context import Context
-from rviz_common.frames import FrameListener, Frames
+from rviz_common.frames import FrameListener, Frames, WORLD
 from rviz_common.pace import Pace
 from rviz_common.panels.head import FileFolder, Head
 from rviz_common.panels.panel_tabs import PanelTabs
@@ -18,7 +18,7 @@ from rviz_common.panels.phone_folder import PhoneFolder
 from rviz_common.properties import topic_path, Values
 from rviz_common.selection import Selection
 from rviz_common.status import printable, Statuses
-from rviz_common.view import Cameras, View, WORLD
+from rviz_common.view import Cameras, View
 from rviz_common.visualizer.display_entry import Maker
 from rviz_common.visualizer.display_tree import Entry, Group
 from rviz_common.visualizer.frame_loop import Attention, FrameLoop

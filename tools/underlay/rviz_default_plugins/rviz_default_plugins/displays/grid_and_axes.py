@@ -16,6 +16,8 @@ from rviz_common.status import Level
 __all__ = ['Axes', 'Grid', 'GridSize', 'in_pieces', 'lines']
 
 MAX_LINES = 20000
+PIECE_CELLS = 2
+"""The length of the pieces in which lines are drawn, in cells: each piece is six triangles."""
 BACKGROUND = 48  # RViz's grey, which translucent lines are blended with
 LINES, BILLBOARDS = 'Lines', 'Billboards'
 
@@ -49,7 +51,7 @@ class Grid(Display):
         """Add the grid."""
         self._frame = self.context.scene.add_frame(self.root, show_axes=False)
         size = self._size()
-        pieces = max(1, min(size.cells, MAX_LINES // size.line_count))
+        pieces = max(1, min(size.cells // PIECE_CELLS, MAX_LINES // size.line_count))
         is_thin = self.values['Line Style/Value'] == LINES
         self.context.scene.add_line_segments(
             f'{self.root}/lines',
