@@ -120,6 +120,11 @@ class Tab:
         )
         return row.locator('input:not([type=hidden])').first
 
+    def tick(self, label: str) -> None:
+        """Tick a checkbox; the page may only show it some frames after the click."""
+        self.box(label).click()
+        wait_until(self.box(label).is_checked, PATIENCE_S, lambda: f'{label} to be ticked')
+
     def button(self, name: str) -> Any:
         """Return a button."""
         return self.page.get_by_role('button', name=name, exact=True)

@@ -144,7 +144,7 @@ def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
     recording = tab.box('Recording')
     wait_until(lambda: recording.input_value().startswith('swing ('), 30.0, 'it to be offered')
     end_robot(robot)
-    tab.box('Loop').check()
+    tab.tick('Loop')
     tab.button('Play').click()
     tab.page.get_by_text('PLAYING swing', exact=True).wait_for()
     tab.wait_for_motion(FOREARM)

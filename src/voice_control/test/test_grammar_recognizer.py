@@ -136,10 +136,15 @@ def test_what_is_no_grammar_changes_nothing(grammar: str) -> None:
 
 
 def test_before_a_grammar_comes_stop_is_heard() -> None:
-    """And nothing else is accepted."""
+    """And nothing else is taken for it, or accepted."""
     made = GrammarRecognizer()
-    [utterance] = utterances(read_wav(SPEECH / 'stop.slt.wav'))
-    assert made.recognize(utterance).is_stop
+    for path in sorted(SPEECH.glob('*.wav')):
+        [utterance] = utterances(read_wav(path))
+        recognition = made.recognize(utterance)
+        assert recognition.is_stop == path.name.startswith('stop'), path.name
+        if not recognition.is_stop:
+            assert (recognition.is_accepted, recognition.text) == (False, '')
+            assert recognition.reason.startswith('Only "stop" is recognized as long as')
 
 
 def test_a_dictionary_is_read() -> None:

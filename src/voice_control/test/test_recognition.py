@@ -58,6 +58,15 @@ def test_the_grammar_alone() -> None:
     assert heard.speech_s == 2.0
 
 
+def test_it_is_ready_for_more_than_stop_once_there_is_a_grammar() -> None:
+    """A recogniser of free speech needs none."""
+    listener = Listener(Scripted('go to the hall'))
+    assert not listener.is_ready
+    listener.set_grammar('go to the desk')
+    assert listener.is_ready
+    assert Listener(Scripted('go to the hall'), Scripted('good morning')).is_ready
+
+
 def test_stop_does_not_wait_for_the_other_recogniser() -> None:
     """The grammar decides."""
     other = Scripted('a slow one')

@@ -138,6 +138,27 @@ def test_speech_becomes_a_command(ros: RosSandbox, ear: Ear, recognizer: SpeechR
     assert 0.5 < result.speech_duration.sec + result.speech_duration.nanosec * 1e-9 < 4.0
 
 
+@pytest.mark.parametrize('spoken', [[GO_TO_THE_KITCHEN], [GO_TO_THE_KITCHEN, STOP]])
+def test_what_was_said_before_the_grammar_came(
+    ros: RosSandbox, ear: Ear, spoken: list[Path]
+) -> None:
+    """It is recognized then, unless the robot was told to stop in the meantime."""
+    ros.start(SpeechRecognizer)
+    ros.wait_until(lambda: ear.audio.get_subscription_count() == 1, what='the recogniser')
+    ros.wait_until(lambda: ear.count_publishers('speech/result') == 1, what='its results')
+    for number, path in enumerate(spoken, start=1):
+        ear.speak(path)
+        ros.wait_until(lambda number=number: len(ear.results) == number, what='a result')
+    assert ear.results[0].reason.startswith('Only "stop" is recognized')
+    ear.grammar.publish(String(data=GRAMMAR))
+    if spoken == [GO_TO_THE_KITCHEN]:
+        ros.wait_until(lambda: ear.transcripts == ['go to the kitchen'], what='the command')
+    else:
+        ros.wait_until(lambda: ear.grammar.get_subscription_count() == 1, what='the grammar')
+        speak_until(ros, ear, STOP, 'stop')
+        assert set(ear.transcripts) == {'stop'}
+
+
 def test_the_robot_does_not_hear_itself(
     ros: RosSandbox, ear: Ear, recognizer: SpeechRecognizer
 ) -> None:

@@ -49,6 +49,7 @@ _SHORTEST_HALF = 3
 """Minimum number of letters of each half of a compound word."""
 _FIRST_PASSES = 3
 """Number of passes over the first utterance that estimate the still unknown cepstral mean."""
+_NO_GRAMMAR = 'Only "stop" is recognized as long as no grammar comes from the planner.'
 _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
 
 
@@ -104,6 +105,9 @@ class _Fit:
     ratio: float
 
 
+_NOTHING = _Fit('', -math.inf)
+
+
 class GrammarRecognizer:
     """
     Recogniser of the commands of a grammar, which rejects everything else.
@@ -113,6 +117,8 @@ class GrammarRecognizer:
     over the frames of the words, separates commands (mostly -1 to -3) from other sentences (mostly
     below -3.5), as measured with synthetic voices. Stop words have a small grammar of their own in
     addition, since a short "stop" is easily confused with another of some hundred words.
+
+    Before the first grammar, only stop phrases are recognized.
 
     With noise suppression, an utterance that does not fit a command well is decoded again without
     its noise. Stop phrases are always looked for in the original one, since suppression may take
@@ -146,8 +152,8 @@ class GrammarRecognizer:
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
         self._means = dict.fromkeys((_ORIGINAL, _SUPPRESSED), '')
         self._kind = _ORIGINAL
+        self._commands: WordNetwork | None = None
         self._add(_STOPS, compile_jsgf(STOP_GRAMMAR))
-        self.set_grammar(STOP_GRAMMAR)
 
     def set_grammar(self, jsgf: str) -> list[str]:
         """
@@ -188,12 +194,12 @@ class GrammarRecognizer:
             Words in lower case, separated by spaces.
 
         """
-        return self._commands.accepts(text)
+        return self._commands is not None and self._commands.accepts(text)
 
     @property
     def examples(self) -> Sequence[str]:
         """Commands that the grammar gives as examples."""
-        return self._commands.shown
+        return () if self._commands is None else self._commands.shown
 
     def recognize(self, sound: bytes) -> Recognition:
         """
@@ -222,7 +228,9 @@ class GrammarRecognizer:
         self._kind = kind
         self._learn_mean(sound)
         phones = self._decoded(_PHONES, sound)
-        command = self._fit(_COMMANDS, sound, phones)
+        command = _NOTHING
+        if self._commands is not None:
+            command = self._fit(_COMMANDS, sound, phones)
         stop = self._fit(_STOPS, sound, phones)
         is_like = command.ratio >= self.threshold
         words = command.text.split()
@@ -233,7 +241,8 @@ class GrammarRecognizer:
         if stop.ratio >= max(STOP_THRESHOLD, command.ratio + STOP_MARGIN):
             return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
         if not words:
-            return Recognition('', -math.inf, BACKEND, 'No command was recognized.')
+            reason = _NO_GRAMMAR if self._commands is None else 'No command was recognized.'
+            return Recognition('', -math.inf, BACKEND, reason)
         closest = f'It did not sound much like "{command.text}", the closest command.'
         return Recognition(command.text, command.ratio, BACKEND, '' if is_like else closest)
 
@@ -297,7 +306,7 @@ class GrammarRecognizer:
         segments = self._decoded(search, sound)
         words = [segment for segment in segments if segment.name[0] not in '<([']
         if not words:
-            return _Fit('', -math.inf)
+            return _NOTHING
         first, last = words[0].first, words[-1].last
         of_words = sum(
             each.score for each in segments if each.first >= first and each.last <= last

@@ -179,6 +179,12 @@ class Listener:
         self._other = other
         self._wake_word = wake_word.lower().split()
         self._report = report
+        self._has_grammar = False
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it can recognize more than "stop": before the first grammar, it may not."""
+        return self._has_grammar or self._other is not None
 
     def set_grammar(self, jsgf: str) -> list[str]:
         """
@@ -201,6 +207,7 @@ class Listener:
 
         """
         unheard = self._grammar.set_grammar(jsgf)
+        self._has_grammar = True
         if self._other is not None:
             self._other.expect(self._grammar.examples)
         return unheard

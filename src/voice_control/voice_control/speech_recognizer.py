@@ -51,6 +51,8 @@ _END_S = 2.0
 _ECHO_S = 0.3
 """How long after its own speech the robot does not listen."""
 _SILENT_AFTER_S = 5.0
+_EARLY_S = 15.0
+"""How long an utterance that precedes the first grammar is kept to be recognized with it."""
 Work = Callable[[], None]
 
 
@@ -135,6 +137,7 @@ class SpeechRecognizer(Node):
         self._quiet_until_s = 0.0
         self._sound_s = -math.inf
         self._heard = self._accepted = self._lost = 0
+        self._early: list[tuple[float, bytes]] = []
         self._transcripts = self.create_publisher(String, 'speech/transcript', EVENT)
         self._results = self.create_publisher(SpeechResult, 'speech/result', EVENT)
         self.create_subscription(AudioData, 'audio', self._take, EVENT)
@@ -205,9 +208,19 @@ class SpeechRecognizer(Node):
     def _add(self, sound: bytes) -> None:
         for utterance in self._segmenter.add(sound):
             heard = self._listener.hear(utterance)
-            executor = self.executor
-            if executor is not None:
-                executor.create_task(self._tell, heard)
+            if heard.recognition.is_stop:
+                self._early.clear()  # it also cancels what was said before
+            elif not self._listener.is_ready:
+                now_s = time.monotonic()
+                recent = [each for each in self._early if now_s - each[0] < _EARLY_S]
+                self._early = [*recent, (now_s, utterance)]
+            self._hand_over(heard)
+
+    def _hand_over(self, heard: Heard) -> None:
+        """Publish a recognition in the thread of the executor."""
+        executor = self.executor
+        if executor is not None:
+            executor.create_task(self._tell, heard)
 
     def _set_grammar(self, jsgf: str) -> None:
         try:
@@ -221,6 +234,10 @@ class SpeechRecognizer(Node):
                 f'The pronunciation of {words} is unknown, so it cannot be recognized: add it to '
                 'a dictionary file, and set dictionary_file to its path.'
             )
+        early, self._early = self._early, []
+        for said_s, utterance in early:
+            if time.monotonic() - said_s < _EARLY_S:
+                self._hand_over(self._listener.hear(utterance))
 
     def _report(self, sentence: str) -> None:
         self.get_logger().warning(sentence)

@@ -124,8 +124,11 @@ def policy_path(name: str) -> Path:
     folder = Path(get_package_share_directory('humanoid_control')) / 'policies'
     installed = sorted(path.stem for path in folder.glob('*.yaml'))
     if name not in installed:
-        raise PolicyError(
-            f"No policy '{name}' is installed. {did_you_mean(name, installed)} Set 'policy' to "
-            f'{" or ".join(installed)}, or to the path of a file that ends with .yaml.'
+        sentences = (
+            f"No policy '{name}' is installed.",
+            did_you_mean(name, installed),
+            f"Set 'policy' to {' or '.join(installed)}, or to the path of a file that ends with "
+            '.yaml.',
         )
+        raise PolicyError(' '.join(filter(None, sentences)))
     return folder / f'{name}.yaml'

@@ -115,7 +115,7 @@ class SingleRun:
         self._ready = threading.Event()
         self._injected: dict[str, Any] = {}
         self._result: TestResult = self._empty_result()
-        self._tests_done = False
+        self._is_over = self._tests_done = False
         self._failure = ''
 
     def execute(self) -> TestResult:
@@ -131,8 +131,9 @@ class SingleRun:
         thread = threading.Thread(target=self._work, name='launch tests', daemon=True)
         thread.start()
         status = self._launch(description)
+        self._is_over = True
+        self._result.stop()  # before a test whose wait ends makes way for the next one
         observation.close()
-        self._result.stop()
         self._ready.set()
         thread.join(_PATIENCE_S)
         if observation.was_interrupted:
@@ -208,6 +209,8 @@ class SingleRun:
 
     def _make_result(self, *args: Any, **kwargs: Any) -> TestResult:
         self._result = TestResult(*args, **kwargs)
+        if self._is_over and not self._tests_done:
+            self._result.stop()
         return self._result
 
     def _empty_result(self) -> TestResult:

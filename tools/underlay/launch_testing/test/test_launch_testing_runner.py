@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import re
+import time
 from typing import Any
 
+from launch_testing.observation import Observation
 import pytest
 
 RunTest = Callable[..., Any]
@@ -68,6 +70,26 @@ def generate_test_description():
     assert not outcome.result.wasSuccessful()
     assert text.startswith('All processes of the launch ended before the tests were done.')
     assert re.search(r'sh-\d+: ended with exit code 3\n  The last output of .*\n    a$', text)
+    assert 'test_c' not in dict(outcome.outcomes)
+
+
+def test_no_test_begins_after_the_end(run: RunTest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also if the runner is held up just when the wait of the current test has ended."""
+    close = Observation.close
+
+    def close_slowly(observation: Observation) -> None:
+        close(observation)
+        time.sleep(0.5)
+
+    monkeypatch.setattr(Observation, 'close', close_slowly)
+    outcome = run(
+        """
+def generate_test_description():
+    return LaunchDescription([ReadyToTest(), ExecuteProcess(cmd=['sleep', '0.5'])])
+"""
+        + PASSIVE
+    )
+    assert 'test_b' in dict(outcome.outcomes)
     assert 'test_c' not in dict(outcome.outcomes)
 
 

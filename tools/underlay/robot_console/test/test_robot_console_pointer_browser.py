@@ -107,8 +107,8 @@ def test_a_crate_is_selected_and_pushed(
     mass = tab.get_by_role('cell', name='4.5 kg')
     tab.get_by_text('Tools', exact=True).click()
     tab.get_by_role('button', name='Select', exact=True).click()
-    wait_until(lambda: shown.tools.in_use, 'no tool')
     tab.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/world/displays/1/base']")
+    tab.wait_for_function('() => window.__viserPointer.hasSceneClickFilter()')
     area = tab.locator('canvas[data-engine]').bounding_box()
     middle = area['x'] + area['width'] / 2, area['y'] + area['height'] / 2
 
