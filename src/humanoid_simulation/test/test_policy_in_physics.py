@@ -12,6 +12,8 @@ import pytest
 
 pytest.importorskip('onnxruntime')
 
+GETS_UP_WITHIN_S = 25.0
+
 
 @pytest.fixture(name='robot')
 def _robot() -> LockstepRobot:
@@ -35,6 +37,44 @@ def test_it_survives_a_push(robot: LockstepRobot) -> None:
     assert robot.backend.observe()[''].positions_rad[elbow] == pytest.approx(-1.2, abs=0.1)
     assert robot.tilt_rad < 0.1
     assert robot.walking.control.manager.mode == 'policy'
+
+
+def test_it_gets_up(robot: LockstepRobot) -> None:
+    """Then the policy goes on, unless a stop forbids it."""
+    walking, period_s = robot.walking, robot.backend.period_s
+    robot.push(1.0 + 0.0j, 60.0)
+    walking.control.hold_still(True)
+    for _ in range(round(5.0 / period_s)):
+        robot.tick()
+    assert walking.walker.phase == 'fallen'
+    walking.control.hold_still(False)
+    for _ in range(round(GETS_UP_WITHIN_S / period_s)):
+        robot.tick()
+        if not walking.walker.has_fallen:
+            break
+    assert robot.wait(2.0) and not walking.walker.has_fallen
+    assert robot.tilt_rad < 0.1
+    assert walking.control.manager.mode == 'policy'
+    assert walking.control.manager.claims.trouble == ''
+
+
+@pytest.mark.parametrize('mode', ['follow', 'hold'])
+def test_nothing_watches_for_a_fall_while_joints_are_held(mode: str) -> None:
+    """It lies there stiffly, until it is to walk: then it gets up."""
+    robot = LockstepRobot(BackendSettings(noise=REALISTIC, seed=1))
+    walking, period_s = robot.walking, robot.backend.period_s
+    robot.wait(0.2)
+    walking.control.manager.switch(mode)
+    robot.wait(0.5)
+    robot.push(1.0 + 0.0j, 60.0)
+    for _ in range(round(8.0 / period_s)):
+        robot.tick()
+    assert robot.tilt_rad > 1.0
+    walking.control.manager.switch('walking')
+    for _ in range(round(GETS_UP_WITHIN_S / period_s)):
+        robot.tick()
+    assert walking.walker.phase == 'stand'
+    assert robot.tilt_rad < 0.1
 
 
 def test_a_fall_is_noticed(robot: LockstepRobot) -> None:
