@@ -37,6 +37,42 @@ class Operation:
     output: str
 
 
+def onnx_model(
+    name: str,
+    operations: Sequence[Operation],
+    constants: Mapping[str, NDArray[np.float32]],
+    inputs: Sequence[Tensor],
+    outputs: Sequence[Tensor],
+    metadata: Mapping[str, str] = {},
+) -> bytes:
+    """
+    Encode a network as the content of a file.
+
+    Parameters
+    ----------
+    name
+        The name of the network.
+    operations
+        What the network computes, in an order in which inputs come before outputs.
+    constants
+        Weights by the names that operations use.
+    inputs, outputs
+        What the network takes, and what it returns.
+    metadata
+        What the file says of itself.
+
+    """
+    graph = b''.join(_bytes(1, _operation(each)) for each in operations)
+    graph += _bytes(2, name.encode())
+    graph += b''.join(_bytes(5, _constant(name, value)) for name, value in constants.items())
+    graph += b''.join(_bytes(11, _tensor(each)) for each in inputs)
+    graph += b''.join(_bytes(12, _tensor(each)) for each in outputs)
+    model = _number(1, _IR_VERSION) + _bytes(7, graph) + _bytes(8, _number(2, _OPSET))
+    for key, text in metadata.items():
+        model += _bytes(14, _bytes(1, key.encode()) + _bytes(2, text.encode()))
+    return model
+
+
 def write_onnx(
     path: Path,
     operations: Sequence[Operation],
@@ -52,25 +88,13 @@ def write_onnx(
     ----------
     path
         The file, which is overwritten.
-    operations
-        What the network computes, in an order in which inputs come before outputs.
-    constants
-        Weights by the names that operations use.
-    inputs, outputs
-        What the network takes, and what it returns.
-    metadata
-        What the file says of itself.
+    operations, constants, inputs, outputs, metadata
+        As for `onnx_model`.
 
     """
-    graph = b''.join(_bytes(1, _operation(each)) for each in operations)
-    graph += _bytes(2, path.stem.encode())
-    graph += b''.join(_bytes(5, _constant(name, value)) for name, value in constants.items())
-    graph += b''.join(_bytes(11, _tensor(each)) for each in inputs)
-    graph += b''.join(_bytes(12, _tensor(each)) for each in outputs)
-    model = _number(1, _IR_VERSION) + _bytes(7, graph) + _bytes(8, _number(2, _OPSET))
-    for key, text in metadata.items():
-        model += _bytes(14, _bytes(1, key.encode()) + _bytes(2, text.encode()))
-    path.write_bytes(model)
+    path.write_bytes(
+        onnx_model(path.stem, operations, constants, inputs, outputs, metadata)
+    )
 
 
 def _operation(operation: Operation) -> bytes:

@@ -76,6 +76,12 @@ def load_drives(
     return {prefix + name: drive for name, drive in drives.items()}
 
 
+def leg_joints() -> tuple[str, ...]:
+    """Return the names of the joints of the legs, the left one first, without a prefix."""
+    above = load_drives(upper_body_only=True)
+    return tuple(joint for joint in load_drives() if joint not in above)
+
+
 def drives_of(
     table: Mapping[str, Any], scaling: Scaling, scale: float, limbs: Sequence[str]
 ) -> dict[str, Drive]:

@@ -14,16 +14,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from humanoid_common.onnx_file import Operation, Tensor, write_onnx
+from humanoid_common.onnx_file import onnx_model, Operation, Tensor
 from humanoid_control.backends import Array
-from humanoid_description.drives import load_drives
+from humanoid_description.drives import leg_joints, load_drives, SIDES
 from humanoid_gym.actions import MOST_RAD
+from humanoid_simulation.files import replace_file
 import numpy as np
 import yaml
 
-SIDES = ('left', 'right')
-LEG = ('hip_yaw', 'hip_roll', 'hip_pitch', 'knee', 'ankle_pitch', 'ankle_roll')
-JOINTS = tuple(f'{side}_{joint}' for side in SIDES for joint in LEG)
+JOINTS = leg_joints()
 """The joints that the policy moves, in its order."""
 TILT_RAD, RATE_RAD_S, ANGLE_RAD, SPEED_RAD_S = 0.1, 1.0, 0.1, 1.0
 """What a gain refers to: a gain of 1 answers such a deviation with an action of 1."""
@@ -52,7 +51,12 @@ HEADER = """\
 # A policy of the legs that keeps the balance on the spot; the README of humanoid_control explains
 # the file. It was written by `ros2 run humanoid_gym train_balance`.
 """
-TERMS = {'base_ang_vel': 3, 'projected_gravity': 3, 'joint_pos_rel': 12, 'joint_vel_rel': 12}
+TERMS = {
+    'base_ang_vel': 3,
+    'projected_gravity': 3,
+    'joint_pos_rel': len(JOINTS),
+    'joint_vel_rel': len(JOINTS),
+}
 """What the policy observes, with the number of values."""
 
 
@@ -173,10 +177,15 @@ def write_policy(
     rate_hz
         Steps of the environment in a second.
 
+    Raises
+    ------
+    SimulationError
+        A file cannot be written; one that was there is still whole.
+
     """
     size = sum(TERMS.values())
-    write_onnx(
-        folder / 'stand.onnx',
+    network = onnx_model(
+        'stand',
         [
             Operation('MatMul', ['observation', 'weights'], 'feedback'),
             Operation('Tanh', ['feedback'], 'action'),
@@ -197,4 +206,5 @@ def write_policy(
         'observation': {'terms': [{'name': name} for name in TERMS]},
     }
     text = yaml.safe_dump(content, sort_keys=False)
-    (folder / 'stand.yaml').write_text(f'{HEADER}{text}')
+    replace_file(folder / 'stand.onnx', network)
+    replace_file(folder / 'stand.yaml', f'{HEADER}{text}'.encode())

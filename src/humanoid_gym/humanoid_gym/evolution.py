@@ -10,11 +10,13 @@ Computation 9(2), 2001; N. Hansen, "The CMA Evolution Strategy: A Tutorial", arX
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-import os
+from io import BytesIO
 from pathlib import Path
 from zipfile import BadZipFile
+import zlib
 
 from humanoid_control.backends import Array
+from humanoid_simulation.files import replace_file
 import numpy as np
 
 
@@ -56,7 +58,7 @@ class SearchState:
         return cls(mean.copy(), np.array(sigma), np.eye(len(mean)), zero, zero.copy(), np.array(0))
 
     @classmethod
-    def load(cls, path: Path) -> SearchState:
+    def load(cls, path: Path, size: int) -> SearchState:
         """
         Read a checkpoint.
 
@@ -64,18 +66,29 @@ class SearchState:
         ----------
         path
             A file that `save` has written.
+        size
+            The number n of parameters.
 
         Raises
         ------
+        OSError
+            The file cannot be read.
         ValueError
-            It is no such file.
+            It is no checkpoint of a search for so many parameters.
 
         """
         try:
-            with np.load(path) as stored:
-                return cls(**{each.name: stored[each.name] for each in fields(cls)})
-        except (AttributeError, BadZipFile, EOFError, KeyError, TypeError, ValueError):
+            with np.load(BytesIO(path.read_bytes())) as stored:
+                state = cls(**{each.name: stored[each.name] for each in fields(cls)})
+            state._check(size)
+        except (
+            AttributeError, BadZipFile, EOFError, KeyError, NotImplementedError, OSError,
+            TypeError, ValueError, zlib.error,
+        ) as error:  # fmt: skip
+            if isinstance(error, OSError) and error.errno is not None:
+                raise
             raise ValueError(f"'{path}' is no checkpoint of a search. Move it away.") from None
+        return state
 
     def save(self, path: Path) -> None:
         """
@@ -86,10 +99,26 @@ class SearchState:
         path
             The file, with the suffix .npz.
 
+        Raises
+        ------
+        SimulationError
+            It cannot be written, as on a full disk.
+
         """
-        unfinished = path.with_suffix('.new.npz')
-        np.savez(unfinished, **{each.name: getattr(self, each.name) for each in fields(self)})
-        os.replace(unfinished, path)
+        content = BytesIO()
+        np.savez(content, **{each.name: getattr(self, each.name) for each in fields(self)})
+        replace_file(path, content.getvalue())
+
+    def _check(self, size: int) -> None:
+        """Check that all values are finite numbers, as many as there have to be."""
+        wanted = dict.fromkeys(('mean', 'covariance_path', 'sigma_path'), (size,))
+        shapes = {'sigma': (), 'generation': (), 'covariance': (size, size), **wanted}
+        for name, shape in shapes.items():
+            value = getattr(self, name)
+            if value.shape != shape or not np.isfinite(value).all():
+                raise ValueError(name)
+        if self.sigma <= 0.0 or self.generation < 0 or self.generation.dtype.kind != 'i':
+            raise ValueError('sigma or generation')
 
 
 class Search:

@@ -3,7 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+import fcntl
+import os
 from pathlib import Path
+import resource
 import signal
 import sys
 from typing import Any
@@ -25,7 +30,9 @@ from humanoid_gym.balance import (  # noqa: E402
     weights_of,
     write_policy,
 )
+from humanoid_gym.episodes import EpisodeProcesses, TrainingError, Trial  # noqa: E402
 from humanoid_gym.evolution import Search, SearchState  # noqa: E402
+from humanoid_simulation.errors import SimulationError  # noqa: E402
 
 
 def test_the_search_finds_the_best_of_a_valley() -> None:
@@ -57,7 +64,7 @@ def test_a_search_goes_on_as_it_would_have(tmp_path: Path) -> None:
     half = Search(SearchState.around(np.ones(3), 0.3), seed=1, size=6)
     go_on(half, 3)
     half.state.save(tmp_path / 'checkpoint.npz')
-    other = Search(SearchState.load(tmp_path / 'checkpoint.npz'), seed=1, size=6)
+    other = Search(SearchState.load(tmp_path / 'checkpoint.npz', 3), seed=1, size=6)
     go_on(other, 3)
     assert np.array_equal(other.state.mean, whole.state.mean)
     assert other.state.generation == 6
@@ -69,7 +76,41 @@ def test_a_file_that_is_no_checkpoint(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / 'checkpoint.npz'
     path.write_bytes(content)
     with pytest.raises(ValueError, match=r'checkpoint\.npz. is no checkpoint of a search\. Move'):
-        SearchState.load(path)
+        SearchState.load(path, 3)
+
+
+@pytest.mark.parametrize(
+    'changes',
+    [
+        {'mean': np.zeros(4)},
+        {'covariance': np.eye(2)},
+        {'sigma_path': np.full(3, np.nan)},
+        {'sigma': np.array(0.0)},
+        {'generation': np.array(-1)},
+        {'mean': np.array(['a', 'b', 'c'])},
+    ],
+)
+def test_a_checkpoint_of_another_search(tmp_path: Path, changes: dict[str, Any]) -> None:
+    """With other sizes, or values that no search has, it is refused as well."""
+    path = tmp_path / 'checkpoint.npz'
+    replace(SearchState.around(np.zeros(3), 0.1), **changes).save(path)
+    with pytest.raises(ValueError, match='is no checkpoint of a search'):
+        SearchState.load(path, 3)
+
+
+def test_a_full_disk_keeps_the_checkpoint_before(tmp_path: Path) -> None:
+    """It is said in a sentence, and nothing unfinished stays."""
+    path = tmp_path / 'checkpoint.npz'
+    SearchState.around(np.zeros(3), 0.1).save(path)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+    try:
+        with pytest.raises(SimulationError, match=r'checkpoint\.npz cannot be written: File too'):
+            SearchState.around(np.ones(3), 0.1).save(path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert not SearchState.load(path, 3).mean.any()
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_both_legs_do_the_same() -> None:
@@ -108,41 +149,132 @@ def test_the_files_do_what_the_trained_policy_does(tmp_path: Path) -> None:
     assert np.abs(action).max() > 0.01
 
 
+SHORT = ('--candidates', '4', '--episodes', '1', '--steps', '5', '--processes', '1')
+Train = Callable[..., int]
+
+
+@pytest.fixture(name='train')
+def _train(monkeypatch: pytest.MonkeyPatch) -> Train:
+    """Return a function that runs the command with arguments, in this process."""
+
+    def train(*arguments: str) -> int:
+        monkeypatch.setattr(sys, 'argv', ['train_balance', *SHORT, *arguments])
+        return train_balance.main()
+
+    return train
+
+
 def test_training_and_going_on(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, train: Train, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A generation is a checkpoint; the next start goes on, and writes the policy."""
-    monkeypatch.setattr(signal, 'signal', lambda number, handler: None)
     for generations in ('1', '2'):
-        monkeypatch.setattr(
-            sys, 'argv',
-            ['train_balance', '--folder', str(tmp_path), '--generations', generations,
-             '--candidates', '4', '--episodes', '1', '--steps', '5', '--processes', '1'],
-        )  # fmt: skip
-        assert train_balance.main() == 0
+        assert train('--folder', str(tmp_path / 'a b'), '--generations', generations) == 0
     printed = capsys.readouterr().out
     assert printed.count('generation 0: ') == printed.count('generation 1: ') == 1
     assert 'after 2 generations' in printed
-    assert read_policy_file(tmp_path / 'stand.yaml').joints == JOINTS
+    assert read_policy_file(tmp_path / 'a b' / 'stand.yaml').joints == JOINTS
+
+
+def test_two_trainings_in_a_folder(
+    tmp_path: Path, train: Train, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The second one is told so, and changes nothing."""
+    folder = os.open(tmp_path, os.O_RDONLY)
+    fcntl.flock(folder, fcntl.LOCK_EX)
+    try:
+        assert train('--folder', str(tmp_path)) == 1
+    finally:
+        os.close(folder)
+    assert f"Another training uses the folder '{tmp_path}'." in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_folders_that_cannot_be_used(
+    tmp_path: Path, train: Train, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A file, and a folder with something else in the place of the checkpoint."""
+    (tmp_path / 'file').touch()
+    (tmp_path / 'folder' / 'checkpoint.npz').mkdir(parents=True)
+    assert train('--folder', str(tmp_path / 'file')) == 1
+    assert "file' cannot be used: File exists. Give another --folder." in capsys.readouterr().err
+    assert train('--folder', str(tmp_path / 'folder')) == 1
+    assert "checkpoint.npz' cannot be read: Is a directory." in capsys.readouterr().err
+
+
+def test_an_interruption_before_the_first_generation(
+    tmp_path: Path, train: Train, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There is no policy yet, and one that is there already stays; the signals work as before."""
+    (tmp_path / 'stand.yaml').write_text('mine')
+
+    def interrupt(*arguments: Any) -> None:
+        signal.raise_signal(signal.SIGTERM)
+
+    monkeypatch.setattr(train_balance, '_values', interrupt)
+    before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+    assert train('--folder', str(tmp_path)) == 0
+    assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
+    assert (tmp_path / 'stand.yaml').read_text() == 'mine'
+    assert not (tmp_path / 'stand.onnx').exists()
+
+
+def dies_once(trial: Trial) -> float:
+    """Return the gain; the process of the first episode is killed."""
+    mark = Path(os.environ['DIES_ONCE'])
+    if not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return float(trial.gains[0])
+
+
+def dies(trial: Trial) -> float:
+    """End the process."""
+    os._exit(3)
+
+
+def fails(trial: Trial) -> float:
+    """Raise an error."""
+    raise ValueError('no such thing')
+
+
+def test_a_process_that_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its episode runs again in another one."""
+    monkeypatch.setenv('DIES_ONCE', str(tmp_path / 'mark'))
+    trials = [Trial(np.array([float(each)]), each) for each in range(5)]
+    with EpisodeProcesses(dies_once, 2) as processes:
+        assert processes.earned(trials).tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+        assert processes.earned(trials[3:]).tolist() == [3.0, 4.0]
+    assert (tmp_path / 'mark').exists()
+
+
+@pytest.mark.parametrize(
+    ('run', 'reason'), [(dies, 'status 3'), (fails, 'ValueError: no such thing')]
+)
+def test_episodes_that_cannot_be_run(run: Callable[[Trial], float], reason: str) -> None:
+    """After a second attempt the training ends, and says why."""
+    with EpisodeProcesses(run, 1) as processes:
+        with pytest.raises(TrainingError, match=f'An episode cannot be run: .*{reason}'):
+            processes.earned([Trial(np.zeros(1), 0)])
 
 
 @pytest.mark.parametrize(
     ('arguments', 'sentence'),
     [
-        (['--candidates', '3'], "'3' is no number of at least 4."),
-        (['--minutes', '0'], "'0' is no number above zero."),
-        (['--steps', 'many'], "'many' is no number of at least 1."),
+        (['--candidates', '3'], "'3' is no whole number of at least 4."),
+        (['--minutes', '0'], "'0' is no number above zero"),
+        (['--minutes', 'nan'], "'nan' is no number above zero"),
+        (['--steps', 'many'], "'many' is no whole number of at least 1."),
+        (['--seed', '-1'], "'-1' is no whole number of at least 0."),
+        (['--strongest-ns', '61'], 'The robot survives no push of more than 60 N s.'),
+        (['--generations', '9' * 5000], 'is no whole number of at least 1.'),
     ],
 )
 def test_mistakes_in_arguments(
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    arguments: list[str],
-    sentence: str,
+    train: Train, capsys: pytest.CaptureFixture[str], arguments: list[str], sentence: str
 ) -> None:
     """Each is said, with status 2."""
-    monkeypatch.setattr(sys, 'argv', ['train_balance', *arguments])
     with pytest.raises(SystemExit) as caught:
-        train_balance.main()
+        train(*arguments)
     assert caught.value.code == 2
     assert sentence in capsys.readouterr().err
