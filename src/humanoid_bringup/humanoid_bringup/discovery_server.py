@@ -5,10 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 import errno
+import fcntl
 from ipaddress import AddressValueError, IPv4Address
+import os
 import socket
+import struct
 from typing import NamedTuple, Optional
 
+from humanoid_bringup.launch_arguments import whole_number
+from humanoid_common.naming import shortened
 from launch import Action, LaunchContext
 from launch.actions import ExecuteProcess, LogInfo, RegisterEventHandler, Shutdown
 from launch.event_handlers import OnProcessIO
@@ -20,8 +25,11 @@ __all__ = ['DEFAULT_PORT', 'ServerSettings', 'discovery_server', 'instructions']
 DEFAULT_PORT = 11811
 LARGEST_ID = 255
 PORTS = range(1025, 65536)
+EACH, LOOPBACK = '0.0.0.0', '127.0.0.1'
 _STARTED = 'Server is running'
 _ELSEWHERE = ('192.0.2.1', 9)  # reserved for documentation; nothing is sent there
+_SIOCGIFADDR = 0x8915
+_ADDRESS = slice(20, 24)  # in the answer: sin_addr of ifr_addr
 
 
 class ServerSettings(NamedTuple):
@@ -52,28 +60,27 @@ class ServerSettings(NamedTuple):
             A text is not within its range.
 
         """
-        try:
-            if address:
-                IPv4Address(address)
-        except AddressValueError:
-            raise ValueError(
-                f"Launch argument 'address' is '{address}', but must be an IPv4 address of this "
-                "machine, such as 'address:=192.168.1.2'."
-            ) from None
         return cls(
-            address,
-            _number('port', port, PORTS),
-            _number('server_id', server_id, range(LARGEST_ID + 1)),
+            _own_address(address),
+            whole_number('port', port, PORTS, DEFAULT_PORT),
+            whole_number('server_id', server_id, range(LARGEST_ID + 1), 1),
         )
 
 
-def _number(name: str, text: str, allowed: range) -> int:
-    if not (text.isascii() and text.isdigit() and int(text) in allowed):
+def _own_address(text: str) -> str:
+    """Check the text of an address of this machine; '' is each of them."""
+    try:
+        address = IPv4Address(text or EACH)
+    except AddressValueError:
+        address = None
+    if str(address) == EACH:
+        return ''
+    if address is None or address.is_multicast or address.is_reserved:
         raise ValueError(
-            f"Launch argument '{name}' is '{text}', but must be a whole number from "
-            f'{allowed[0]} to {allowed[-1]}.'
+            f"Launch argument 'address' is '{shortened(text)}', but must be an IPv4 address of "
+            "this machine, such as 'address:=192.168.1.2'."
         )
-    return int(text)
+    return text
 
 
 def discovery_server(context: LaunchContext) -> Sequence[Action]:
@@ -153,13 +160,20 @@ def _announcer(settings: ServerSettings) -> Callable[[ProcessIO], Optional[Actio
         printed.append(event.text.decode(errors='replace'))
         if _STARTED in before or _STARTED not in ''.join(printed):
             return None
-        return LogInfo(msg=instructions(settings, own_address()))
+        return LogInfo(msg=instructions(settings, own_addresses()))
 
     return hear
 
 
-def own_address() -> str:
-    """Return the IPv4 address at which other machines reach this one; '' without a network."""
+def own_addresses() -> list[str]:
+    """List the IPv4 addresses at which other machines may reach this one, the likeliest first."""
+    found = [_address_of_route(), *(_address_of(name) for _, name in socket.if_nameindex())]
+    reached = (each for each in found if each and not IPv4Address(each).is_loopback)
+    return list(dict.fromkeys(reached))
+
+
+def _address_of_route() -> str:
+    """Return the address of this machine on the way to others; '' without a default route."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
         try:
             asked.connect(_ELSEWHERE)
@@ -168,7 +182,18 @@ def own_address() -> str:
         return str(asked.getsockname()[0])
 
 
-def instructions(settings: ServerSettings, network_address: str) -> str:
+def _address_of(interface: str) -> str:
+    """Return the IPv4 address of a network interface; '' if it has none."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        request = struct.pack('256s', os.fsencode(interface))
+        try:
+            answer = fcntl.ioctl(asked.fileno(), _SIOCGIFADDR, request)
+        except OSError:
+            return ''
+        return socket.inet_ntoa(answer[_ADDRESS])
+
+
+def instructions(settings: ServerSettings, own: Sequence[str]) -> str:
     """
     Format what to type in the terminals that use the server.
 
@@ -176,21 +201,23 @@ def instructions(settings: ServerSettings, network_address: str) -> str:
     ----------
     settings
         The settings of the server.
-    network_address
-        The address of this machine for others, which is shown if the server listens at each
-        address; '' without a network.
+    own
+        The addresses of this machine for others, which are shown if the server listens at each
+        address; none without a network.
 
     """
-    address = settings.address or network_address or '127.0.0.1'
-    is_shared = not IPv4Address(address).is_loopback
-    listed = f'{";" * settings.server_id}{address}:{settings.port}'
+    hosts = [settings.address] if settings.address else [*own, LOOPBACK][: max(1, len(own))]
+    is_shared = not IPv4Address(hosts[0]).is_loopback
+    listed = f'{";" * settings.server_id}{hosts[0]}:{settings.port}'
     quoted = f"'{listed}'" if settings.server_id else listed
     where = 'on this machine and on the others' if is_shared else 'on this machine only'
+    others = ' or '.join(hosts[1:])
     return '\n'.join(
         [
-            f'The discovery server runs at {address}:{settings.port}. To use it, type this in '
+            f'The discovery server runs at {hosts[0]}:{settings.port}. To use it, type this in '
             f'each terminal, {where}, before you start nodes there:',
             *['    export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET'] * is_shared,
             f'    export ROS_DISCOVERY_SERVER={quoted}',
+            *[f'Machines in another network of this one use {others} instead.'] * bool(others),
         ]
     )

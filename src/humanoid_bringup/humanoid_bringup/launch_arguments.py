@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from humanoid_common.naming import shortened
 from launch import Substitution
 from launch.substitutions import EqualsSubstitution, IfElseSubstitution, LaunchConfiguration
 
-__all__ = ['is_simulated', 'robot_namespaces', 'robot_time']
+__all__ = ['is_simulated', 'robot_namespaces', 'robot_time', 'whole_number']
 
 MOST_ROBOTS = 50
+_DIGITS = 9
+"""Whole numbers have no more digits than this."""
 
 
 def is_simulated() -> Substitution:
@@ -37,15 +40,33 @@ def robot_namespaces(count: str) -> list[str]:
         The text is not an integer within that range.
 
     """
-    is_number = count.isascii() and count.isdigit()
-    if not is_number or not 1 <= int(count) <= MOST_ROBOTS:
-        raise ValueError(_refusal(count))
-    return [f'robot{index}' for index in range(1, int(count) + 1)]
+    robots = whole_number('robots', count, range(1, MOST_ROBOTS + 1), 3)
+    return [f'robot{index}' for index in range(1, robots + 1)]
 
 
-def _refusal(count: str) -> str:
-    """Build the error message for an invalid count."""
-    return (
-        f"Launch argument 'robots' is '{count}', but must be a whole number "
-        f"from 1 to {MOST_ROBOTS}. Pass for example 'robots:=3'."
-    )
+def whole_number(name: str, text: str, allowed: range, example: int) -> int:
+    """
+    Read a launch argument that is a whole number.
+
+    Parameters
+    ----------
+    name, text
+        The argument, and its text.
+    allowed
+        The numbers that it may be.
+    example
+        One of them, for the message.
+
+    Raises
+    ------
+    ValueError
+        The text is none of them.
+
+    """
+    is_number = text.isascii() and text.isdigit() and len(text) <= _DIGITS
+    if not is_number or int(text) not in allowed:
+        raise ValueError(
+            f"Launch argument '{name}' is '{shortened(text)}', but must be a whole number from "
+            f"{allowed[0]} to {allowed[-1]}. Pass for example '{name}:={example}'."
+        )
+    return int(text)

@@ -16,7 +16,7 @@ def generate_launch_description() -> LaunchDescription:
                 'address',
                 default_value='',
                 description='The address of this machine at which nodes reach the server; each '
-                'of them if empty.',
+                'of them if empty, or 0.0.0.0.',
             ),
             DeclareLaunchArgument(
                 'port',

@@ -9,7 +9,13 @@ import shutil
 import signal
 import socket
 
-from humanoid_bringup.discovery_server import check_port, instructions, ServerSettings
+from humanoid_bringup import discovery_server
+from humanoid_bringup.discovery_server import (
+    check_port,
+    instructions,
+    own_addresses,
+    ServerSettings,
+)
 from humanoid_common.testing.launching import running_launch_file
 import pytest
 
@@ -45,22 +51,46 @@ def test_server_says_what_to_type_and_ends(port: int) -> None:
 
 def test_what_to_type() -> None:
     """Other machines need the network, and the address of this one."""
-    shared = instructions(ServerSettings('', 11811, 0), '192.0.2.7')
+    shared = instructions(ServerSettings('', 11811, 0), ['192.0.2.7'])
     assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET\n' in shared
     assert shared.endswith('    export ROS_DISCOVERY_SERVER=192.0.2.7:11811')
-    for settings, own in ((('', 11811, 0), ''), ((LOOPBACK, 11811, 0), '192.0.2.7')):
+    for settings, own in ((('', 11811, 0), []), ((LOOPBACK, 11811, 0), ['192.0.2.7'])):
         alone = instructions(ServerSettings(*settings), own)
         assert 'on this machine only' in alone and 'SUBNET' not in alone
         assert alone.endswith(f'    export ROS_DISCOVERY_SERVER={LOOPBACK}:11811')
+    two = instructions(ServerSettings('', 11811, 0), ['192.0.2.7', '198.51.100.7'])
+    assert two.endswith('Machines in another network of this one use 198.51.100.7 instead.')
+
+
+def test_each_address_of_this_machine() -> None:
+    """An address that means each one is shown to nobody: no other machine could use it."""
+    settings = ServerSettings.parse('0.0.0.0', '11811', '0')  # noqa: S104
+    assert settings == ServerSettings.parse('', '11811', '0')
+    assert '0.0.0.0' not in instructions(settings, own_addresses())  # noqa: S104
+
+
+def test_addresses_without_a_default_route(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on a robot with a network of its own, the addresses of the interfaces are known."""
+    known = own_addresses()
+    monkeypatch.setattr(discovery_server, '_address_of_route', lambda: '')
+    assert set(own_addresses()) == set(known)
+    assert discovery_server._address_of('lo') == LOOPBACK
+    assert discovery_server._address_of('no_such_one') == ''
 
 
 @pytest.mark.parametrize(
     ('texts', 'reason'),
     [
         (('robot', '11811', '0'), "'address' is 'robot', but must be an IPv4 address"),
+        (('224.0.0.1', '11811', '0'), "'address' is '224.0.0.1', but must be an IPv4 address of"),
+        (('255.255.255.255', '11811', '0'), "'address' is '255.255.255.255'"),
         (('', '80', '0'), "'port' is '80', but must be a whole number from 1025 to 65535"),
         (('', '11811', '256'), "'server_id' is '256', but must be .* from 0 to 255"),
         (('', '1e4', '0'), "'port' is '1e4'"),
+        (('', '-1', '0'), "'port' is '-1'.*Pass for example 'port:=11811'"),
+        (('', '99999', '0'), "'port' is '99999'"),
+        (('', '9' * 5000, '0'), "'port' is '9{80}...'"),
+        (('', '', '0'), "'port' is ''"),
     ],
 )
 def test_impossible_settings(texts: tuple[str, str, str], reason: str) -> None:
