@@ -13,7 +13,7 @@ from typing import Any
 from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph.graph import Graph
-from ros2cli.graph.probe import ask_server
+from ros2cli.graph.probe import ask_server, ask_servers
 from ros2cli.graph.servers import as_super_client, read_servers, Server, SERVERS, SUPER_CLIENT
 from ros2cli.graph.watch import GraphWatch
 from ros2cli.rtps.super_client import server_number, server_prefix
@@ -138,6 +138,35 @@ def test_a_server_is_asked(server: Server) -> None:
     assert "'robot.invalid', which cannot be resolved" in unknown.error
     refused = ask_server(Server(0, LOOPBACK, free_port(), 'TCPv4'))
     assert refused.error == 'no program listens at this port there'
+
+
+def test_servers_are_asked_at_the_same_time(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name that the resolver does not give up keeps nobody waiting."""
+    never = threading.Event()
+
+    def resolve(host: str) -> str:
+        if host == 'slow':
+            never.wait()
+        return host
+
+    monkeypatch.setattr(socket, 'gethostbyname', resolve)
+    silent = Server(2, 'slow', 11811)
+    try:
+        answers = ask_servers([server, silent], patience_s=3.0)
+    finally:
+        never.set()
+    assert answers == (
+        (server, 0, ''), (silent, None, 'its name could not be resolved within 3 s')
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize('kind', ['UDPv4', 'TCPv4'])
+@pytest.mark.parametrize('host', ['a..b', 'x' * 64, '.'])
+def test_names_that_no_machine_can_have(host: str, kind: str) -> None:
+    """They are a reason as any other."""
+    assert ask_server(Server(0, host, 11811, kind)).error
 
 
 def test_a_program_that_is_no_server() -> None:

@@ -34,7 +34,7 @@ from ros2doctor.check.nodes import (
 )
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, Script, script_findings
-from ros2doctor.check.servers import Discovery, server_findings
+from ros2doctor.check.servers import Discovery, server_findings, ServersReport
 from ros2doctor.check.transports import CLEAN_UP, read_shared_memory, SharedMemory
 from ros2doctor.check.wheels import install_command, wheel_findings, Wheels
 from ros2doctor.check.workspace import PackageState, Workspace, workspace_findings
@@ -262,6 +262,7 @@ def test_network_without_fault(network: Network) -> None:
             {'ROS_DOMAIN_ID': 'x'},
             "ERROR: ROS_DOMAIN_ID is 'x', which is not a whole number from 0 t",
         ),
+        ({'ROS_DOMAIN_ID': '²'}, "ERROR: ROS_DOMAIN_ID is '²'"),
         ({'ROS_DOMAIN_ID': '233'}, "ERROR: ROS_DOMAIN_ID is '233'"),
         ({'ROS_DOMAIN_ID': '102'}, 'WARNING: the ports of domain 102 start at 32900, among the'),
         ({'FASTRTPS_DEFAULT_PROFILES_FILE': '/x'}, 'WARNING: FASTRTPS_DEFAULT_PROFILES_FILE name'),
@@ -334,6 +335,13 @@ def test_discovery_servers() -> None:
     assert finding.what.startswith('the discovery server at robot:11811 has the ID 2, but')
     assert finding.mend == "export ROS_DISCOVERY_SERVER=';;robot:11811', or start it with -i 0"
     assert not sentences(server_findings(Discovery({}, (Answer(first, 0), Answer(second)))))
+
+
+def test_report_of_a_mistake_in_the_servers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It does not say that there is no server."""
+    monkeypatch.setenv('ROS_DISCOVERY_SERVER', '127.0.0.1:abc')
+    items = dict(ServersReport().report().items)
+    assert items['servers'].startswith("ROS_DISCOVERY_SERVER has the entry '127.0.0.1:abc'")
 
 
 def test_variables_of_discovery_servers(network: Network) -> None:

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import select
 import socket
+import threading
 import time
 from typing import NamedTuple
 
@@ -15,6 +17,7 @@ from ros2cli.rtps.message import sender
 from ros2cli.rtps.super_client import server_number
 
 TIMEOUT_S = 1.0
+PATIENCE_S = 3.0
 PERIOD_S = 0.1
 MAX_DATAGRAM_BYTES = 65536
 
@@ -31,6 +34,43 @@ class Answer(NamedTuple):
     server: Server
     number: int | None = None
     error: str = ''
+
+
+def ask_servers(
+    servers: Sequence[Server], timeout_s: float = TIMEOUT_S, patience_s: float = PATIENCE_S
+) -> tuple[Answer, ...]:
+    """
+    Ask several addresses at the same time whether a discovery server answers.
+
+    Parameters
+    ----------
+    servers
+        The servers.
+    timeout_s
+        How long to wait for an answer, in s.
+    patience_s
+        How long to wait for all of them, in s: to resolve a name may take much longer.
+
+    Returns
+    -------
+    tuple of Answer
+        The answers, in the order of the servers.
+
+    """
+    answers: dict[Server, Answer] = {}
+
+    def ask(server: Server) -> None:
+        answers[server] = ask_server(server, timeout_s)
+
+    # The resolver cannot be interrupted, and nobody waits for a daemon at the end.
+    threads = [threading.Thread(target=ask, args=(each,), daemon=True) for each in servers]
+    for thread in threads:
+        thread.start()
+    end_s = time.monotonic() + patience_s
+    for thread in threads:
+        thread.join(max(0.0, end_s - time.monotonic()))
+    late = f'its name could not be resolved within {patience_s:g} s'
+    return tuple(answers.get(each) or Answer(each, error=late) for each in servers)
 
 
 def ask_server(server: Server, timeout_s: float = TIMEOUT_S) -> Answer:
@@ -54,7 +94,7 @@ def ask_server(server: Server, timeout_s: float = TIMEOUT_S) -> Answer:
         return Answer(server, error='no program listens at this port there')
     except OSError as error:
         return Answer(server, error=error.strerror or str(error) or type(error).__name__)
-    except RuntimeError as error:
+    except (RuntimeError, UnicodeError) as error:  # the latter for names that none can have
         return Answer(server, error=str(error))
 
 

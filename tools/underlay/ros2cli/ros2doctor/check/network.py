@@ -218,7 +218,7 @@ def _server_hosts(variables: Mapping[str, str]) -> list[str]:
 
 def _domain(facts: Network) -> Iterator[Finding]:
     text = facts.variables.get('ROS_DOMAIN_ID') or '0'
-    if not text.isdigit() or int(text) > MAX_DOMAIN_ID:
+    if not text.isdecimal() or int(text) > MAX_DOMAIN_ID:
         yield Finding(
             Severity.ERROR,
             f"ROS_DOMAIN_ID is '{text}', which is not a whole number from 0 to {MAX_DOMAIN_ID}",

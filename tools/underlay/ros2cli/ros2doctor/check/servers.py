@@ -10,7 +10,7 @@ from pathlib import Path
 import re
 import shutil
 
-from ros2cli.graph.probe import Answer, ask_server
+from ros2cli.graph.probe import Answer, ask_servers
 from ros2cli.graph.servers import read_servers, SERVERS, SUPER_CLIENT
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 from ros2doctor.check.wheels import environment_prefix
@@ -47,7 +47,7 @@ def read_discovery() -> Discovery:
     answers: tuple[Answer, ...] = ()
     mistake = ''
     try:
-        answers = tuple(ask_server(each) for each in read_servers())
+        answers = ask_servers(read_servers())
     except RuntimeError as error:
         mistake = str(error)
     library = _library()
@@ -174,7 +174,9 @@ class ServersReport(DoctorReport):
         report.add_to_report('super client', facts.variables.get(SUPER_CLIENT, '') or 'FALSE')
         for each in facts.answers:
             report.add_to_report(f'server {each.server.number}', _state(each))
-        if not facts.answers:
+        if facts.mistake:
+            report.add_to_report('servers', facts.mistake)
+        elif not facts.answers:
             report.add_to_report('servers', 'none: nodes discover each other')
         return report
 
