@@ -159,6 +159,34 @@ def test_what_was_said_before_the_grammar_came(
         assert set(ear.transcripts) == {'stop'}
 
 
+def test_what_was_said_before_it_was_switched_off(ros: RosSandbox, ear: Ear) -> None:
+    """It is not obeyed when a grammar comes later."""
+    node = ros.start(SpeechRecognizer)
+    ros.wait_until(lambda: ear.audio.get_subscription_count() == 1, what='the recogniser')
+    ros.wait_until(lambda: ear.count_publishers('speech/result') == 1, what='its results')
+    ear.speak(GO_TO_THE_KITCHEN)
+    ros.wait_until(lambda: len(ear.results) == 1, what='a result')
+    switch = ear.create_client(SetBool, 'speech_recognizer/enable')
+    ros.wait_until(switch.service_is_ready, what='the service')
+    for is_on in (False, True):
+        called = switch.call_async(SetBool.Request(data=is_on))
+        ros.wait_until(called.done, what='an answer')
+    ear.grammar.publish(String(data=GRAMMAR))
+    ros.wait_until(lambda: node.count_publishers('speech/grammar') == 1, what='the grammar')
+    speak_until(ros, ear, STOP, 'stop')
+    assert set(ear.transcripts) == {'stop'}
+
+
+def test_a_grammar_is_taken_while_sound_is_lost(
+    ros: RosSandbox, ear: Ear, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is published only once, so that nothing would be recognized any more."""
+    monkeypatch.setattr(speech_recognizer, '_LONGEST_QUEUE', 0)
+    node = ros.start(SpeechRecognizer)
+    ear.grammar.publish(String(data=GRAMMAR))
+    ros.wait_until(lambda: node._listener.is_ready, what='the grammar')
+
+
 def test_the_robot_does_not_hear_itself(
     ros: RosSandbox, ear: Ear, recognizer: SpeechRecognizer
 ) -> None:

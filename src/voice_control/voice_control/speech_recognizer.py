@@ -7,7 +7,7 @@ from collections.abc import Callable
 import math
 import os
 from pathlib import Path
-from queue import Full, Queue
+from queue import Queue
 import sys
 import threading
 import time
@@ -47,6 +47,7 @@ from voice_control.whisper import FasterWhisper, TranscriptionServer, WhisperCpp
 __all__ = ['SpeechRecognizer', 'main']
 
 _LONGEST_QUEUE = 400
+"""How many pieces of sound wait for the worker thread at most; what is no sound always waits."""
 _END_S = 2.0
 _ECHO_S = 0.3
 """How long after its own speech the robot does not listen."""
@@ -145,7 +146,7 @@ class SpeechRecognizer(Node):
         self.create_subscription(Bool, 'speech/speaking', self._mute, LATCHED)
         self.create_service(SetBool, '~/enable', self._enable)
         self._diagnostics = Diagnostics(self, self._status)
-        self._queue: Queue[Work | None] = Queue(_LONGEST_QUEUE)
+        self._queue: Queue[Work | None] = Queue()
         self._worker = threading.Thread(target=self._work, name='recognizer', daemon=True)
         self._worker.start()
         self.get_logger().info(f'Recognizing speech with {self._title}.')
@@ -153,11 +154,8 @@ class SpeechRecognizer(Node):
     def destroy_node(self) -> None:
         """Also end the worker thread."""
         self._is_enabled = False
-        try:
-            self._queue.put(None, timeout=_END_S)
-        except Full:
-            pass  # the thread is a daemon
-        self._worker.join(_END_S)
+        self._queue.put(None)
+        self._worker.join(_END_S)  # it is a daemon if it takes longer
         super().destroy_node()
 
     # Input
@@ -166,35 +164,37 @@ class SpeechRecognizer(Node):
         now_s = self._sound_s = time.monotonic()
         if self._is_enabled and not self._is_speaking and now_s >= self._quiet_until_s:
             sound = message.data.tobytes()
-            self._do(lambda: self._add(sound))
+            if self._queue.qsize() < _LONGEST_QUEUE:
+                self._queue.put(lambda: self._add(sound))
+            else:
+                self._lose()
+
+    def _lose(self) -> None:
+        """Count sound for which the worker thread is too far behind."""
+        self._lost += 1
+        self.get_logger().warning(
+            'Speech arrives faster than it can be recognized: some of it is lost.',
+            throttle_duration_sec=10.0,
+        )
 
     def _take_grammar(self, message: String) -> None:
-        self._do(lambda: self._set_grammar(message.data))
+        self._queue.put(lambda: self._set_grammar(message.data))
 
     def _mute(self, message: Bool) -> None:
         """Suspend recognition while the robot itself speaks."""
         if self._is_speaking and not message.data:
             self._quiet_until_s = time.monotonic() + _ECHO_S
         self._is_speaking = message.data
-        self._do(self._segmenter.reset)
+        self._queue.put(self._segmenter.reset)
 
     def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         self._is_enabled = request.data
-        self._do(self._segmenter.reset)
+        self._queue.put(self._segmenter.reset)
+        if not request.data:
+            self._queue.put(self._early.clear)  # nobody expects it to be obeyed later
         response.success = True
         response.message = 'listening' if request.data else 'not listening'
         return response
-
-    def _do(self, work: Work) -> None:
-        """Queue work for the worker thread, unless that is far behind."""
-        try:
-            self._queue.put_nowait(work)
-        except Full:
-            self._lost += 1
-            self.get_logger().warning(
-                'Speech arrives faster than it can be recognized: some of it is lost.',
-                throttle_duration_sec=10.0,
-            )
 
     # Worker thread
 
@@ -213,7 +213,7 @@ class SpeechRecognizer(Node):
             elif not self._listener.is_ready:
                 now_s = time.monotonic()
                 recent = [each for each in self._early if now_s - each[0] < _EARLY_S]
-                self._early = [*recent, (now_s, utterance)]
+                self._early[:] = [*recent, (now_s, utterance)]
             self._hand_over(heard)
 
     def _hand_over(self, heard: Heard) -> None:
@@ -234,7 +234,8 @@ class SpeechRecognizer(Node):
                 f'The pronunciation of {words} is unknown, so it cannot be recognized: add it to '
                 'a dictionary file, and set dictionary_file to its path.'
             )
-        early, self._early = self._early, []
+        early = self._early.copy()
+        self._early.clear()
         for said_s, utterance in early:
             if time.monotonic() - said_s < _EARLY_S:
                 self._hand_over(self._listener.hear(utterance))
