@@ -16,8 +16,9 @@ import math
 import multiprocessing
 
 from arguments import in_range
+from humanoid_common.errors import UserError
 from humanoid_control.hosting.policies import policy_path
-from humanoid_control.policy import Policy, PolicyError
+from humanoid_control.policy import Policy
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
@@ -64,7 +65,7 @@ def main() -> None:
     try:
         if 'policy' in options.modes:
             use(options.policy, LockstepRobot(BackendSettings()))
-    except PolicyError as error:
+    except UserError as error:
         parser.error(str(error))
     trials = [
         Trial(mode, impulse, direction, options.noise, options.policy)
@@ -117,7 +118,7 @@ def use(policy: str, robot: LockstepRobot) -> None:
 
     Raises
     ------
-    PolicyError
+    UserError
         It cannot be run.
 
     """

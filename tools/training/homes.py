@@ -9,11 +9,10 @@ import math
 from typing import Any
 
 from home_colours import band, surface_colour, thing_colour, TRAINING
+from humanoid_common.tables import SourceLocation, Table
 from humanoid_simulation.scene import Scene, scene_of
 from humanoid_simulation.scene.furniture import KINDS
 from humanoid_simulation.scene.objects import CLASSES as GRASPABLE
-from humanoid_simulation.source_location import SourceLocation
-from humanoid_simulation.tables import Table
 import numpy as np
 from pictures import CLASSES
 

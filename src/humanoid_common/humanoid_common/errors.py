@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Errors that end a node with a message."""
+"""Errors whose messages are meant for users."""
 
 from __future__ import annotations
 
 
-class NodeStartError(Exception):
+class UserError(Exception):
     """
-    A node cannot start, or cannot continue.
+    What was given cannot be used.
 
     The message is shown to the user as it is: sentences that state what is wrong and what to do.
     """
+
+
+class NodeStartError(UserError):
+    """A node cannot start, or cannot continue."""

@@ -6,10 +6,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeVar
 
+from humanoid_common.errors import UserError
+
 T = TypeVar('T')
 
 
-class SimulationError(Exception):
+class SimulationError(UserError):
     """A request that the simulator rejects, or a failure; its message is meant for users."""
 
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from humanoid_common.tables import load_table, Table
 from humanoid_control.backends import Array
 from humanoid_simulation.errors import named
 from humanoid_simulation.files import share
-from humanoid_simulation.tables import load_table, Table
 import numpy as np
 
 SIDES = {'left_': 1.0, 'right_': -1.0}

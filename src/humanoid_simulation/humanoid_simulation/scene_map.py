@@ -9,6 +9,7 @@ from pathlib import Path
 import signal
 import sys
 
+from humanoid_common.errors import UserError
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.files import replace_file
 from humanoid_simulation.scene.loading import load_scene
@@ -44,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         )
         stem = arguments.output or Path(scene.name)
         picture, table = write_map(drawn, stem)
-    except SimulationError as error:
+    except UserError as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -9,7 +9,7 @@ from pathlib import Path
 import signal
 import sys
 
-from humanoid_simulation.errors import SimulationError
+from humanoid_common.errors import UserError
 from humanoid_simulation.files import replace_file
 from humanoid_simulation.scene.loading import load_scene
 from humanoid_simulation.scene.outlines import rectangle
@@ -59,7 +59,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         scene = load_scene(arguments.scene)
         path = arguments.output or Path(f'places_{scene.name}.yaml')
         replace_file(path, places_text(scene).encode())
-    except SimulationError as error:
+    except UserError as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:

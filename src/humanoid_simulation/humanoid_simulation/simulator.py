@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import NodeStartError, UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.diagnostics import DuplicatePublisherCheck, HostDiagnostics, Speed
@@ -18,7 +18,6 @@ from humanoid_control.hosting.topics.filling import topic
 from humanoid_description.errors import DescriptionError
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.entity_services import EntityServices
-from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.model.description import in_world
 from humanoid_simulation.pacing import Pacer
 from humanoid_simulation.simulated_robots import simulated_robots, SimulatedRobots
@@ -99,7 +98,7 @@ class Simulator(Node):
         """Build the world, or raise NodeStartError."""
         try:
             return simulated_robots(parameters, Refusals(self.get_logger().error).add)
-        except (DescriptionError, SimulationError) as error:
+        except (DescriptionError, UserError) as error:
             raise NodeStartError(f'The simulator cannot start. {error}') from error
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:

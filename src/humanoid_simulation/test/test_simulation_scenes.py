@@ -142,7 +142,7 @@ def test_the_friction_of_the_floor_decides(make_backend) -> None:
             'plates: [{name: p, from: [0, 0], to: [1, 1], edge: [1.0e-320, 0.1], height: 0.02}]',
             'room for 1 to 2000 plates',
         ),
-        ('plates: [{name: p, seed: -1}]', 'seed must be a whole number of zero or more'),
+        ('plates: [{name: p, seed: -1}]', 'seed must be a whole number of at least 0'),
         ('a: [', 'is not a valid YAML file'),
         ('- 1', 'must be a mapping of names to values'),
     ],

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from humanoid_common.tables import load_table, table_of
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.sweep.conditions import Conditions, conditions_of, values_to_store
 from humanoid_simulation.sweep.experiment import Experiment, experiment_of, overrides_of
-from humanoid_simulation.tables import load_table, table_of
 import pytest
 
 EXPERIMENTS = Path(__file__).parents[1] / 'experiments'

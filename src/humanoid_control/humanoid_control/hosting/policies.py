@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Protocol
 
 from ament_index_python.packages import get_package_share_directory
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
 from humanoid_control.controllers.modes import POLICY
 from humanoid_control.hosting.parameters import HostParameters
-from humanoid_control.policy.checked_table import PolicyError
 from humanoid_control.policy.controller import PolicyController
 from humanoid_control.policy.policy import Policy
+from humanoid_control.policy.policy_file import PolicyError
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -67,7 +68,7 @@ class Policies:
         if parameters.mode == POLICY:
             try:
                 self._load(self._name)
-            except PolicyError as error:
+            except UserError as error:
                 node.get_logger().error(f'{error} The robot holds its pose.')
             self._apply([])
 
@@ -78,7 +79,7 @@ class Policies:
         if 'policy' in given or given.get('mode') == POLICY:
             try:
                 self._load(str(given.get('policy', self._name)))
-            except PolicyError as error:
+            except UserError as error:
                 return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 

@@ -9,8 +9,8 @@ from typing import Protocol
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers.modes import DOWN, Hold, Mode, POLICY
-from humanoid_control.policy.checked_table import PolicyError
 from humanoid_control.policy.policy import Policy, PolicyRobot
+from humanoid_control.policy.policy_file import PolicyError
 from humanoid_control.walking.commands import STANDING, VelocityCommand
 import numpy as np
 

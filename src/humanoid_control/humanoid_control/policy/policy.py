@@ -93,7 +93,7 @@ class Policy:
 
         Raises
         ------
-        PolicyError
+        UserError
             A file is missing or has a mistake, or does not fit to the robot.
 
         """

@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
 from pathlib import Path
+from typing import Any
 
+from humanoid_common.errors import UserError
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_common.tables import load_table, Table
 from humanoid_control.backends import Array
-from humanoid_control.policy.checked_table import CheckedTable, PolicyError
 import numpy as np
-import yaml
 
 JOINTS = 0
 """Stands for a size that is the number of joints."""
@@ -27,6 +29,10 @@ TERMS = {
 BY_TERM, BY_STEP = 'by_term', 'by_step'
 FASTEST_HZ = 500.0
 MOST_HISTORY = 100
+
+
+class PolicyError(UserError):
+    """A policy cannot be run; the message says why, and what to do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,55 +102,101 @@ def read_policy_file(path: Path) -> PolicyFile:
 
     Raises
     ------
-    PolicyError
+    TableError
         It cannot be read, or has a mistake.
 
     """
-    try:
-        content = yaml.safe_load(path.read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError) as error:
-        raise PolicyError(
-            f"The policy file '{path}' cannot be read: {error}. Give the path of a YAML file."
-        ) from None
-    except yaml.YAMLError as error:
-        raise PolicyError(f"The policy file '{path}' is not YAML: {error}.") from None
-    table = CheckedTable(path, '', content)
+    table = load_table(path)
     table.allow(
         'model', 'rate_hz', 'joints', 'default_rad', 'kp_nm_rad', 'kd_nm_s_rad',
         'torque_limit_nm', 'action', 'observation',
     )  # fmt: skip
-    joints = table.names('joints')
+    joints = table.words('joints')
     action, observation = table.table('action'), table.table('observation')
     action.allow('scale_rad', 'clip')
     observation.allow('terms', 'history_length', 'history_order', 'clip')
-    lower, upper = action.bounds('clip', joints)
-    limit_nm = table.positive('torque_limit_nm', joints)
+    lower, upper = _bounds(action, 'clip', joints)
+    limit_nm = _positive(table, 'torque_limit_nm', joints)
     return PolicyFile(
         path=path,
         model=path.parent / table.text('model'),
-        rate_hz=table.number('rate_hz', 1.0, FASTEST_HZ),
+        rate_hz=table.number('rate_hz', None, 1.0, FASTEST_HZ),
         joints=joints,
-        default_rad=table.vector('default_rad', joints),
-        kp_nm_rad=table.positive('kp_nm_rad', joints),
-        kd_nm_s_rad=table.positive('kd_nm_s_rad', joints),
+        default_rad=_finite(table, 'default_rad', joints),
+        kp_nm_rad=_positive(table, 'kp_nm_rad', joints),
+        kd_nm_s_rad=_positive(table, 'kd_nm_s_rad', joints),
         torque_limit_nm=np.full(len(joints), np.inf) if limit_nm is None else limit_nm,
-        action_scale_rad=action.vector('scale_rad', joints),
+        action_scale_rad=_finite(action, 'scale_rad', joints),
         action_lower=lower,
         action_upper=upper,
         terms=_terms(observation, joints),
-        history_length=observation.count('history_length', MOST_HISTORY),
-        history_order=observation.choice('history_order', (BY_TERM, BY_STEP)),
-        observation_clip=observation.number('clip', 0.0, math.inf, math.inf),
+        history_length=observation.integer('history_length', 1, 1, MOST_HISTORY),
+        history_order=observation.choice('history_order', (BY_TERM, BY_STEP), BY_TERM),
+        observation_clip=observation.number('clip', math.inf, 0.0),
     )
 
 
-def _terms(observation: CheckedTable, joints: Sequence[str]) -> tuple[Term, ...]:
+def _terms(observation: Table, joints: Sequence[str]) -> tuple[Term, ...]:
     """Read the terms of the observation, in their order."""
     terms = []
     for each in observation.tables('terms'):
         each.allow('name', 'scale', 'clip')
-        name = each.choice('name', tuple(TERMS), is_needed=True)
+        name = each.choice('name', tuple(TERMS))
         among = joints if TERMS[name] == JOINTS else [str(axis) for axis in range(TERMS[name])]
-        scale = each.vector('scale', among, np.ones(len(among)))
-        terms.append(Term(name, len(among), scale, *each.bounds('clip', among)))
+        scale = _finite(each, 'scale', among) if each.has('scale') else np.ones(len(among))
+        terms.append(Term(name, len(among), scale, *_bounds(each, 'clip', among)))
+    if not terms:
+        raise observation.at('terms').error('Nothing is observed. Give at least one term.')
     return tuple(terms)
+
+
+def _finite(table: Table, name: str, among: Sequence[str]) -> Array:
+    """Read a finite number for each joint or axis."""
+    values = _each(table, name, among, table.value(name))
+    if not np.isfinite(values).all():
+        raise table.at(name).wrong('finite', table.value(name))
+    return values
+
+
+def _positive(table: Table, name: str, among: Sequence[str]) -> Array | None:
+    """Read a number of zero or more for each joint or axis; None if the file gives none."""
+    if not table.has(name):
+        return None
+    values = _finite(table, name, among)
+    if (values < 0.0).any():
+        raise table.at(name).wrong('zero or more', float(values.min()))
+    return values
+
+
+def _bounds(table: Table, name: str, among: Sequence[str]) -> tuple[Array, Array]:
+    """Read the least and the largest value for each joint or axis; infinite if not given."""
+    pair = table.value(name) if table.has(name) else [-math.inf, math.inf]
+    if not isinstance(pair, list) or len(pair) != 2:
+        raise table.at(name).wrong('a list of two bounds', pair)
+    lower, upper = (_each(table, name, among, each) for each in pair)
+    if (lower > upper).any():
+        raise table.at(name).wrong('two bounds, the lower one first', pair)
+    return lower, upper
+
+
+def _each(table: Table, name: str, among: Sequence[str], value: Any) -> Array:
+    """Spread a value: one number is for all, a list has their order, a table has their names."""
+    place = table.at(name)
+    if value is None:
+        raise table.place.missing(name)
+    if isinstance(value, Mapping):
+        for key in value:
+            if key not in among:
+                hint = did_you_mean(str(key), among) or f'Valid names: {", ".join(among)}.'
+                raise place.error(f"{place.name} names an unknown '{shortened(str(key))}'. {hint}")
+        value = [value.get(key) for key in among]
+    values = value if isinstance(value, list) else [value] * len(among)
+    if len(values) != len(among) or not all(map(_is_number, values)):
+        raise place.wrong(f'a number, or {len(among)} of them', value)
+    return np.array(values, dtype=np.float64)
+
+
+def _is_number(value: Any) -> bool:
+    """Check whether a value is a number; infinity is one, as a bound."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return is_number and not math.isnan(value)

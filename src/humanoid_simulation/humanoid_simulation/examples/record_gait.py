@@ -12,6 +12,7 @@ import signal
 import sys
 from typing import Any
 
+from humanoid_common.errors import UserError
 from humanoid_control.walking import VelocityCommand, WalkingError
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.examples.gait_recording import GaitPlan, GaitRecording, record_walk
@@ -44,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         recording = record_walk(_plan(arguments), load_scene(arguments.scene))
         _write(recording, arguments)
-    except (SimulationError, WalkingError) as error:
+    except (UserError, WalkingError) as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -9,6 +9,7 @@ from functools import partial
 import math
 from typing import Any
 
+from humanoid_common.tables import is_vector, Table
 from humanoid_common.naming import did_you_mean
 from humanoid_simulation.scene.furniture import furniture_of, KINDS, Piece, surfaces_of
 from humanoid_simulation.scene.objects import CLASSES, ObjectInstance, thing_of
@@ -16,7 +17,6 @@ from humanoid_simulation.scene.outlines import Outline, Point, turned
 from humanoid_simulation.scene.parts import COLOURS, Finish, PATTERNS, Vector
 from humanoid_simulation.scene.scene import Place, Room, room_at, Surface, Thing
 from humanoid_simulation.scene.walls import Door, flooring_of, Wall, wall_of
-from humanoid_simulation.tables import is_vector, Table
 
 KEYS = ('rooms', 'walls', 'furniture', 'objects', 'places')
 _GAP_M = 0.001

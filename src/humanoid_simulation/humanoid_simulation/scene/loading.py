@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 
+from humanoid_common.tables import load_table, Table
 from humanoid_simulation.files import scene_path
 from humanoid_simulation.scene.home_reading import colour_in, home_of, KEYS
 from humanoid_simulation.scene.scene import Floor, Scene, SIZES, Thing, Vector
 from humanoid_simulation.scene.terrain import Plates, plates_of, Ramp, ramp_of
-from humanoid_simulation.tables import load_table, Table
 
 
 def load_scene(name: str = 'flat') -> Scene:

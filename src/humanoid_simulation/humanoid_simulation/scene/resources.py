@@ -9,20 +9,21 @@ from pathlib import Path
 from typing import TypeVar
 from urllib.parse import unquote, urlsplit
 
+from humanoid_common.errors import UserError
+from humanoid_common.tables import load_table, Table, table_of
 from humanoid_description.checks.joints import STRUCTURE
 from humanoid_description.errors import DescriptionError
 from humanoid_description.kinematics import poses
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Array, Shape
 from humanoid_description.rotations import to_rpy
-from humanoid_simulation.errors import ResourceError, SimulationError
+from humanoid_simulation.errors import ResourceError
 from humanoid_simulation.files import installed_scenes, SCENE_SUFFIXES
 from humanoid_simulation.scene.home_reading import colour_in
 from humanoid_simulation.scene.loading import load_scene, scene_of, thing_in
 from humanoid_simulation.scene.objects import CLASSES, ObjectInstance, thing_of
 from humanoid_simulation.scene.parts import COLOURS, MESH, Part
 from humanoid_simulation.scene.scene import COMPOSED, Scene, Thing
-from humanoid_simulation.tables import load_table, Table, table_of
 import numpy as np
 
 THING_FORMATS = ('urdf', 'yaml')
@@ -274,7 +275,7 @@ def _parsed(make: Callable[[], T]) -> T:
         return make()
     except ResourceError:
         raise
-    except SimulationError as error:
+    except UserError as error:
         raise ResourceError('RESOURCE_PARSE_ERROR', str(error)) from error
 
 

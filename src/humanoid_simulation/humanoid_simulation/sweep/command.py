@@ -13,6 +13,7 @@ import sys
 from types import FrameType
 from typing import NoReturn
 
+from humanoid_common.errors import UserError
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.files import replace_file
 from humanoid_simulation.sweep import record, report, table
@@ -50,7 +51,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if arguments.replay is not None:
             replay(arguments.replay, _folder(arguments))
         return _do(arguments)
-    except SimulationError as error:
+    except UserError as error:
         print(error, file=sys.stderr)
         return PROBLEM_EXIT
     except KeyboardInterrupt as error:

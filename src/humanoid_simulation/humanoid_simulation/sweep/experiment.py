@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from humanoid_common.tables import load_table, SourceLocation, Table
 from humanoid_common.parameters import checked_value, ParameterError, ParameterSpec, specs_of
 from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.files import share
 from humanoid_simulation.scene.loading import load_scene
-from humanoid_simulation.source_location import SourceLocation
 from humanoid_simulation.sweep.conditions import Conditions, Run
 from humanoid_simulation.sweep.sampling import Choices, Factor, GRID, METHODS, Range, Sampling
-from humanoid_simulation.tables import load_table, Table
 import yaml
 
 MOST_RUNS = 1_000_000

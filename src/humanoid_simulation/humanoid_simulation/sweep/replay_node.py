@@ -10,7 +10,7 @@ from pathlib import Path
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import NodeStartError, UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.qos import LATCHED, STATE
@@ -89,7 +89,7 @@ class Replay(Node):
         """Put the robot at the start of the run."""
         try:
             self._walk = Walk(conditions_of(dict(self._run.conditions)))
-        except (SimulationError, WalkingError, DescriptionError) as error:
+        except (UserError, WalkingError, DescriptionError) as error:
             raise NodeStartError(
                 f'Run {self._run.key} cannot be simulated, so there is nothing to show. {error}'
             ) from error

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import math
 import time
 
+from humanoid_common.errors import UserError
 from humanoid_control.controllers import TrajectoryPoint, TrajectoryRequest
 from humanoid_control.walking import VelocityCommand, WalkingError
 from humanoid_description.errors import DescriptionError
@@ -259,7 +260,7 @@ def walk(run: Run) -> RunResult:
     begin_s = time.process_time()
     try:
         each = Walk(run.conditions)
-    except (SimulationError, WalkingError, DescriptionError) as error:
+    except (UserError, WalkingError, DescriptionError) as error:
         return RunResult(FAILED, 0.0, problem=str(error))
     try:
         for _ in each.ticks():

@@ -8,9 +8,8 @@ import math
 from pathlib import Path
 from typing import Any
 
-from humanoid_common.naming import did_you_mean
-from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.source_location import SourceLocation, TableError
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_common.tables.source_location import SourceLocation, TableError
 
 Vector = tuple[float, ...]
 
@@ -75,9 +74,15 @@ class Table:
         for name in self.names:
             if name not in names:
                 hint = did_you_mean(name, names) or f'Valid keys: {", ".join(names)}.'
-                raise self.at(name).error(f"{self.place.name} has an unknown key '{name}'. {hint}")
+                raise self.at(name).error(f"{self.place.name} has an unknown key '{shortened(name)}'. {hint}")
 
-    def number(self, name: str, default: float | None = None) -> float:
+    def number(
+        self,
+        name: str,
+        default: float | None = None,
+        at_least: float = -math.inf,
+        at_most: float = math.inf,
+    ) -> float:
         """
         Read a finite number, as a float.
 
@@ -87,21 +92,27 @@ class Table:
             Name of the value.
         default
             Value if the table does not set it; None if it is required.
+        at_least, at_most
+            The limits of the value.
 
         Raises
         ------
         TableError
-            It is missing, or is not a finite number.
+            It is missing, or is not such a number.
 
         """
+        if default is not None and name not in self._values:
+            return default
         value = self._value(name, default)
-        if not _is_number(value):
-            raise self.at(name).wrong('a finite number', value)
+        if not _is_number(value) or not at_least <= value <= at_most:
+            raise self.at(name).wrong(f'a finite number{_limits(at_least, at_most)}', value)
         return float(value)
 
-    def integer(self, name: str, default: int) -> int:
+    def integer(
+        self, name: str, default: int, at_least: float = 0, at_most: float = math.inf
+    ) -> int:
         """
-        Read a whole number that is not negative.
+        Read a whole number.
 
         Parameters
         ----------
@@ -109,6 +120,8 @@ class Table:
             Name of the value.
         default
             Value if the table does not set it.
+        at_least, at_most
+            The limits of the value.
 
         Raises
         ------
@@ -117,9 +130,10 @@ class Table:
 
         """
         value = self._value(name, default)
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise self.at(name).wrong('a whole number of zero or more', value)
-        return value
+        is_whole = isinstance(value, int) and not isinstance(value, bool)
+        if not is_whole or not at_least <= value <= at_most:
+            raise self.at(name).wrong(f'a whole number{_limits(at_least, at_most)}', value)
+        return int(value)
 
     def vector(self, name: str, length: int, default: Vector | None = None) -> Vector:
         """
@@ -190,6 +204,29 @@ class Table:
         if value not in choices:
             raise self.at(name).not_among(choices, value)
         return value
+
+    def words(self, name: str) -> tuple[str, ...]:
+        """
+        Read a list of different strings.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+
+        Raises
+        ------
+        TableError
+            It is missing, is not a list of at least one string, or has one of them twice.
+
+        """
+        values = self._value(name, None)
+        if not isinstance(values, list) or not values:
+            raise self.at(name).wrong('a list of strings', values)
+        for value in values:
+            if not isinstance(value, str) or values.count(value) > 1:
+                raise self.at(name).wrong('a list of strings, each once', value)
+        return tuple(values)
 
     def value(self, name: str) -> Any:
         """
@@ -277,16 +314,14 @@ def load_table(path: Path) -> Table:
 
     Raises
     ------
-    SimulationError
-        The file cannot be read.
     TableError
-        It is not YAML in UTF-8, or its top level is not a table.
+        It cannot be read, is not YAML in UTF-8, or its top level is not a table.
 
     """
     try:
         text = path.read_text(encoding='utf-8')
     except OSError as error:
-        raise SimulationError(f'{path} cannot be read: {error.strerror}.') from error
+        raise TableError(f'{path} cannot be read: {error.strerror}.') from error
     except UnicodeDecodeError as error:
         raise TableError(f'{path} is not a valid YAML file: {error}') from error
     return table_of(text, str(path))
@@ -309,7 +344,7 @@ def table_of(text: str, source: str) -> Table:
         It is not YAML, or its top level is not a table.
 
     """
-    from humanoid_simulation.yaml_lines import read_lines
+    from humanoid_common.tables.yaml_lines import read_lines
     import yaml
 
     try:
@@ -317,6 +352,15 @@ def table_of(text: str, source: str) -> Table:
     except (yaml.YAMLError, RecursionError) as error:
         raise TableError(f'{source} is not a valid YAML file: {error}') from error
     return Table(content, SourceLocation(source, 1))
+
+
+def _limits(at_least: float, at_most: float) -> str:
+    """Format the limits of a number, for after the word."""
+    if at_most < math.inf:
+        return f' from {at_least:g} to {at_most:g}'
+    if at_least > -math.inf:
+        return f' of at least {at_least:g}'
+    return ''
 
 
 def _is_number(value: Any) -> bool:

@@ -7,14 +7,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from humanoid_common.naming import did_you_mean
-from humanoid_simulation.errors import SimulationError
+from humanoid_common.errors import UserError
+from humanoid_common.naming import did_you_mean, shortened
 
 T = TypeVar('T')
 
 
-class TableError(SimulationError):
-    """An error in a file, with its location."""
+class TableError(UserError):
+    """A file cannot be read, or has a mistake; the message gives its location."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class SourceLocation:
             To be raised by the caller.
 
         """
-        return self.error(f'{self.name} must be {wanted}, but is {value!r}.')
+        return self.error(f'{self.name} must be {wanted}, but is {shortened(repr(value))}.')
 
     def not_among(self, choices: Sequence[str], value: str) -> TableError:
         """
@@ -154,12 +154,12 @@ class SourceLocation:
         Raises
         ------
         TableError
-            `make` raised SimulationError; a TableError, which has a location, passes unchanged.
+            `make` raised UserError; a TableError, which has a location, passes unchanged.
 
         """
         try:
             return make()
         except TableError:
             raise
-        except SimulationError as error:
+        except UserError as error:
             raise self.error(str(error)) from error
