@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read YAML files, with errors that name the file, the line and the key."""
+"""Names and values of a YAML file, checked when they are read."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 import math
-from pathlib import Path
 from typing import Any
 
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_common.tables.source_location import SourceLocation, TableError
 
 Vector = tuple[float, ...]
+Limits = tuple[float, float]
+ANY: Limits = (-math.inf, math.inf)
 
 
 class Table:
@@ -76,13 +77,7 @@ class Table:
                 hint = did_you_mean(name, names) or f'Valid keys: {", ".join(names)}.'
                 raise self.at(name).error(f"{self.place.name} has an unknown key '{shortened(name)}'. {hint}")
 
-    def number(
-        self,
-        name: str,
-        default: float | None = None,
-        at_least: float = -math.inf,
-        at_most: float = math.inf,
-    ) -> float:
+    def number(self, name: str, default: float | None = None, limits: Limits = ANY) -> float:
         """
         Read a finite number, as a float.
 
@@ -92,8 +87,8 @@ class Table:
             Name of the value.
         default
             Value if the table does not set it; None if it is required.
-        at_least, at_most
-            The limits of the value.
+        limits
+            The least and the largest value that are allowed.
 
         Raises
         ------
@@ -101,27 +96,19 @@ class Table:
             It is missing, or is not such a number.
 
         """
-        if default is not None and name not in self._values:
-            return default
         value = self._value(name, default)
-        if not _is_number(value) or not at_least <= value <= at_most:
-            raise self.at(name).wrong(f'a finite number{_limits(at_least, at_most)}', value)
+        if not _is_number(value) or not limits[0] <= value <= limits[1]:
+            raise self.at(name).wrong(f'a finite number{_said(limits)}', value)
         return float(value)
 
-    def integer(
-        self, name: str, default: int, at_least: float = 0, at_most: float = math.inf
-    ) -> int:
+    def integer(self, name: str, default: int, limits: Limits = (0, math.inf)) -> int:
         """
         Read a whole number.
 
         Parameters
         ----------
-        name
-            Name of the value.
-        default
-            Value if the table does not set it.
-        at_least, at_most
-            The limits of the value.
+        name, default, limits
+            As for `number`.
 
         Raises
         ------
@@ -130,10 +117,9 @@ class Table:
 
         """
         value = self._value(name, default)
-        is_whole = isinstance(value, int) and not isinstance(value, bool)
-        if not is_whole or not at_least <= value <= at_most:
-            raise self.at(name).wrong(f'a whole number{_limits(at_least, at_most)}', value)
-        return int(value)
+        if type(value) is not int or not limits[0] <= value <= limits[1]:
+            raise self.at(name).wrong(f'a whole number{_said(limits)}', value)
+        return value
 
     def vector(self, name: str, length: int, default: Vector | None = None) -> Vector:
         """
@@ -204,29 +190,6 @@ class Table:
         if value not in choices:
             raise self.at(name).not_among(choices, value)
         return value
-
-    def words(self, name: str) -> tuple[str, ...]:
-        """
-        Read a list of different strings.
-
-        Parameters
-        ----------
-        name
-            Name of the value.
-
-        Raises
-        ------
-        TableError
-            It is missing, is not a list of at least one string, or has one of them twice.
-
-        """
-        values = self._value(name, None)
-        if not isinstance(values, list) or not values:
-            raise self.at(name).wrong('a list of strings', values)
-        for value in values:
-            if not isinstance(value, str) or values.count(value) > 1:
-                raise self.at(name).wrong('a list of strings, each once', value)
-        return tuple(values)
 
     def value(self, name: str) -> Any:
         """
@@ -303,64 +266,12 @@ class Table:
         return value
 
 
-def load_table(path: Path) -> Table:
-    """
-    Load a YAML file as a table.
-
-    Parameters
-    ----------
-    path
-        Path of the file.
-
-    Raises
-    ------
-    TableError
-        It cannot be read, is not YAML in UTF-8, or its top level is not a table.
-
-    """
-    try:
-        text = path.read_text(encoding='utf-8')
-    except OSError as error:
-        raise TableError(f'{path} cannot be read: {error.strerror}.') from error
-    except UnicodeDecodeError as error:
-        raise TableError(f'{path} is not a valid YAML file: {error}') from error
-    return table_of(text, str(path))
-
-
-def table_of(text: str, source: str) -> Table:
-    """
-    Parse a YAML text as a table.
-
-    Parameters
-    ----------
-    text
-        Content of a file.
-    source
-        What error messages call it, such as the path of the file.
-
-    Raises
-    ------
-    TableError
-        It is not YAML, or its top level is not a table.
-
-    """
-    from humanoid_common.tables.yaml_lines import read_lines
-    import yaml
-
-    try:
-        content = read_lines(text)
-    except (yaml.YAMLError, RecursionError) as error:
-        raise TableError(f'{source} is not a valid YAML file: {error}') from error
-    return Table(content, SourceLocation(source, 1))
-
-
-def _limits(at_least: float, at_most: float) -> str:
-    """Format the limits of a number, for after the word."""
-    if at_most < math.inf:
-        return f' from {at_least:g} to {at_most:g}'
-    if at_least > -math.inf:
-        return f' of at least {at_least:g}'
-    return ''
+def _said(limits: Limits) -> str:
+    """Format limits for after the word that they limit."""
+    least, most = limits
+    if most < math.inf:
+        return f' from {least:g} to {most:g}'
+    return f' of at least {least:g}' if least > -math.inf else ''
 
 
 def _is_number(value: Any) -> bool:

@@ -1,11 +1,62 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parse YAML with the line number of each value."""
+"""Read YAML files as tables that know the line of each value."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
+from humanoid_common.tables.source_location import SourceLocation, TableError
+from humanoid_common.tables.table import Table
 import yaml
+
+
+def load_table(path: Path) -> Table:
+    """
+    Load a YAML file as a table.
+
+    Parameters
+    ----------
+    path
+        Path of the file.
+
+    Raises
+    ------
+    TableError
+        It cannot be read, is not YAML in UTF-8, or its top level is not a table.
+
+    """
+    try:
+        text = path.read_text(encoding='utf-8')
+    except OSError as error:
+        raise TableError(f'{path} cannot be read: {error.strerror}.') from error
+    except UnicodeDecodeError as error:
+        raise TableError(f'{path} is not a valid YAML file: {error}') from error
+    return table_of(text, str(path))
+
+
+def table_of(text: str, source: str) -> Table:
+    """
+    Parse a YAML text as a table.
+
+    Parameters
+    ----------
+    text
+        Content of a file.
+    source
+        What error messages call it, such as the path of the file.
+
+    Raises
+    ------
+    TableError
+        It is not YAML, or its top level is not a table.
+
+    """
+    try:
+        content = read_lines(text)
+    except (yaml.YAMLError, RecursionError) as error:
+        raise TableError(f'{source} is not a valid YAML file: {error}') from error
+    return Table(content, SourceLocation(source, 1))
 
 
 class LinedTable(dict[str, Any]):

@@ -111,16 +111,19 @@ def read_policy_file(path: Path) -> PolicyFile:
         'model', 'rate_hz', 'joints', 'default_rad', 'kp_nm_rad', 'kd_nm_s_rad',
         'torque_limit_nm', 'action', 'observation',
     )  # fmt: skip
-    joints = table.words('joints')
+    joints = _names(table, 'joints')
     action, observation = table.table('action'), table.table('observation')
     action.allow('scale_rad', 'clip')
     observation.allow('terms', 'history_length', 'history_order', 'clip')
     lower, upper = _bounds(action, 'clip', joints)
+    clip = math.inf
+    if observation.has('clip'):
+        clip = observation.number('clip', None, (0.0, math.inf))
     limit_nm = _positive(table, 'torque_limit_nm', joints)
     return PolicyFile(
         path=path,
         model=path.parent / table.text('model'),
-        rate_hz=table.number('rate_hz', None, 1.0, FASTEST_HZ),
+        rate_hz=table.number('rate_hz', None, (1.0, FASTEST_HZ)),
         joints=joints,
         default_rad=_finite(table, 'default_rad', joints),
         kp_nm_rad=_positive(table, 'kp_nm_rad', joints),
@@ -130,9 +133,9 @@ def read_policy_file(path: Path) -> PolicyFile:
         action_lower=lower,
         action_upper=upper,
         terms=_terms(observation, joints),
-        history_length=observation.integer('history_length', 1, 1, MOST_HISTORY),
+        history_length=observation.integer('history_length', 1, (1, MOST_HISTORY)),
         history_order=observation.choice('history_order', (BY_TERM, BY_STEP), BY_TERM),
-        observation_clip=observation.number('clip', math.inf, 0.0),
+        observation_clip=clip,
     )
 
 
@@ -148,6 +151,17 @@ def _terms(observation: Table, joints: Sequence[str]) -> tuple[Term, ...]:
     if not terms:
         raise observation.at('terms').error('Nothing is observed. Give at least one term.')
     return tuple(terms)
+
+
+def _names(table: Table, name: str) -> tuple[str, ...]:
+    """Read a list of different names."""
+    names = table.value(name)
+    if not isinstance(names, list) or not names:
+        raise table.at(name).wrong('a list of names', names)
+    for each in names:
+        if not isinstance(each, str) or names.count(each) > 1:
+            raise table.at(name).wrong('a list of names, each once', each)
+    return tuple(names)
 
 
 def _finite(table: Table, name: str, among: Sequence[str]) -> Array:
