@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import math
+import os
 from pathlib import Path
 from typing import Any
 
@@ -73,22 +74,48 @@ def test_mistakes(read: Callable[[Table], Any], message: str) -> None:
 
 
 def test_files_that_cannot_be_read(tmp_path: Path) -> None:
-    """None there, a folder, no text, no YAML, a key twice, and no table."""
+    """None there, a folder, a pipe, and no text."""
     path = tmp_path / 'robot.yaml'
-    for wrong in (path, tmp_path):
-        with pytest.raises(TableError, match='cannot be read: '):
-            load_table(wrong)
-    for content, message in (
-        (b'\xff\xfe', 'is not a valid YAML file'),
-        (b'a: [1', 'is not a valid YAML file'),
-        (b'a: 1\nb: 2\na: 3\n', "duplicate key 'a', also on line 1: remove one of them"),
-        (b'- a\n', 'line 1: the file must be a mapping of names to values'),
-        (b'', 'line 1: the file must be a mapping of names to values, but is None.'),
-    ):
-        path.write_bytes(content)
-        with pytest.raises(TableError) as caught:
-            load_table(path)
-        assert message in str(caught.value)
+    with pytest.raises(TableError, match='cannot be read: No such file'):
+        load_table(path)
+    with pytest.raises(TableError, match='is a folder. Give the path of a YAML file'):
+        load_table(tmp_path)
+    os.mkfifo(tmp_path / 'pipe.yaml')
+    with pytest.raises(TableError, match='is a device. Give the path'):
+        load_table(tmp_path / 'pipe.yaml')
+    path.write_bytes(b'\xff\xfe')
+    with pytest.raises(TableError, match='is not a valid YAML file: .*utf-8'):
+        load_table(path)
+
+
+@pytest.mark.parametrize(
+    ('text', 'message'),
+    [
+        ('joints: [a', r" \(line 1, column 11\): expected ',' or '\]'.*\.$"),
+        ('action:\n\tscale_rad: 1.0', r' \(line 2, column 1\): found character .*spaces instead\.$'),
+        ('model: a\x07b', ': unacceptable character'),
+        ('rate_hz: 2026-13-01', r': month must be in 1\.\.12'),
+        ('[' * 5000, ': maximum recursion depth'),
+        ('rate_hz: ' + '9' * 5000, ': Exceeds the limit'),
+        ('a: 1\nb: 2\na: 3', r" \(line 3, column 1\): duplicate key 'a', also on line 1"),
+        ('? [a]\n: b', r' \(line 1, column 3\): found unhashable key'),
+        ('', ', line 1: the file must be a mapping of names to values, but is empty'),
+        ('- a', r", line 1: the file must be a mapping of names to values, but is \['a'\]"),
+        ('just words', "must be a mapping of names to values, but is 'just words'"),
+    ],
+)
+def test_texts_that_are_no_table(text: str, message: str) -> None:
+    """Each is refused in one line that says where the mistake is."""
+    with pytest.raises(TableError, match=message) as caught:
+        table_of(text, 'robot.yaml')
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_numbers_that_are_too_large() -> None:
+    """No float can have them."""
+    for digits, said in (('1' + '0' * 400, r'1000.*\.\.\.'), ('0x' + 'f' * 5000, 'too large a')):
+        with pytest.raises(TableError, match=f'mass_kg must be a finite number, but is {said}'):
+            table_of(f'mass_kg: {digits}', 'robot.yaml').number('mass_kg')
 
 
 def test_where_an_error_of_an_object_is() -> None:

@@ -94,3 +94,11 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     path.write_text('- a\n')
     with pytest.raises(TableError, match='must be a mapping of names to values'):
         read_policy_file(path)
+
+
+def test_numbers_that_are_too_large(tmp_path: Path) -> None:
+    """No array can have them."""
+    path = write(tmp_path)
+    path.write_text(path.read_text() + f'torque_limit_nm: 1{"0" * 400}\n')
+    with pytest.raises(TableError, match=r'torque_limit_nm must be a number.*is 1000.*\.\.\.'):
+        read_policy_file(path)

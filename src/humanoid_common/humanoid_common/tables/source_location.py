@@ -96,7 +96,7 @@ class SourceLocation:
             To be raised by the caller.
 
         """
-        return self.error(f'{self.name} must be {wanted}, but is {shortened(repr(value))}.')
+        return self.error(f'{self.name} must be {wanted}, but is {_said(value)}.')
 
     def not_among(self, choices: Sequence[str], value: str) -> TableError:
         """
@@ -163,3 +163,13 @@ class SourceLocation:
             raise
         except UserError as error:
             raise self.error(str(error)) from error
+
+
+def _said(value: Any) -> str:
+    """Write a value for a message."""
+    if value is None:
+        return 'empty'
+    try:
+        return shortened(repr(value))
+    except ValueError:  # Python writes no numbers of thousands of digits
+        return 'too large a number'

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 import math
+import sys
 from typing import Any
 
 from humanoid_common.naming import did_you_mean, shortened
@@ -12,6 +13,7 @@ from humanoid_common.tables.source_location import SourceLocation, TableError
 
 Vector = tuple[float, ...]
 Limits = tuple[float, float]
+_LARGEST = int(sys.float_info.max)
 ANY: Limits = (-math.inf, math.inf)
 
 
@@ -275,9 +277,10 @@ def _said(limits: Limits) -> str:
 
 
 def _is_number(value: Any) -> bool:
-    """Check whether a value is a finite number."""
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return is_number and math.isfinite(value)
+    """Check whether a value is a finite number that a float can have."""
+    if isinstance(value, int):
+        return not isinstance(value, bool) and abs(value) <= _LARGEST
+    return isinstance(value, float) and math.isfinite(value)
 
 
 def is_vector(value: Any, length: int) -> bool:

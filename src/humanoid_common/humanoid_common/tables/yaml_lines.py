@@ -27,10 +27,13 @@ def load_table(path: Path) -> Table:
 
     """
     try:
+        if path.exists() and not path.is_file():  # a pipe would block
+            found = 'folder' if path.is_dir() else 'device'
+            raise TableError(f'{path} is a {found}. Give the path of a YAML file.')
         text = path.read_text(encoding='utf-8')
     except OSError as error:
         raise TableError(f'{path} cannot be read: {error.strerror}.') from error
-    except UnicodeDecodeError as error:
+    except (UnicodeDecodeError, ValueError) as error:
         raise TableError(f'{path} is not a valid YAML file: {error}') from error
     return table_of(text, str(path))
 
@@ -54,9 +57,20 @@ def table_of(text: str, source: str) -> Table:
     """
     try:
         content = read_lines(text)
-    except (yaml.YAMLError, RecursionError) as error:
-        raise TableError(f'{source} is not a valid YAML file: {error}') from error
+    except yaml.MarkedYAMLError as error:
+        raise TableError(f'{source} is not a valid YAML file{_problem(error)}.') from error
+    except (yaml.YAMLError, RecursionError, ValueError) as error:  # such as a date in month 13
+        problem = str(error).splitlines()[0]
+        raise TableError(f'{source} is not a valid YAML file: {problem}.') from error
     return Table(content, SourceLocation(source, 1))
+
+
+def _problem(error: yaml.MarkedYAMLError) -> str:
+    """Describe in one line what is wrong with a text, and where."""
+    mark = error.problem_mark
+    where = f' (line {mark.line + 1}, column {mark.column + 1})' if mark else ''
+    hint = '. Indent with spaces instead' if error.problem and r"'\t'" in error.problem else ''
+    return f'{where}: {error.problem}{hint}' if error.problem else where
 
 
 class LinedTable(dict[str, Any]):

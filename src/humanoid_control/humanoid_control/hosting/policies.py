@@ -117,11 +117,17 @@ def policy_path(name: str) -> Path:
     Raises
     ------
     PolicyError
-        No such policy is installed.
+        No such policy is installed, or the path begins with a home folder that does not exist.
 
     """
     if name.endswith('.yaml'):
-        return Path(name).expanduser()
+        try:
+            return Path(name).expanduser()
+        except RuntimeError:
+            raise PolicyError(
+                f"The policy file '{name}' cannot be found: there is no such home folder. Give "
+                'the whole path of the file.'
+            ) from None
     folder = Path(get_package_share_directory('humanoid_control')) / 'policies'
     installed = sorted(path.stem for path in folder.glob('*.yaml'))
     if name not in installed:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
 from pathlib import Path
+import sys
 from typing import Any
 
 from humanoid_common.errors import UserError
@@ -29,6 +30,7 @@ TERMS = {
 BY_TERM, BY_STEP = 'by_term', 'by_step'
 FASTEST_HZ = 500.0
 MOST_HISTORY = 100
+_LARGEST = int(sys.float_info.max)
 
 
 class PolicyError(UserError):
@@ -212,5 +214,6 @@ def _each(table: Table, name: str, among: Sequence[str], value: Any) -> Array:
 
 def _is_number(value: Any) -> bool:
     """Check whether a value is a number; infinity is one, as a bound."""
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return is_number and not math.isnan(value)
+    if isinstance(value, int):
+        return not isinstance(value, bool) and abs(value) <= _LARGEST
+    return isinstance(value, float) and not math.isnan(value)
