@@ -25,7 +25,7 @@ __all__ = ['DEFAULT_PORT', 'ServerSettings', 'discovery_server', 'instructions']
 DEFAULT_PORT = 11811
 LARGEST_ID = 255
 PORTS = range(1025, 65536)
-EACH, LOOPBACK = '0.0.0.0', '127.0.0.1'
+LOOPBACK = '127.0.0.1'
 _STARTED = 'Server is running'
 _ELSEWHERE = ('192.0.2.1', 9)  # reserved for documentation; nothing is sent there
 _SIOCGIFADDR = 0x8915
@@ -70,17 +70,16 @@ class ServerSettings(NamedTuple):
 def _own_address(text: str) -> str:
     """Check the text of an address of this machine; '' is each of them."""
     try:
-        address = IPv4Address(text or EACH)
+        address = IPv4Address(text) if text else None
+        is_possible = address is None or not (address.is_multicast or address.is_reserved)
     except AddressValueError:
-        address = None
-    if str(address) == EACH:
-        return ''
-    if address is None or address.is_multicast or address.is_reserved:
+        is_possible = False
+    if not is_possible:
         raise ValueError(
             f"Launch argument 'address' is '{shortened(text)}', but must be an IPv4 address of "
             "this machine, such as 'address:=192.168.1.2'."
         )
-    return text
+    return '' if address is None or address.is_unspecified else text
 
 
 def discovery_server(context: LaunchContext) -> Sequence[Action]:

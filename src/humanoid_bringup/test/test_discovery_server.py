@@ -64,9 +64,9 @@ def test_what_to_type() -> None:
 
 def test_each_address_of_this_machine() -> None:
     """An address that means each one is shown to nobody: no other machine could use it."""
-    settings = ServerSettings.parse('0.0.0.0', '11811', '0')  # noqa: S104
+    settings = ServerSettings.parse('0.0.0.0', '11811', '0')
     assert settings == ServerSettings.parse('', '11811', '0')
-    assert '0.0.0.0' not in instructions(settings, own_addresses())  # noqa: S104
+    assert '0.0.0.0' not in instructions(settings, own_addresses())
 
 
 def test_addresses_without_a_default_route(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -92,9 +92,7 @@ def write_onnx(
         As for `onnx_model`.
 
     """
-    path.write_bytes(
-        onnx_model(path.stem, operations, constants, inputs, outputs, metadata)
-    )
+    path.write_bytes(onnx_model(path.stem, operations, constants, inputs, outputs, metadata))
 
 
 def _operation(operation: Operation) -> bytes:

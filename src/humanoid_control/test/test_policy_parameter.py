@@ -77,7 +77,7 @@ def test_a_policy_is_taken_or_refused(ros: RosSandbox, path: Path) -> None:
     assert robot.set_parameters([Parameter('mode', value='policy')])[0].successful
     heard.wait_for('policy')
     (broken,) = robot.set_parameters([Parameter('policy', value='/nowhere/walk.yaml')])
-    assert not broken.successful and "'/nowhere/walk.yaml' cannot be read" in broken.reason
+    assert not broken.successful and '/nowhere/walk.yaml cannot be read' in broken.reason
     assert robot.get_parameter('policy').value == str(path)
     write(path.parent, joints=['left_nee', 'left_elbow'], default_rad=0.0)
     (broken,) = robot.set_parameters([Parameter('mode', value='policy')])
@@ -112,5 +112,5 @@ def test_policies_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
         policy_path('stant')
     with pytest.raises(PolicyError, match='there is no such home folder. Give the whole path'):
         policy_path('~nobody_of_this_name/walk.yaml')
-    with pytest.raises(PolicyError, match="to the path of a file that ends with .yaml"):
+    with pytest.raises(PolicyError, match='to the path of a file that ends with .yaml'):
         policy_path(str(tmp_path))

@@ -75,13 +75,14 @@ def _alone(folder: Path) -> Iterator[None]:
             f"The folder '{folder}' cannot be used: {error.strerror}. Give another --folder."
         ) from None
     try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise TrainingError(
+                f"Another training uses the folder '{folder}'. Wait for its end, or give another "
+                '--folder.'
+            ) from None
         yield
-    except BlockingIOError:
-        raise TrainingError(
-            f"Another training uses the folder '{folder}'. Wait for its end, or give another "
-            '--folder.'
-        ) from None
     finally:
         os.close(lock)
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 import fcntl
+from importlib import import_module
 import os
 from pathlib import Path
 import resource
@@ -219,41 +220,51 @@ def test_an_interruption_before_the_first_generation(
     assert not (tmp_path / 'stand.onnx').exists()
 
 
-def dies_once(trial: Trial) -> float:
-    """Return the gain; the process of the first episode is killed."""
-    mark = Path(os.environ['DIES_ONCE'])
-    if not mark.exists():
-        mark.touch()
+EPISODES = """
+import os
+from pathlib import Path
+import signal
+
+MARK = Path(__file__).with_name('mark')
+
+def dies_once(trial):
+    if not MARK.exists():
+        MARK.touch()
         os.kill(os.getpid(), signal.SIGKILL)
-    return float(trial.gains[0])
+    return trial.seed
 
-
-def dies(trial: Trial) -> float:
-    """End the process."""
+def dies(trial):
     os._exit(3)
 
-
-def fails(trial: Trial) -> float:
-    """Raise an error."""
+def fails(trial):
     raise ValueError('no such thing')
+"""
 
 
-def test_a_process_that_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(name='episodes')
+def _episodes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return a module with episodes that other processes can import."""
+    (tmp_path / 'fake_episodes.py').write_text(EPISODES)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, 'fake_episodes', raising=False)
+    return import_module('fake_episodes')
+
+
+def test_a_process_that_is_killed(episodes: Any) -> None:
     """Its episode runs again in another one."""
-    monkeypatch.setenv('DIES_ONCE', str(tmp_path / 'mark'))
-    trials = [Trial(np.array([float(each)]), each) for each in range(5)]
-    with EpisodeProcesses(dies_once, 2) as processes:
+    trials = [Trial(np.zeros(1), seed) for seed in range(5)]
+    with EpisodeProcesses(episodes.dies_once, 2) as processes:
         assert processes.earned(trials).tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
         assert processes.earned(trials[3:]).tolist() == [3.0, 4.0]
-    assert (tmp_path / 'mark').exists()
+    assert episodes.MARK.exists()
 
 
 @pytest.mark.parametrize(
-    ('run', 'reason'), [(dies, 'status 3'), (fails, 'ValueError: no such thing')]
+    ('name', 'reason'), [('dies', 'status 3'), ('fails', 'ValueError: no such thing')]
 )
-def test_episodes_that_cannot_be_run(run: Callable[[Trial], float], reason: str) -> None:
+def test_episodes_that_cannot_be_run(episodes: Any, name: str, reason: str) -> None:
     """After a second attempt the training ends, and says why."""
-    with EpisodeProcesses(run, 1) as processes:
+    with EpisodeProcesses(getattr(episodes, name), 1) as processes:
         with pytest.raises(TrainingError, match=f'An episode cannot be run: .*{reason}'):
             processes.earned([Trial(np.zeros(1), 0)])
 

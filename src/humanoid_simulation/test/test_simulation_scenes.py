@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from humanoid_simulation.errors import SimulationError
+from humanoid_common.errors import UserError
 from humanoid_simulation.files import installed_scenes
 from humanoid_simulation.model import Placement
 from humanoid_simulation.scene import load_scene, Scene, Thing
@@ -151,23 +151,23 @@ def test_mistakes_in_a_scene_file(tmp_path: Path, text: str, sentence: str | Non
     """Each becomes a sentence with the file and the key, and a hint where there is one."""
     file = tmp_path / 'mine.yaml'
     file.write_text(text)
-    with pytest.raises(SimulationError) as caught:
+    with pytest.raises(UserError) as caught:
         load_scene(str(file))
     assert (sentence or 'must be a finite number') in str(caught.value)
 
 
 def test_a_scene_that_is_not_there(tmp_path: Path) -> None:
     """A name is compared with those that there are; a path is named as it is."""
-    with pytest.raises(SimulationError, match="no scene 'rom'. Did you mean 'room'"):
+    with pytest.raises(UserError, match="no scene 'rom'. Did you mean 'room'"):
         load_scene('rom')
-    with pytest.raises(SimulationError, match=r'none.yaml cannot be read: No such file'):
+    with pytest.raises(UserError, match=r'none.yaml cannot be read: No such file'):
         load_scene(str(tmp_path / 'none.yaml'))
 
 
 def test_names_must_differ() -> None:
     """Two things of one name could not be told apart."""
     ball = Thing('ball', 'sphere', (0.1,))
-    with pytest.raises(SimulationError, match="an object 'ball'"):
+    with pytest.raises(UserError, match="an object 'ball'"):
         Scene('two', things=(ball, ball))
 
 
@@ -177,6 +177,6 @@ def test_robots_and_things_must_differ(make_backend, robot: str) -> None:
     name = robot or 'robot'
     scene = Scene('one', things=(Thing(name, 'sphere', (0.1,), mass_kg=1.0),))
     with pytest.raises(
-        SimulationError, match=f"an object named '{name}', which is also the name of a robot"
+        UserError, match=f"an object named '{name}', which is also the name of a robot"
     ):
         make_backend(scene=scene, placements=[Placement(robot)])

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from humanoid_common.tables import load_table, table_of
-from humanoid_simulation.errors import SimulationError
+from humanoid_common.errors import UserError
 from humanoid_simulation.sweep.conditions import Conditions, conditions_of, values_to_store
 from humanoid_simulation.sweep.experiment import Experiment, experiment_of, overrides_of
 import pytest
@@ -137,7 +137,7 @@ def test_a_list_parameter_is_one_value() -> None:
 )
 def test_mistakes(text: str, sentence: str) -> None:
     """Each is named in a sentence."""
-    with pytest.raises(SimulationError) as caught:
+    with pytest.raises(UserError) as caught:
         experiment(text)
     assert sentence in str(caught.value)
 
@@ -153,7 +153,7 @@ def test_mistakes(text: str, sentence: str) -> None:
 )
 def test_mistakes_of_the_command_line(override: str, sentence: str) -> None:
     """They are said like those of a file."""
-    with pytest.raises(SimulationError) as caught:
+    with pytest.raises(UserError) as caught:
         experiment('conditions: {}', override)
     assert sentence in str(caught.value)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from humanoid_simulation.errors import SimulationError
+from humanoid_common.errors import UserError
 from humanoid_simulation.scene import load_scene, Scene
 from humanoid_simulation.scene.occupancy import FREE, occupancy_of
 from humanoid_simulation.scene.walls import NARROWEST_DOOR_M, Wall
@@ -104,7 +104,7 @@ def test_names_that_are_not_there_get_a_hint(apartment: Scene) -> None:
         (apartment.thing, 'red_mugg', 'red_mug'),
         (apartment.surface, 'sidebord', 'sideboard'),
     ):
-        with pytest.raises(SimulationError, match=f"Did you mean '{right}'"):
+        with pytest.raises(UserError, match=f"Did you mean '{right}'"):
             ask(wrong)
 
 
@@ -130,14 +130,14 @@ def test_names_that_are_not_there_get_a_hint(apartment: Scene) -> None:
 def test_mistakes_in_a_home(tmp_path: Path, old: str, new: str, sentence: str) -> None:
     """Each is told with the file, the line and the key."""
     assert old in HOME
-    with pytest.raises(SimulationError) as caught:
+    with pytest.raises(UserError) as caught:
         read(tmp_path, HOME.replace(old, new))
     assert 'mine.yaml' in str(caught.value) and sentence in str(caught.value)
 
 
 def test_two_rooms_or_places_of_one_name(tmp_path: Path) -> None:
     """They could not be told apart."""
-    with pytest.raises(SimulationError, match="two places named 'table'"):
+    with pytest.raises(UserError, match="two places named 'table'"):
         read(tmp_path, HOME + '  - {name: table, stand: [0, 0]}\n')
 
 
@@ -151,7 +151,7 @@ def test_two_rooms_or_places_of_one_name(tmp_path: Path) -> None:
 )
 def test_doors_must_fit(tmp_path: Path, doors: str, sentence: str) -> None:
     """Into the wall, beside each other, and the robot through them."""
-    with pytest.raises(SimulationError) as caught:
+    with pytest.raises(UserError) as caught:
         read(tmp_path, f'walls:\n  - {{name: w, from: [0, 0], to: [4, 0], doors: {doors}}}\n')
     assert 'mine.yaml, line 2:' in str(caught.value) and sentence in str(caught.value)
 
