@@ -42,7 +42,10 @@ def test_values() -> None:
     ('read', 'message'),
     [
         (lambda table: table.allow('name'), "line 3: the file has an unknown key 'speed_m_s'."),
-        (lambda table: table.number('name'), "line 2: name must be a finite number, but is 'left'."),
+        (
+            lambda table: table.number('name'),
+            "line 2: name must be a finite number, but is 'left'.",
+        ),
         (
             lambda table: table.number('speed_m_s', None, (1.0, 2.0)),
             'line 3: speed_m_s must be a finite number from 1 to 2, but is 0.5.',
@@ -51,7 +54,10 @@ def test_values() -> None:
             lambda table: table.number('speed_m_s', None, (1.0, math.inf)),
             'must be a finite number of at least 1, but is 0.5.',
         ),
-        (lambda table: table.integer('steps', 1, (4, math.inf)), 'a whole number of at least 4, but is 3.'),
+        (
+            lambda table: table.integer('steps', 1, (4, math.inf)),
+            'a whole number of at least 4, but is 3.',
+        ),
         (lambda table: table.integer('speed_m_s', 1), 'must be a whole number of at least 0'),
         (lambda table: table.text('legs'), "line 1: the file lacks the required key 'legs'."),
         (lambda table: table.table('name'), 'line 2: name must be a mapping of names to values'),
@@ -92,7 +98,10 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     ('text', 'message'),
     [
         ('joints: [a', r" \(line 1, column 11\): expected ',' or '\]'.*\.$"),
-        ('action:\n\tscale_rad: 1.0', r' \(line 2, column 1\): found character .*spaces instead\.$'),
+        (
+            'action:\n\tscale_rad: 1.0',
+            r' \(line 2, column 1\): found character .*spaces instead\.$',
+        ),
         ('model: a\x07b', ': unacceptable character'),
         ('rate_hz: 2026-13-01', r': month must be in 1\.\.12'),
         ('[' * 5000, ': maximum recursion depth'),

@@ -10,7 +10,6 @@ import signal
 import sys
 
 from humanoid_common.errors import UserError
-from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.files import replace_file
 from humanoid_simulation.scene.loading import load_scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap, OCCUPIED

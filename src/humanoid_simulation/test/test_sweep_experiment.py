@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from humanoid_common.tables import load_table, table_of
 from humanoid_common.errors import UserError
+from humanoid_common.tables import load_table, table_of
 from humanoid_simulation.sweep.conditions import Conditions, conditions_of, values_to_store
 from humanoid_simulation.sweep.experiment import Experiment, experiment_of, overrides_of
 import pytest

@@ -9,7 +9,7 @@ import sys
 from typing import Any
 
 from humanoid_common.naming import did_you_mean, shortened
-from humanoid_common.tables.source_location import SourceLocation, TableError
+from humanoid_common.tables.source_location import SourceLocation
 
 Vector = tuple[float, ...]
 Limits = tuple[float, float]
@@ -77,7 +77,9 @@ class Table:
         for name in self.names:
             if name not in names:
                 hint = did_you_mean(name, names) or f'Valid keys: {", ".join(names)}.'
-                raise self.at(name).error(f"{self.place.name} has an unknown key '{shortened(name)}'. {hint}")
+                raise self.at(name).error(
+                    f"{self.place.name} has an unknown key '{shortened(name)}'. {hint}"
+                )
 
     def number(self, name: str, default: float | None = None, limits: Limits = ANY) -> float:
         """

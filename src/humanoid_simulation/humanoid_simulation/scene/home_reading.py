@@ -9,8 +9,8 @@ from functools import partial
 import math
 from typing import Any
 
-from humanoid_common.tables import is_vector, Table
 from humanoid_common.naming import did_you_mean
+from humanoid_common.tables import is_vector, Table
 from humanoid_simulation.scene.furniture import furniture_of, KINDS, Piece, surfaces_of
 from humanoid_simulation.scene.objects import CLASSES, ObjectInstance, thing_of
 from humanoid_simulation.scene.outlines import Outline, Point, turned

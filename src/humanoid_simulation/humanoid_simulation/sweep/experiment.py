@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from humanoid_common.tables import load_table, SourceLocation, Table
 from humanoid_common.parameters import checked_value, ParameterError, ParameterSpec, specs_of
+from humanoid_common.tables import load_table, SourceLocation, Table
 from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.files import share
 from humanoid_simulation.scene.loading import load_scene
