@@ -74,12 +74,10 @@ class Table:
             It sets another one; the message suggests the closest known name.
 
         """
-        for name in self.names:
+        for name in map(shortened, self.names):
             if name not in names:
                 hint = did_you_mean(name, names) or f'Valid keys: {", ".join(names)}.'
-                raise self.at(name).error(
-                    f"{self.place.name} has an unknown key '{shortened(name)}'. {hint}"
-                )
+                raise self.at(name).error(f"{self.place.name} has an unknown key '{name}'. {hint}")
 
     def number(self, name: str, default: float | None = None, limits: Limits = ANY) -> float:
         """
