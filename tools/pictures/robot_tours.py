@@ -179,7 +179,7 @@ def states(browser: Any, address: str) -> None:
     ros2('param', 'set', '/simulator', 'real_time_factor', NORMAL)
     _wait_for_real_time(tab)
     ros2(*THROW)
-    robot.locator('#words', has_text='Fallen: press Stand up').wait_for()
+    robot.locator('#words', has_text='Fallen: ').wait_for()
     tab.wait_for_timeout(LIES_MS)
     keep('fallen.webp', seen(tab))
     tab.close()

@@ -8,6 +8,7 @@ import inspect
 import math
 from typing import Any
 
+from rviz_common.panel import DOCKED
 from rviz_common.panels import panel_tabs
 from rviz_common.plugins import DISPLAYS, load_plugin, PANELS, plugin_names, TOOLS
 from rviz_common.properties import (
@@ -72,6 +73,9 @@ differs from these.
 OF_DISPLAYS = """\
 All have a `Name` and `Enabled`. `rviz_common/Group` has `Displays`, and no properties of its own.
 """
+OF_PANELS = """\
+All have a `Name`, which is the title of their tab. Those in tabs have:
+"""
 
 
 def lines() -> Iterator[str]:
@@ -88,6 +92,8 @@ def lines() -> Iterator[str]:
     yield from _plugins(DISPLAYS)
     yield from _missing_displays()
     yield '## Panels\n'
+    yield OF_PANELS
+    yield from _table([DOCKED])
     yield from _plugins(PANELS)
     yield from _without_meaning(panel_tabs.BUILT_IN)
     yield '## Tools\n'

@@ -105,6 +105,7 @@ def test_it_gives_up(robot: Robot) -> None:
     assert found == [STRETCH, ROLL_OVER] * FALL.get_up_tries
     assert control.walker.has_given_up
     assert control.walker.phase == 'fallen'
+    assert not control.walker.will_get_up
 
 
 def test_a_stop_keeps_it_down(robot: Robot) -> None:
@@ -112,7 +113,9 @@ def test_a_stop_keeps_it_down(robot: Robot) -> None:
     control = control_of(robot)
     control.control.hold_still(True)
     assert motions(control, {}, 8.0) == []
+    assert not control.walker.will_get_up
     control.control.hold_still(False)
+    assert control.walker.will_get_up
     control.walker.update(seen(control.walker, 9.0, BACK))
     assert control.walker.phase == 'stand_up'
     control.control.hold_still(True)

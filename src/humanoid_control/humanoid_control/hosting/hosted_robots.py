@@ -312,4 +312,4 @@ class RobotOutputs:
         else:
             state = mode
         if state is not None:
-            self._state.publish(state)
+            self._state.publish(state, walker.will_get_up)

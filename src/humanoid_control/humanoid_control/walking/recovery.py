@@ -66,6 +66,11 @@ class Recovery:
         """Return 'fallen' or 'stand_up', or None as long as the robot stands by itself."""
         return self._action.name if self._action else None
 
+    @property
+    def will_get_up(self) -> bool:
+        """Whether the robot lies limp and is to get up by itself soon."""
+        return isinstance(self._action, Collapse) and self._is_allowed_up()
+
     def update(self, sensed: RobotState, positions_rad: Array) -> JointTargets | None:
         """
         Advance the recovery from a fall by one control period.
@@ -113,10 +118,12 @@ class Recovery:
         """Select the next action of a robot that is limp."""
         if self._detector.can_stand(stance):
             return Rising(positions_rad, self._home.positions_rad, self._parameters, time_s)
-        may = self._parameters.fall.get_up and not self.has_given_up and self._may_get_up()
-        if may and action.has_lain(time_s):
+        if self._is_allowed_up() and action.has_lain(time_s):
             return GetUp(self._robot, self._shape, self._parameters, time_s, positions_rad)
         return action
+
+    def _is_allowed_up(self) -> bool:
+        return self._parameters.fall.get_up and not self.has_given_up and self._may_get_up()
 
     def _getting_up(
         self, time_s: float, action: GetUp, stance: StandingState, positions_rad: Array

@@ -228,6 +228,11 @@ class Walker:
         return self._recovery.has_given_up
 
     @property
+    def will_get_up(self) -> bool:
+        """Whether the robot lies on the ground and is to get up by itself soon."""
+        return self._recovery.will_get_up
+
+    @property
     def is_blocked(self) -> bool:
         """Whether an obstacle blocks the way of the robot."""
         walk = self._walk

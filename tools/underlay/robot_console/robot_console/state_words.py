@@ -58,7 +58,12 @@ TOO_SLOW = (
 
 
 def words(
-    walking: str | None, stopped: str, holds_because: str, simulation: int | None, can_rise: bool
+    walking: str | None,
+    stopped: str,
+    holds_because: str,
+    simulation: int | None,
+    can_rise: bool,
+    gets_up: bool = False,
 ) -> list[Word]:
     """
     Describe the state of a robot, what matters most first.
@@ -75,6 +80,8 @@ def words(
         The state of the simulation, as that of a `SimulatorLink`.
     can_rise
         Whether a service can stand the robot up.
+    gets_up
+        Whether a robot that has fallen is to get up by itself soon.
 
     """
     found: list[Word] = []
@@ -90,9 +97,15 @@ def words(
         return found or [UNKNOWN]
     if walking in MATTERS or not found:
         state = WALKING.get(walking, WalkingState(f"Does not walk: mode '{walking}'", 'dim'))
-        advice = ': press Stand up' if can_rise else ': hold it upright'
-        found.append((state.label + advice if walking == 'fallen' else state.label, state.look))
+        advice = f': {_after_fall(can_rise, gets_up)}' if walking == 'fallen' else ''
+        found.append((state.label + advice, state.look))
     return found
+
+
+def _after_fall(can_rise: bool, gets_up: bool) -> str:
+    if gets_up:
+        return f'gets up by itself in some seconds{", or press Stand up" if can_rise else ""}'
+    return 'press Stand up' if can_rise else 'hold it upright'
 
 
 def slowness(factor: float | None) -> str:

@@ -43,6 +43,14 @@ def test_a_fallen_robot_that_no_service_can_lift() -> None:
     assert (text, look) == ('Fallen: hold it upright', 'bad')
 
 
+def test_a_fallen_robot_that_gets_up_by_itself() -> None:
+    """Nobody has to do anything, but may lift it at once where a service can."""
+    waits = 'Fallen: gets up by itself in some seconds'
+    assert words('fallen', '', '', None, False, True) == [(waits, 'bad')]
+    assert words('fallen', '', '', None, True, True) == [(f'{waits}, or press Stand up', 'bad')]
+    assert words('stand', '', '', None, True, True) == [('Ready', 'good')]
+
+
 def test_stopped_by() -> None:
     """A user is told in which browser it was, or the other nodes that publish, not too many."""
     ann, ben, eve = 'browser 1 (10.0.0.1)', 'browser 2 (10.0.0.1)', 'browser 3 (10.0.0.3)'

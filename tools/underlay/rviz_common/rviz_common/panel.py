@@ -8,7 +8,7 @@ from typing import Any, ClassVar, TYPE_CHECKING
 
 from rviz_common.context import Context
 from rviz_common.plugins import name_of
-from rviz_common.properties import Property, Values
+from rviz_common.properties import Flag, Property, Values
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 __all__ = [
     'ALWAYS_ORDER',
     'BAR_ORDER',
+    'DOCKED',
+    'DOCK_ORDER',
     'FILE_ORDER',
     'LOOK_ORDER',
     'PHONE_ORDER',
@@ -38,6 +40,10 @@ LOOK_ORDER = -25.0
 TOOLS_ORDER = -20.0
 SELECTION_ORDER = -15.0
 TABS_ORDER = -10.0
+DOCK_ORDER = -100.0
+"""In a tab."""
+
+DOCKED = Flag('Docked', False, 'Whether the panel is on the left side of the page, not in a tab.')
 
 
 class Panel:
@@ -76,7 +82,17 @@ class Panel:
     def __init__(self, context: Context, given: Mapping[str, Any] | None = None) -> None:
         self.context = context
         self.name = name_of(given, self.CLASS)
-        self.values = Values(self.PROPERTIES, given)
+        docked = () if self.IS_ALWAYS_VISIBLE else (DOCKED,)
+        self.values = Values((*docked, *self.PROPERTIES), given)
+
+    @property
+    def is_docked(self) -> bool:
+        """Whether it is on the left side of the page, not in a tab."""
+        return not self.IS_ALWAYS_VISIBLE and bool(self.values[DOCKED.path])
+
+    @is_docked.setter
+    def is_docked(self, is_docked: bool) -> None:
+        self.values[DOCKED.path] = is_docked
 
     @classmethod
     def is_wanted(cls, node: Node) -> bool:

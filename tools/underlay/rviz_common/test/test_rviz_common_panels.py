@@ -30,6 +30,7 @@ from rviz_common.properties import (
 from rviz_common.status import escaped, Level, status_text, Statuses
 from rviz_common.visualizer import Visualizer
 from tf2_ros import Buffer
+from viser._messages import GuiSetPanelPositionMessage
 
 ALL = (
     Flag('Flag', True),
@@ -232,12 +233,56 @@ def test_a_panel_on_demand_appears_where_it_belongs(
         panel_tabs, 'load_plugin', lambda group, name: plugins.get(name) or load(group, name)
     )
     shown = show('Panels:\n  - Class: rviz_common/Views\n  - Class: rviz_common/Time\n')
-    assert shown.panels._tabs._tab_labels == ('Views', 'Time')
+    assert shown.panels.dock.in_row == ['Views', 'Time']
     shown.frame()
-    assert shown.panels._tabs._tab_labels == tuple(tabs.split())
+    assert shown.panels.dock.in_row == tabs.split()
     assert [each['Class'] for each in shown.panels.to_file()] == [
         'rviz_common/Views', 'rviz_common/Time',
     ]  # fmt: skip
+
+
+def test_panels_can_be_docked_beside_the_tabs(show: Show, tmp_path: Any) -> None:
+    """Those docked are below each other; the file remembers them; back, they have their places."""
+    shown = show(
+        'Panels:\n  - {Class: rviz_common/Views}\n  - {Class: rviz_common/Time, Docked: true}\n'
+        '  - {Class: rviz_common/Tool Properties}\n'
+    )
+    dock = shown.panels.dock
+    assert (dock.in_row, dock.on_left) == (['Views', 'Tool Properties'], ['Time'])
+    views, time, _ = shown.panels.panels
+    press_dock_button(shown, views)
+    assert (dock.in_row, dock.on_left) == (['Tool Properties'], ['Time', 'Views'])
+    above, below = dock._docked.values()
+    positions = sent_positions(shown)
+    assert positions[above._impl.uuid][0] == 'edge'
+    assert positions[below._impl.uuid] == ('split', above._impl.uuid)
+    press_dock_button(shown, time)
+    assert (dock.in_row, dock.on_left) == (['Time', 'Tool Properties'], ['Views'])
+    assert sent_positions(shown)[below._impl.uuid][0] == 'edge'
+    shown.save(str(tmp_path / 'a.rviz'))
+    again = show((tmp_path / 'a.rviz').read_text())
+    assert again.panels.dock.on_left == ['Views']
+    assert [each.unknown for each in again.panels.panels] == [[], [], []]
+    widgets = [each for each in time.context.gui._gui_input_handle_from_uuid.values()]
+    assert widgets, 'what was in the moved tabs is still there'
+
+
+def press_dock_button(shown: Visualizer, panel: Panel) -> None:
+    """Press the button that moves a panel."""
+    button = next(iter(shown.panels._tabs[panel]._children.values()))
+    for callback in button._impl.update_cb:  # type: ignore[attr-defined]
+        callback(SimpleNamespace(client=object(), target=button))
+    shown.context.queue.run()
+
+
+def sent_positions(shown: Visualizer) -> dict[str, tuple[str, str]]:
+    """Return where browsers that connect now are told to place each panel."""
+    buffer = shown.context.gui._websock_interface._broadcast_buffer
+    return {
+        each.uuid: (each.position['kind'], each.position.get('anchor_uuid', ''))
+        for each in buffer.message_from_id.values()
+        if isinstance(each, GuiSetPanelPositionMessage)
+    }
 
 
 def test_a_panel_with_a_value_that_cannot_be_used(show: Show, capfd: Any) -> None:

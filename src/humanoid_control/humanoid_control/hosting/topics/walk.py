@@ -18,7 +18,7 @@ from humanoid_description.rotations import about_z, from_quaternion, quaternion_
 from nav_msgs.msg import Odometry
 import numpy as np
 from rclpy.node import Node
-from std_msgs.msg import ColorRGBA, String
+from std_msgs.msg import Bool, ColorRGBA, String
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -35,7 +35,7 @@ _TWIST = (1e-2, 1e-2, 1e-2, 1e-3, 1e-3, 1e-3)
 
 class WalkingStateTopic:
     """
-    Publisher of `walking_state`: on each change, latched for late-joining subscribers.
+    Publishers of `walking_state` and `gets_up_by_itself`: on each change, latched.
 
     Parameters
     ----------
@@ -49,17 +49,26 @@ class WalkingStateTopic:
     def __init__(self, node: Node, robot: str) -> None:
         self._publisher = node.create_publisher(String, topic(robot, 'walking_state'), LATCHED)
         self._said = ''
+        self._up_publisher = node.create_publisher(
+            Bool, topic(robot, 'gets_up_by_itself'), LATCHED
+        )
+        self._will_get_up: bool | None = None
 
-    def publish(self, state: str) -> None:
+    def publish(self, state: str, will_get_up: bool) -> None:
         """
-        Publish the walking state if it has changed.
+        Publish the walking state, and what happens after a fall, if they have changed.
 
         Parameters
         ----------
         state
             The phase of the walk, `blocked`, or the mode in which the robot does not walk.
+        will_get_up
+            Whether the robot lies on the ground and is to get up by itself soon.
 
         """
+        if will_get_up is not self._will_get_up:
+            self._will_get_up = will_get_up
+            self._up_publisher.publish(Bool(data=will_get_up))
         if state != self._said:
             self._said = state
             self._publisher.publish(String(data=state))

@@ -27,7 +27,7 @@ from simulation_interfaces.srv import (
     SetSimulationState,
     StepSimulation,
 )
-from std_msgs.msg import String
+from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 
 __all__ = ['Robot']
@@ -88,10 +88,15 @@ class Robot(LivePanel):
         self._stand_up_name = self.full_name('stand_up')
         self._topic = self.full_name('walking_state')
         self._walking = ''
-        self._can_rise = self._is_told = False
+        self._can_rise = self._is_told = self._gets_up = False
         self._pending: set[str] = set()
         self._look = Pace(1.0)
-        self._subscription = node.create_subscription(String, self._topic, self._take, LATCHED)
+        self._subscriptions = [
+            node.create_subscription(String, self._topic, self._take, LATCHED),
+            node.create_subscription(
+                Bool, self.full_name('gets_up_by_itself'), self._take_gets_up, LATCHED
+            ),
+        ]
         self._factor = RealTimeFactor(node)
         icon = files('robot_console') / 'web' / 'icon.svg'
         self.context.page.present(self.values['Title'], icon.read_text(encoding='utf-8'))
@@ -129,17 +134,21 @@ class Robot(LivePanel):
         self._simulator.close()
         self._calls.close()
         self._factor.close()
-        self.context.node.destroy_subscription(self._subscription)
+        for subscription in self._subscriptions:
+            self.context.node.destroy_subscription(subscription)
         self.context.page.present(self.context.page.title)
 
     def _take(self, message: String) -> None:
         self._walking = message.data
 
+    def _take_gets_up(self, message: Bool) -> None:
+        self._gets_up = message.data
+
     def _examine_graph(self) -> None:
         """Look up whether nodes report the state, and whether one can stand the robot up."""
         node = self.context.node
         if not node.count_publishers(self._topic):
-            self._walking = ''
+            self._walking, self._gets_up = '', False
         self._can_rise = node.count_services(self._stand_up_name) > 0
         self._is_told = node.count_publishers(self._link.state_topic) > 0
 
@@ -153,7 +162,6 @@ class Robot(LivePanel):
     def _state(self, person: str) -> dict[str, Any]:
         """Return what the page of a person shows."""
         simulator = self._simulator
-        factor = self._factor.factor(time.monotonic())
         is_loading = 'world' in self._pending
         return {
             'words': words(
@@ -162,9 +170,9 @@ class Robot(LivePanel):
                 self._link.holds_because if self._is_told else '',
                 SimulationState.STATE_LOADING_WORLD if is_loading else simulator.state,
                 self._can_rise,
+                self._gets_up,
             ),
-            'factor': None if factor is None else round(factor, 2),
-            'slow': slowness(factor),
+            'slow': slowness(self._factor.factor(time.monotonic())),
             'why': self._reasons(),
             'paused': simulator.state not in (None, SILENT, SimulationState.STATE_PLAYING),
             'worlds': [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is changed in the HTML of the client of viser: title, icon, and small screens."""
+"""What is changed in the HTML of the client of viser: title, icon, styles, and small screens."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ import json
 import re
 from urllib.parse import quote
 
+from rviz_common.page.web_files import web_file
+
 __all__ = ['adapted']
 
 TITLE = b'<title>Viser</title>'
 ICON = re.compile(rb'(<link\s+rel="icon"\s+href=")[^"]*"')
 # On screens below 576 pixels, the widgets of viser are in a sheet that covers the scene.
 SMALL = '(max-width: 575px), (max-height: 500px) and (pointer: coarse)'
-HEAD = """
-<style>
-  .scene-only .mantine-Paper-root[style*="position: fixed"] { display: none !important; }
-</style>
+SCRIPT = """
 <script>{
   const asked = new URLSearchParams(location.search), path = %s;
   const isLed = path && window === top && !asked.has('full') && matchMedia('%s').matches;
@@ -52,7 +51,8 @@ def adapted(body: bytes, name: str, icon: str, small_page: str, is_packed: bool)
     """
     text = gzip.decompress(body) if is_packed else body
     # '<' would allow the path to end the script.
-    head = HEAD % (json.dumps(small_page).replace('<', '\\u003c'), SMALL)
+    script = SCRIPT % (json.dumps(small_page).replace('<', '\\u003c'), SMALL)
+    head = f'<style>{web_file("viser.css")}</style>{script}'
     text = text.replace(TITLE, f'<title>{escape(name)}</title>{head}'.encode(), 1)
     if icon:
         data = f'data:image/svg+xml,{quote(icon)}'.encode()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The panels of a file, each in a tab of the page."""
+"""The panels of a file, each in a tab of the page, or docked on its left side."""
 
 from __future__ import annotations
 
@@ -10,15 +10,20 @@ from typing import Any
 
 from rviz_common.context import Context
 from rviz_common.pace import Pace
-from rviz_common.panel import Panel, TABS_ORDER
+from rviz_common.panel import DOCK_ORDER, Panel
+from rviz_common.panels.dock import Dock
 from rviz_common.plugins import load_plugin, PANELS, PANELS_ON_DEMAND, plugin_names
 from rviz_common.status import described_error, escaped
+from viser import Icon
 
 __all__ = ['BUILT_IN', 'PanelTabs']
 
 BUILT_IN = ('rviz_common/Help', 'rviz_common/Transformation')
 """Panels of RViz that do not apply in a browser."""
 LOOK_S = 2.0
+TO_LEFT = 'Dock on the left', Icon.LAYOUT_SIDEBAR
+TO_TABS = 'Back to the tabs', Icon.LAYOUT_SIDEBAR_RIGHT
+"""The label and the icon of the button of each panel; `viser.css` knows it by its icon."""
 
 
 class PanelTabs:
@@ -37,6 +42,8 @@ class PanelTabs:
 
     Attributes
     ----------
+    dock
+        Where the tabs are.
     failures
         The classes that cannot be imported, with the errors.
 
@@ -47,9 +54,8 @@ class PanelTabs:
         self._logger = context.node.get_logger()
         self.failures: dict[str, str] = {}
         self._entries: list[Panel | Mapping[str, Any]] = [self._made(entry) for entry in entries]
-        has_tabs = not all(panel.IS_ALWAYS_VISIBLE for panel in self.panels)
-        self._tabs: Any = context.gui.add_tab_group(order=TABS_ORDER) if has_tabs else None
-        self._places: dict[Panel, Any] = {}
+        self.dock = Dock(context.gui)
+        self._tabs: dict[Panel, Any] = {}
         self._running = [panel for panel in self.panels if self._started(panel)]
         listed = {each['Class'] for each in entries}
         self._awaited = [each for each in plugin_names(PANELS_ON_DEMAND) if each not in listed]
@@ -85,8 +91,7 @@ class PanelTabs:
         """Close the panels, and remove them from the page."""
         for panel in self._running:
             self._guarded(panel, panel.close)
-        if self._tabs is not None:
-            self._tabs.remove()
+        self.dock.close()
 
     def _look_for_awaited(self) -> None:
         """Add the panels on demand that have become wanted."""
@@ -103,23 +108,10 @@ class PanelTabs:
                 self._add(kind(self._context))
 
     def _add(self, panel: Panel) -> None:
-        if self._tabs is None:
-            self._tabs = self._context.gui.add_tab_group(order=TABS_ORDER)
-        if self._started(panel):
+        """Add a panel on demand, next to the one that it follows."""
+        followed = [self._tabs[each] for each in self._tabs if each.CLASS == panel.FOLLOWS]
+        if self._started(panel, followed):
             self._running.append(panel)
-        self._move(panel)
-
-    def _move(self, panel: Panel) -> None:
-        """Move the tab of a panel on demand next to that of the panel that it follows."""
-        tab = self._places[panel]
-        handles = self._tabs._tab_handles  # viser has only a way to append tabs
-        others = [each for each in handles if each is not tab]
-        followed = [self._places[each] for each in self.panels if each.CLASS == panel.FOLLOWS]
-        for index, other in enumerate(others, 1):
-            if any(other is each for each in followed):
-                handles[:] = [*others[:index], tab, *others[index:]]
-                self._tabs._rebuild_tab_props()
-                return
 
     def _made(self, entry: Mapping[str, Any]) -> Panel | Mapping[str, Any]:
         try:
@@ -131,9 +123,8 @@ class PanelTabs:
             return entry
         return panel
 
-    def _started(self, panel: Panel) -> bool:
-        tab = nullcontext() if panel.IS_ALWAYS_VISIBLE else self._tabs.add_tab(panel.name)
-        self._places[panel] = tab
+    def _started(self, panel: Panel, neighbors: Sequence[Any] = ()) -> bool:
+        tab = nullcontext() if panel.IS_ALWAYS_VISIBLE else self._tab_of(panel, neighbors)
         try:
             with tab:
                 panel.start()
@@ -145,6 +136,26 @@ class PanelTabs:
         else:
             return True
         return False
+
+    def _tab_of(self, panel: Panel, neighbors: Sequence[Any]) -> Any:
+        """Add the tab of a panel, with the button that moves it, where the file says."""
+        tab = self._tabs[panel] = self.dock.add(panel.name, neighbors)
+        with tab:
+            button = self._context.gui.add_button('', color='gray', order=DOCK_ORDER)
+        self._context.on_click(button, lambda: self._move(panel, button))
+        if panel.is_docked:
+            self.dock.move_left(tab)
+        _label(button, panel.is_docked)
+        return tab
+
+    def _move(self, panel: Panel, button: Any) -> None:
+        """Move a panel to the dock, or back, as its button demands."""
+        panel.is_docked = not panel.is_docked
+        if panel.is_docked:
+            self.dock.move_left(self._tabs[panel])
+        else:
+            self.dock.move_back(self._tabs[panel])
+        _label(button, panel.is_docked)
 
     def _guarded(self, panel: Panel, work: Callable[[], None]) -> bool:
         """Run a callable of a panel and log a failure; return whether it succeeded."""
@@ -162,8 +173,12 @@ class PanelTabs:
     def _say(self, panel: Panel, sentence: str) -> None:
         """Show in the tab of a panel why it is missing."""
         if not panel.IS_ALWAYS_VISIBLE:
-            with self._places[panel]:
+            with self._tabs[panel]:
                 self._context.gui.add_markdown(f'✖ {escaped(sentence)}')
+
+
+def _label(button: Any, is_docked: bool) -> None:
+    button.label, button.icon = TO_TABS if is_docked else TO_LEFT
 
 
 def _named(panel: Panel) -> str:
