@@ -44,7 +44,7 @@ def test_panels_are_docked_and_come_back(
     tab.goto(f'http://127.0.0.1:{page.port}/?fixedDpr=0.2', wait_until='commit')
     to_left = tab.get_by_role('button', name=TO_LEFT[0])
     to_tabs = tab.get_by_role('button', name=TO_TABS[0])
-    views = tab.get_by_role('button', name='Save this view')
+    views = tab.get_by_role('button', name='Take this view')
     for name in ('Views', 'Time'):
         spin_until(tab.get_by_role('tab', name=name).is_visible, f'the tab {name}')
         tab.get_by_role('tab', name=name).click()

@@ -252,7 +252,7 @@ def test_panels_can_be_docked_beside_the_tabs(show: Show, tmp_path: Any) -> None
     views, time, _ = shown.panels.panels
     press_dock_button(shown, views)
     assert (dock.in_row, dock.on_left) == (['Tool Properties'], ['Time', 'Views'])
-    above, below = dock._docked.values()
+    above, below = (each.panel for each in dock._docked)
     positions = sent_positions(shown)
     assert positions[above._impl.uuid][0] == 'edge'
     assert positions[below._impl.uuid] == ('split', above._impl.uuid)

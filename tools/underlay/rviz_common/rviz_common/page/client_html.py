@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is changed in the HTML of the client of viser: title, icon, styles, and small screens."""
+"""What is changed in the HTML of the client of viser: title, icon, styles, and how it draws."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def adapted(body: bytes, name: str, icon: str, small_page: str, is_packed: bool)
     text = gzip.decompress(body) if is_packed else body
     # '<' would allow the path to end the script.
     script = SCRIPT % (json.dumps(small_page).replace('<', '\\u003c'), SMALL)
-    head = f'<style>{web_file("viser.css")}</style>{script}'
+    head = f'<style>{web_file("viser.css")}</style><script>{web_file("card.js")}</script>{script}'
     text = text.replace(TITLE, f'<title>{escape(name)}</title>{head}'.encode(), 1)
     if icon:
         data = f'data:image/svg+xml,{quote(icon)}'.encode()

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.panel import TABS_ORDER
+from viser._messages import GuiFolderMessage
 
 if TYPE_CHECKING:
     from viser import GuiApi
@@ -14,6 +16,16 @@ if TYPE_CHECKING:
 __all__ = ['Dock']
 
 WIDTH_PX = 380
+
+
+@dataclass(eq=False)
+class _Tab:
+    """A tab, in the row or in a panel of viser on the left, and the folder with its widgets."""
+
+    name: str
+    folder: Any
+    handle: Any
+    panel: Any = None
 
 
 class Dock:
@@ -33,8 +45,8 @@ class Dock:
     def __init__(self, gui: GuiApi) -> None:
         self._gui = gui
         self._group: Any = None
-        self._tabs: list[Any] = []
-        self._docked: dict[str, Any] = {}
+        self._tabs: list[_Tab] = []
+        self._docked: list[_Tab] = []
 
     @property
     def in_row(self) -> list[str]:
@@ -44,7 +56,7 @@ class Dock:
     @property
     def on_left(self) -> list[str]:
         """The names of the tabs on the left, from top to bottom."""
-        return [panel._tab_labels[0] for panel in self._docked.values()]
+        return [each.name for each in self._docked]
 
     def add(self, name: str, neighbors: Sequence[Any] = ()) -> Any:
         """
@@ -55,91 +67,100 @@ class Dock:
         name
             The name of the tab.
         neighbors
-            Tabs to the right of which it is placed; without them, it is the last one.
+            Contexts of tabs to the right of which it is placed; without them, it is the last one.
 
         Returns
         -------
         Any
-            The tab, as a context for its widgets.
+            The context for the widgets of the tab, which stays the same when the tab is moved.
 
         """
         if self._group is None:
             self._group = self._gui.add_tab_group(order=TABS_ORDER)
-        tab = self._group.add_tab(name)
-        ids = {each._id for each in neighbors}
-        places = [place for place, each in enumerate(self._tabs, 1) if each._id in ids]
+        handle = self._group.add_tab(name)
+        with handle:
+            tab = _Tab(name, self._gui.add_folder(None), handle)
+        places = [
+            place
+            for place, each in enumerate(self._tabs, 1)
+            if any(each.folder is neighbor for neighbor in neighbors)
+        ]
         self._tabs.insert(places[0] if places else len(self._tabs), tab)
         self._arrange_row()
-        return tab
+        return tab.folder
 
-    def is_docked(self, tab: Any) -> bool:
+    def move_left(self, context: Any) -> None:
         """
-        Whether a tab is on the left.
+        Move a tab from the row to the left, below those that are already there.
 
         Parameters
         ----------
-        tab
-            The tab.
+        context
+            Its context, as `add` has returned it.
 
         """
-        return tab._id in self._docked
-
-    def move_left(self, tab: Any) -> None:
-        """
-        Move a tab to the left, below those that are already there.
-
-        Parameters
-        ----------
-        tab
-            The tab, which is in the row.
-
-        """
-        panel = self._docked[tab._id] = self._gui.add_panel()
-        self._arrange_row()
-        _fill(panel, [tab])
-        tab._parent = panel
+        tab = self._find(context)
+        before, tab.panel = tab.handle, self._gui.add_panel()
+        self._hang(tab, tab.panel.add_tab(tab.name))
+        before.remove()
+        self._docked.append(tab)
         self._arrange_left()
 
-    def move_back(self, tab: Any) -> None:
+    def move_back(self, context: Any) -> None:
         """
-        Move a tab back to its place in the row.
+        Move a tab from the left back to its place in the row.
 
         Parameters
         ----------
-        tab
-            The tab, which is on the left.
+        context
+            Its context, as `add` has returned it.
 
         """
-        panel = self._docked.pop(tab._id)
-        _fill(panel, [])  # otherwise what is in the tab would be removed, too
-        panel.remove()
-        tab._parent = self._group
+        tab = self._find(context)
+        before, tab.panel = tab.panel, None
+        self._hang(tab, self._group.add_tab(tab.name))
+        before.remove()
+        self._docked.remove(tab)
         self._arrange_row()
         self._arrange_left()
 
     def close(self) -> None:
         """Remove the tabs, and the widgets in them."""
-        for panel in self._docked.values():
-            panel.remove()
+        for tab in self._docked:
+            tab.panel.remove()
         if self._group is not None:
             self._group.remove()
 
+    def _find(self, context: Any) -> _Tab:
+        return next(each for each in self._tabs if each.folder is context)
+
+    def _hang(self, tab: _Tab, handle: Any) -> None:
+        """
+        Move the folder of a tab into another tab of viser.
+
+        A tab of viser stays where a browser has put it, and so does what is created in it: each
+        place needs another one, and the folder is announced once more.
+        """
+        folder, before = tab.folder._impl, tab.handle
+        folder.parent_container_id = handle._id
+        handle._children[folder.uuid] = before._children.pop(folder.uuid)
+        tab.handle = handle
+        self._gui._websock_interface.queue_message(
+            GuiFolderMessage(folder.uuid, container_uuid=handle._id, props=folder.props)
+        )
+
     def _arrange_row(self) -> None:
-        _fill(self._group, [each for each in self._tabs if each._id not in self._docked])
+        """Order the tabs in the row; viser has only a way to append new ones."""
+        self._group._tab_handles[:] = [each.handle for each in self._tabs if each.panel is None]
+        self._group._rebuild_tab_props()
 
     def _arrange_left(self) -> None:
         """Dock the first panel at the edge, and each other one below the one before."""
         above = None
-        for panel in self._docked.values():
+        for panel in (each.panel for each in self._docked):
             if above is None:
                 panel.dock_left()
                 panel.set_width(WIDTH_PX)
             else:
                 panel.dock_below(above)
             above = panel
-
-
-def _fill(container: Any, tabs: list[Any]) -> None:
-    """Set the tabs of a group or a panel; viser has only a way to append new ones."""
-    container._tab_handles[:] = tabs
-    container._rebuild_tab_props()
