@@ -30,8 +30,8 @@ from humanoid_simulation.errors import SimulationError
 
 SIGMA = 0.1
 """Standard deviation of the gains in the first generation."""
-MOST_NS = 60.0
-"""The strongest push to train with, in N s: beyond it, the robot falls whatever it does."""
+MOST_NS = 50.0
+"""The strongest push to train with, in N s: even the robot's own walk survives no stronger one."""
 _DIGITS = 16
 """Whole numbers have fewer digits than this."""
 _ENDING = (signal.SIGINT, signal.SIGTERM)
