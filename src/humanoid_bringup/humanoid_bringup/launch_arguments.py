@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from humanoid_common.naming import shortened
-from launch import Substitution
+from launch import LaunchContext, Substitution
 from launch.substitutions import EqualsSubstitution, IfElseSubstitution, LaunchConfiguration
 
-__all__ = ['is_simulated', 'robot_namespaces', 'robot_time', 'whole_number']
+__all__ = ['WholeNumber', 'is_simulated', 'robot_namespaces', 'robot_time', 'whole_number']
 
 MOST_ROBOTS = 50
 _DIGITS = 9
@@ -42,6 +42,46 @@ def robot_namespaces(count: str) -> list[str]:
     """
     robots = whole_number('robots', count, range(1, MOST_ROBOTS + 1), 3)
     return [f'robot{index}' for index in range(1, robots + 1)]
+
+
+class WholeNumber(Substitution):
+    """
+    Substitution by a launch argument, which has to be a whole number.
+
+    Parameters
+    ----------
+    name
+        The argument.
+    allowed, example
+        As for `whole_number`.
+
+    """
+
+    def __init__(self, name: str, allowed: range, example: int) -> None:
+        super().__init__()
+        self._name, self._allowed, self._example = name, allowed, example
+
+    def describe(self) -> str:
+        """Return a human-readable description."""
+        return f'WholeNumber({self._name})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """
+        Return the text of the argument.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+
+        Raises
+        ------
+        ValueError
+            It is no such number.
+
+        """
+        text = LaunchConfiguration(self._name).perform(context)
+        return str(whole_number(self._name, text, self._allowed, self._example))
 
 
 def whole_number(name: str, text: str, allowed: range, example: int) -> int:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from humanoid_bringup.crash_proof import crash_proof, Once
+from humanoid_bringup.launch_arguments import WholeNumber
 from humanoid_bringup.rviz_file import RvizFile
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -30,11 +31,13 @@ def generate_launch_description() -> LaunchDescription:
     )
     frame = IfElseSubstitution(navigates, 'map', 'odom')
     arguments = ['-d', Once(config), '-f', Once(LaunchConfiguration('prefix'), frame)]
-    kinds = {'host': str, 'port': int, 'token': str, 'use_sim_time': bool}
+    kinds = {'host': str, 'token': str, 'use_sim_time': bool}
+    port = WholeNumber('port', range(65536), 8090)
     page = {
         name: ParameterValue(Once(LaunchConfiguration(name)), value_type=kind)
         for name, kind in kinds.items()
     }
+    page['port'] = ParameterValue(Once(port), value_type=int)
     return LaunchDescription(
         [
             DeclareLaunchArgument(

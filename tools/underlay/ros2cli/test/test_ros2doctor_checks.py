@@ -20,7 +20,7 @@ from ros2cli.graph.servers import Server
 from ros2doctor.api.extension import Finding, Severity
 from ros2doctor.check.clock import clock_findings
 from ros2doctor.check.environment import Environment, environment_findings
-from ros2doctor.check.frames import frame_findings
+from ros2doctor.check.frames import frame_findings, FramesCheck
 from ros2doctor.check.graph import client_library_findings, Endpoint, Graph
 from ros2doctor.check.graphics import Graphics, graphics_findings
 from ros2doctor.check.libraries import Libraries, library_findings, LibraryFolder
@@ -34,7 +34,13 @@ from ros2doctor.check.nodes import (
 )
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, Script, script_findings
-from ros2doctor.check.servers import Discovery, server_findings, ServersReport
+from ros2doctor.check.servers import (
+    Discovery,
+    server_findings,
+    ServersCheck,
+    ServersReport,
+    why_no_graph,
+)
 from ros2doctor.check.transports import CLEAN_UP, read_shared_memory, SharedMemory
 from ros2doctor.check.wheels import install_command, wheel_findings, Wheels
 from ros2doctor.check.workspace import PackageState, Workspace, workspace_findings
@@ -344,6 +350,20 @@ def test_report_of_a_mistake_in_the_servers(monkeypatch: pytest.MonkeyPatch) -> 
     assert items['servers'].startswith("ROS_DISCOVERY_SERVER has the entry '127.0.0.1:abc'")
 
 
+@pytest.mark.parametrize('servers', ['127.0.0.1:abc', 'robot.invalid', 'TCPv4:[127.0.0.1]:42100'])
+def test_checks_of_nodes_without_a_server_to_ask(
+    servers: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The check of the servers says why; the others are skipped, and do not repeat it."""
+    monkeypatch.setenv('ROS_DISCOVERY_SERVER', servers)
+    why_no_graph.cache_clear()
+    try:
+        assert ServersCheck().check().findings
+        assert not FramesCheck().check().findings
+    finally:
+        why_no_graph.cache_clear()
+
+
 def test_variables_of_discovery_servers(network: Network) -> None:
     """Mistakes are named; with a server multicast no longer matters."""
     wrong = {'ROS_SUPER_CLIENT': 'yes'}
@@ -352,6 +372,10 @@ def test_variables_of_discovery_servers(network: Network) -> None:
         "WARNING: ROS_SUPER_CLIENT is 'yes', which is neither TRUE nor FALSE",
     ]
     assert not sentences(server_findings(Discovery({'ROS_SUPER_CLIENT': 'True'})))
+    for named in (';;', ' '):
+        assert sentences(server_findings(Discovery({'ROS_DISCOVERY_SERVER': named}))) == [
+            f"WARNING: ROS_DISCOVERY_SERVER is '{named}', which names no server"
+        ]
     both = {'ROS_DISCOVERY_SERVER': 'robot', 'ROS_STATIC_PEERS': 'laptop'}
     assert sentences(server_findings(Discovery(both))) == [
         'WARNING: ROS_STATIC_PEERS has no effect, because ROS_DISCOVERY_SERVER is set'

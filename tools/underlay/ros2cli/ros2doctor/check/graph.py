@@ -22,6 +22,7 @@ from ros2doctor.check.listening import (
     Transform,
     TransformListener,
 )
+from ros2doctor.check.servers import why_no_graph
 from ros2doctor.check.wheels import install_command
 
 TRANSFORM_TIME_S = 1.0
@@ -196,11 +197,15 @@ def client_library_findings(why_not: str, install_again: str) -> Iterator[Findin
 
 
 class GraphCheck(DoctorCheck):
-    """Base class of a graph check; skipped if rclpy does not start, which has its own check."""
+    """
+    Base class of a graph check.
+
+    It is skipped if rclpy does not start, or no discovery server can be asked: both have checks.
+    """
 
     def check(self) -> Result:
         """Check the graph."""
-        if why_rclpy_does_not_start():
+        if why_rclpy_does_not_start() or why_no_graph():
             return Result()
         return Result(self.findings(read_graph()))
 
@@ -235,7 +240,7 @@ class GraphReport(DoctorReport):
     def report(self) -> Report:
         """Return the section."""
         report = Report(self.TITLE)
-        why_not = why_rclpy_does_not_start()
+        why_not = why_rclpy_does_not_start() or why_no_graph()
         if why_not:
             report.add_to_report('not available', why_not)
         else:

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 import os
 from pathlib import Path
 import re
 import shutil
 
 from ros2cli.graph.probe import Answer, ask_servers
-from ros2cli.graph.servers import read_servers, SERVERS, SUPER_CLIENT
+from ros2cli.graph.servers import read_servers, SERVERS, SUPER_CLIENT, udp_host
 from ros2doctor.api.extension import DoctorCheck, DoctorReport, Finding, Report, Result, Severity
 from ros2doctor.check.wheels import environment_prefix
 
@@ -61,6 +62,17 @@ def read_discovery() -> Discovery:
     )
 
 
+@cache
+def why_no_graph() -> str:
+    """Return why the discovery servers cannot be asked for the running nodes; '' if they can."""
+    try:
+        for server in read_servers():
+            udp_host(server)
+    except RuntimeError as error:
+        return str(error)
+    return ''
+
+
 def _library() -> Path | None:
     found = sorted(Path(environment_prefix(), 'lib').glob('libfastrtps.so.*.*.*'))
     return found[-1] if found else None
@@ -80,7 +92,11 @@ class ServersCheck(DoctorCheck):
 
     def check(self) -> Result:
         """Check that each server answers."""
-        return Result(server_findings(read_discovery()))
+        findings = [*server_findings(read_discovery())]
+        why = '' if findings else why_no_graph()
+        if why:
+            findings.append(Finding(Severity.WARNING, why, 'the running nodes were not examined'))
+        return Result(findings)
 
 
 def server_findings(facts: Discovery) -> Iterator[Finding]:
@@ -100,7 +116,10 @@ def server_findings(facts: Discovery) -> Iterator[Finding]:
     """
     if facts.mistake:
         yield Finding(
-            Severity.ERROR, facts.mistake, 'nodes leave this entry out', f'unset {SERVERS}'
+            Severity.ERROR,
+            facts.mistake,
+            'nodes print an error, and leave all servers out; running nodes were not examined',
+            f'correct it, or do without: unset {SERVERS}',
         )
     is_reached = any(not each.error for each in facts.answers)
     for each in facts.answers:
@@ -140,6 +159,14 @@ def _other_number(answer: Answer) -> Finding:
 
 def _variables(variables: Mapping[str, str]) -> Iterator[Finding]:
     """Yield the variables that do not fit."""
+    named = variables.get(SERVERS, '')
+    if named and not named.replace(';', '').strip():
+        yield Finding(
+            Severity.WARNING,
+            f"{SERVERS} is '{named}', which names no server",
+            'each node prints an error, and discovers others without a server',
+            f'unset {SERVERS}',
+        )
     if variables.get(SERVERS) and variables.get(PEERS):
         yield Finding(
             Severity.WARNING,
