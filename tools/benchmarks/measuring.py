@@ -11,6 +11,7 @@ from pathlib import Path
 from statistics import median
 import subprocess
 import time
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -162,3 +163,20 @@ def child_of(parent: int, executable: str) -> int:
         if any(word.endswith(f'/{executable}'.encode()) for word in words[:2]):
             return int(number)
     raise SystemExit(f'Process {parent} has started no {executable}.')
+
+
+def endpoints_of(node: Any) -> int:
+    """
+    Count the endpoints that a node knows, its own included: two for each service or client.
+
+    Parameters
+    ----------
+    node
+        The node of rclpy.
+
+    """
+    topics = [name for name, _ in node.get_topic_names_and_types()]
+    services = [name for name, _ in node.get_service_names_and_types()]
+    return sum(node.count_publishers(each) + node.count_subscribers(each) for each in topics) + (
+        2 * sum(node.count_services(each) + node.count_clients(each) for each in services)
+    )
