@@ -9,7 +9,9 @@ import sys
 
 import pytest
 
-BENCHMARKS = Path(__file__).resolve().parents[1] / 'benchmarks'
+ROOT = Path(__file__).resolve().parents[2]
+BENCHMARKS = ROOT / 'tools' / 'benchmarks'
+SCALING = ROOT / 'docs' / 'explanation' / 'scaling.md'
 
 
 @pytest.mark.parametrize('name', ['bringup_cost', 'command_times', 'launch_times'])
@@ -48,6 +50,10 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['network_cut', '--loss', '2'], "'2' is no float from 0 to 1."),
         (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
         (['journeys', '--only', 'flight'], "invalid choice: 'flight'"),
+        (['fleet', '--robots', '0'], "'0' is no int from 1 to 200."),
+        (['fleet', '--ways', 'shouting'], "invalid choice: 'shouting'"),
+        (['discovery_time', '--nodes', '1'], "'1' is no int from 2 to 100."),
+        (['sweep_cost', '--walks', '0'], "'0' is no int at least 1."),
     ],
 )
 def test_no_number_to_begin_with(words: list[str], sentence: str) -> None:
@@ -57,3 +63,14 @@ def test_no_number_to_begin_with(words: list[str], sentence: str) -> None:
     assert done.returncode == 2
     assert sentence in done.stderr and 'Traceback' not in done.stderr
     assert done.stdout == ''
+
+
+def test_the_page_of_scaling_has_what_is_computed() -> None:
+    """Its tables follow from the measured figures; after a new measurement they are copied anew."""
+    command = [sys.executable, str(BENCHMARKS / 'scaling.py')]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    page = SCALING.read_text()
+    tables = printed.strip().split('\n\n')
+    assert len(tables) == 5
+    for table in tables:
+        assert f'\n\n{table}\n\n' in page, 'Copy what `tools/benchmarks/scaling.py` prints.'
