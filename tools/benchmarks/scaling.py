@@ -334,7 +334,11 @@ def limits_table(tables: Mapping[str, Rows], fleet: Fleet) -> str:
             'one machine, one domain',
             f'Fast DDS has ports for {MOST_PROCESSES} processes',
         ),
-        (share, 'no server, cables', f'announcements take more than {SMALL_SHARE:g} cores of each robot'),
+        (
+            share,
+            'no server, cables',
+            f'announcements take more than {SMALL_SHARE:g} cores of each robot',
+        ),
         (
             math.floor(WIFI_BYTES_S / served),
             'a server, one Wi-Fi channel',

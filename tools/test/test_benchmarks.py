@@ -66,7 +66,7 @@ def test_no_number_to_begin_with(words: list[str], sentence: str) -> None:
 
 
 def test_the_page_of_scaling_has_what_is_computed() -> None:
-    """Its tables follow from the measured figures; after a new measurement they are copied anew."""
+    """Its tables follow from the measured figures; copy them anew after a measurement."""
     command = [sys.executable, str(BENCHMARKS / 'scaling.py')]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     page = SCALING.read_text()

@@ -90,8 +90,16 @@ class Panel:
         """Whether it is on the left side of the page, not in a tab."""
         return not self.IS_ALWAYS_VISIBLE and bool(self.values[DOCKED.path])
 
-    @is_docked.setter
-    def is_docked(self, is_docked: bool) -> None:
+    def dock(self, is_docked: bool) -> None:
+        """
+        Remember in the file whether the panel is on the left side of the page.
+
+        Parameters
+        ----------
+        is_docked
+            Whether it is there.
+
+        """
         self.values[DOCKED.path] = is_docked
 
     @classmethod

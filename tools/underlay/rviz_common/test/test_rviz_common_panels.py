@@ -263,7 +263,7 @@ def test_panels_can_be_docked_beside_the_tabs(show: Show, tmp_path: Any) -> None
     again = show((tmp_path / 'a.rviz').read_text())
     assert again.panels.dock.on_left == ['Views']
     assert [each.unknown for each in again.panels.panels] == [[], [], []]
-    widgets = [each for each in time.context.gui._gui_input_handle_from_uuid.values()]
+    widgets = list(time.context.gui._gui_input_handle_from_uuid.values())
     assert widgets, 'what was in the moved tabs is still there'
 
 

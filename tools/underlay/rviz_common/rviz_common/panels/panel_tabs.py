@@ -150,7 +150,7 @@ class PanelTabs:
 
     def _move(self, panel: Panel, button: Any) -> None:
         """Move a panel to the dock, or back, as its button demands."""
-        panel.is_docked = not panel.is_docked
+        panel.dock(not panel.is_docked)
         if panel.is_docked:
             self.dock.move_left(self._tabs[panel])
         else:
