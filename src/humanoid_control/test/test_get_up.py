@@ -54,7 +54,7 @@ def motions(control: WalkingRobotControl, lies: dict[str, str], until_s: float) 
     now = BACK
     for tick in range(round(until_s / 0.05)):
         control.walker.update(seen(control.walker, 0.05 * tick, now))
-        motion = getattr(control.walker._recovery._action, '_motion', '')
+        motion = getattr(control.walker.recovery._action, '_motion', '')
         if motion and (not found or motion != found[-1]):
             found.append(motion)
         now = lies.get(motion, now)
@@ -103,9 +103,9 @@ def test_it_gives_up(robot: Robot) -> None:
     control = control_of(robot)
     found = motions(control, {}, 30.0)
     assert found == [STRETCH, ROLL_OVER] * FALL.get_up_tries
-    assert control.walker.has_given_up
+    assert control.walker.recovery.has_given_up
     assert control.walker.phase == 'fallen'
-    assert not control.walker.will_get_up
+    assert not control.walker.recovery.will_get_up
 
 
 def test_a_stop_keeps_it_down(robot: Robot) -> None:
@@ -113,16 +113,16 @@ def test_a_stop_keeps_it_down(robot: Robot) -> None:
     control = control_of(robot)
     control.control.hold_still(True)
     assert motions(control, {}, 8.0) == []
-    assert not control.walker.will_get_up
+    assert not control.walker.recovery.will_get_up
     control.control.hold_still(False)
-    assert control.walker.will_get_up
+    assert control.walker.recovery.will_get_up
     control.walker.update(seen(control.walker, 9.0, BACK))
     assert control.walker.phase == 'stand_up'
     control.control.hold_still(True)
     lying = seen(control.walker, 9.1, BACK)
     control.walker.update(lying)
     assert control.walker.phase == 'fallen'
-    assert not control.walker.has_given_up
+    assert not control.walker.recovery.has_given_up
 
 
 def test_it_stays_down_if_it_is_to(robot: Robot) -> None:

@@ -142,7 +142,7 @@ class HostedRobots:
             self.time_s = observations[name].time_s
             self._actions[name].tell(self.time_s)
             walker = self._robots[name].walker
-            self._falls[name].look(walker.has_fallen, walker.has_given_up)
+            self._falls[name].look(walker.has_fallen, walker.recovery.has_given_up)
             self._obstacles[name].look(walker.is_blocked)
 
     def health(self) -> dict[str, RobotHealth]:
@@ -312,4 +312,4 @@ class RobotOutputs:
         else:
             state = mode
         if state is not None:
-            self._state.publish(state, walker.will_get_up)
+            self._state.publish(state, walker.recovery.will_get_up)

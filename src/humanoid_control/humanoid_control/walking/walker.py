@@ -42,6 +42,8 @@ class Walker:
     imu: ImuNoise = field(default_factory=ImuNoise)
     may_get_up: Callable[[], bool] = _always
     """Returns whether the robot may get up by itself when it lies on the ground."""
+    recovery: Recovery = field(init=False)
+    """What it does after a fall."""
     _estimator: StateEstimator = field(init=False)
     _velocity: VelocityCommand = field(init=False, default=STANDING)
     _body: BodyPose = field(init=False, default=UPRIGHT)
@@ -49,7 +51,6 @@ class Walker:
     _targets: JointTargets | None = field(init=False, default=None)
     _start_m: Point = field(init=False, default=0j)
     _uncertainty: Uncertainty = field(init=False)
-    _recovery: Recovery = field(init=False)
 
     def __post_init__(self) -> None:
         self.reset()
@@ -97,7 +98,7 @@ class Walker:
     def reset(self) -> None:
         """Reset all state, after the robot has been placed elsewhere; odometry starts again."""
         self._estimator = StateEstimator(self.robot)
-        self._recovery = Recovery(
+        self.recovery = Recovery(
             self.robot, self.shape, self.home, self.parameters, lambda: self.may_get_up()
         )
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
@@ -214,23 +215,13 @@ class Walker:
         """
         own = self.robot.own(observation)
         sensed = self._estimator.read(own)
-        targets = self._recovery.update(sensed, own.positions_rad)
+        targets = self.recovery.update(sensed, own.positions_rad)
         return None if targets is None else self.robot.whole(targets)
 
     @property
     def has_fallen(self) -> bool:
         """Whether the robot is falling, lies on the ground or is standing up."""
-        return self._recovery.phase is not None
-
-    @property
-    def has_given_up(self) -> bool:
-        """Whether the robot lies on the ground and has not managed to get up by itself."""
-        return self._recovery.has_given_up
-
-    @property
-    def will_get_up(self) -> bool:
-        """Whether the robot lies on the ground and is to get up by itself soon."""
-        return self._recovery.will_get_up
+        return self.recovery.phase is not None
 
     @property
     def is_blocked(self) -> bool:
@@ -255,7 +246,7 @@ class Walker:
     ) -> JointTargets | None:
         """Advance the fall recovery; return its targets, or None if the robot walks (again)."""
         was_down = self.has_fallen
-        targets = self._recovery.update(sensed, positions_rad)
+        targets = self.recovery.update(sensed, positions_rad)
         if targets is not None:
             walk.lie(sensed)
         elif was_down:
@@ -265,7 +256,7 @@ class Walker:
     @property
     def phase(self) -> str | None:
         """Return the phase, as in `WalkStatus`; None before the first update."""
-        return self._recovery.phase or (self._walk.gait.phase if self._walk else None)
+        return self.recovery.phase or (self._walk.gait.phase if self._walk else None)
 
     @property
     def status(self) -> WalkStatus | None:

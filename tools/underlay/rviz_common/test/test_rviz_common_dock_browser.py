@@ -50,7 +50,8 @@ def test_panels_are_docked_and_come_back(
         tab.get_by_role('tab', name=name).click()
         spin_until(to_left.is_visible, 'a button')
         to_left.click()
-        spin_until(lambda name=name: name in shown.panels.dock.on_left, f'{name} is docked')
+        panel = next(each for each in shown.panels.panels if each.name == name)
+        spin_until(lambda panel=panel: panel.is_docked, f'{name} is docked')
     spin_until(lambda: to_tabs.count() == 2, 'two panels')
     spin_until(lambda: views.is_visible() and to_left.is_visible(), 'three panels in sight')
     boxes = [each.bounding_box() for each in (to_tabs.first, to_tabs.last, to_left)]
@@ -64,7 +65,7 @@ def test_panels_are_docked_and_come_back(
     tab.get_by_role('tab', name='Views').click()
     spin_until(views.is_visible, 'what is in it')
     assert views.bounding_box()['x'] > WIDTH / 2
-    assert shown.panels.dock.on_left == ['Time']
+    assert [each.name for each in shown.panels.panels if each.is_docked] == ['Time']
     tab.reload(wait_until='commit')
     spin_until(lambda: to_tabs.count() == 1 and to_tabs.is_visible(), 'a docked panel, again')
     assert to_tabs.bounding_box()['x'] < WIDTH / 2

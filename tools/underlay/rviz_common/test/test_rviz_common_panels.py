@@ -233,9 +233,9 @@ def test_a_panel_on_demand_appears_where_it_belongs(
         panel_tabs, 'load_plugin', lambda group, name: plugins.get(name) or load(group, name)
     )
     shown = show('Panels:\n  - Class: rviz_common/Views\n  - Class: rviz_common/Time\n')
-    assert shown.panels.dock.in_row == ['Views', 'Time']
+    assert in_row(shown) == ['Views', 'Time']
     shown.frame()
-    assert shown.panels.dock.in_row == tabs.split()
+    assert in_row(shown) == tabs.split()
     assert [each['Class'] for each in shown.panels.to_file()] == [
         'rviz_common/Views', 'rviz_common/Time',
     ]  # fmt: skip
@@ -247,24 +247,33 @@ def test_panels_can_be_docked_beside_the_tabs(show: Show, tmp_path: Any) -> None
         'Panels:\n  - {Class: rviz_common/Views}\n  - {Class: rviz_common/Time, Docked: true}\n'
         '  - {Class: rviz_common/Tool Properties}\n'
     )
-    dock = shown.panels.dock
-    assert (dock.in_row, dock.on_left) == (['Views', 'Tool Properties'], ['Time'])
+    assert (in_row(shown), on_left(shown)) == (['Views', 'Tool Properties'], ['Time'])
     views, time, _ = shown.panels.panels
     press_dock_button(shown, views)
-    assert (dock.in_row, dock.on_left) == (['Tool Properties'], ['Time', 'Views'])
-    above, below = (each.panel for each in dock._docked)
+    assert (in_row(shown), on_left(shown)) == (['Tool Properties'], ['Time', 'Views'])
+    above, below = (each.panel for each in shown.panels.dock._docked)
     positions = sent_positions(shown)
     assert positions[above._impl.uuid][0] == 'edge'
     assert positions[below._impl.uuid] == ('split', above._impl.uuid)
     press_dock_button(shown, time)
-    assert (dock.in_row, dock.on_left) == (['Time', 'Tool Properties'], ['Views'])
+    assert (in_row(shown), on_left(shown)) == (['Time', 'Tool Properties'], ['Views'])
     assert sent_positions(shown)[below._impl.uuid][0] == 'edge'
     shown.save(str(tmp_path / 'a.rviz'))
     again = show((tmp_path / 'a.rviz').read_text())
-    assert again.panels.dock.on_left == ['Views']
+    assert on_left(again) == ['Views']
     assert [each.unknown for each in again.panels.panels] == [[], [], []]
     widgets = list(time.context.gui._gui_input_handle_from_uuid.values())
     assert widgets, 'what was in the moved tabs is still there'
+
+
+def in_row(shown: Visualizer) -> list[str]:
+    """Return the names of the tabs that browsers show in the row."""
+    return list(shown.panels.dock._group._tab_labels)
+
+
+def on_left(shown: Visualizer) -> list[str]:
+    """Return the names of the tabs on the left, from top to bottom."""
+    return [each.name for each in shown.panels.dock._docked]
 
 
 def press_dock_button(shown: Visualizer, panel: Panel) -> None:

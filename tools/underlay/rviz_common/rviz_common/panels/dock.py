@@ -48,16 +48,6 @@ class Dock:
         self._tabs: list[_Tab] = []
         self._docked: list[_Tab] = []
 
-    @property
-    def in_row(self) -> list[str]:
-        """The names of the tabs in the row."""
-        return [] if self._group is None else list(self._group._tab_labels)
-
-    @property
-    def on_left(self) -> list[str]:
-        """The names of the tabs on the left, from top to bottom."""
-        return [each.name for each in self._docked]
-
     def add(self, name: str, neighbors: Sequence[Any] = ()) -> Any:
         """
         Add a tab to the row.
