@@ -129,7 +129,7 @@ def test_no_server_is_told(
 
 def test_a_server_is_asked(server: Server) -> None:
     """One that answers says which it is; where there is none, the reason is known."""
-    assert ask_server(server) == (server, 0, '')
+    assert ask_server(server) == (server, 0, '', False)
     second = server._replace(number=1, host='localhost')
     assert ask_server(second).number == 0
     closed = ask_server(Server(0, LOOPBACK, free_port()))
@@ -158,7 +158,7 @@ def test_servers_are_asked_at_the_same_time(
     finally:
         never.set()
     assert answers == (
-        (server, 0, ''), (silent, None, 'its name could not be resolved within 3 s')
+        (server, 0, '', False), (silent, None, 'its name could not be resolved within 3 s', True)
     )  # fmt: skip
 
 
@@ -187,7 +187,6 @@ def test_a_program_that_is_no_server() -> None:
     ('text', 'expected'),
     [
         ('', ()),
-        (' ; ', ()),
         ('10.0.0.1', [(0, '10.0.0.1', 11811, 'UDPv4')]),
         ('robot:7', [(0, 'robot', 7, 'UDPv4')]),
         (';;10.0.0.1:7; robot', [(2, '10.0.0.1', 7, 'UDPv4'), (3, 'robot', 11811, 'UDPv4')]),
@@ -205,6 +204,13 @@ def test_addresses(text: str, expected: list[tuple[Any, ...]]) -> None:
 def test_what_is_no_address(text: str) -> None:
     """It is a sentence that shows how to write one."""
     with pytest.raises(RuntimeError, match=f"entry '{text}'.*write HOST:PORT"):
+        read_servers({SERVERS: text})
+
+
+@pytest.mark.parametrize('text', [' ', ';;', ' ; '])
+def test_a_list_without_a_server(text: str) -> None:
+    """Fast DDS then neither asks a server nor looks for others: it is a mistake."""
+    with pytest.raises(RuntimeError, match=f"is '{text}', which names no server: unset"):
         read_servers({SERVERS: text})
 
 

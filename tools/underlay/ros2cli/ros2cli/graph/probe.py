@@ -10,7 +10,7 @@ import threading
 import time
 from typing import NamedTuple
 
-from ros2cli.graph.servers import Server, udp_host
+from ros2cli.graph.servers import Server, UDP, udp_host
 from ros2cli.rtps.announcement import farewell, greeting, new_prefix
 from ros2cli.rtps.identifiers import VENDOR_EPROSIMA
 from ros2cli.rtps.message import sender
@@ -29,11 +29,13 @@ class Answer(NamedTuple):
     :param server: what ROS_DISCOVERY_SERVER says
     :param number: the ID of the server that has answered; None if it is not known
     :param error: why there is no server, or ''
+    :param is_unresolved: whether the name of its host has no address
     """
 
     server: Server
     number: int | None = None
     error: str = ''
+    is_unresolved: bool = False
 
 
 def ask_servers(
@@ -70,7 +72,9 @@ def ask_servers(
     for thread in threads:
         thread.join(max(0.0, end_s - time.monotonic()))
     late = f'its name could not be resolved within {patience_s:g} s'
-    return tuple(answers.get(each) or Answer(each, error=late) for each in servers)
+    return tuple(
+        answers.get(each) or Answer(each, error=late, is_unresolved=True) for each in servers
+    )
 
 
 def ask_server(server: Server, timeout_s: float = TIMEOUT_S) -> Answer:
@@ -95,7 +99,7 @@ def ask_server(server: Server, timeout_s: float = TIMEOUT_S) -> Answer:
     except OSError as error:
         return Answer(server, error=error.strerror or str(error) or type(error).__name__)
     except (RuntimeError, UnicodeError) as error:  # the latter for names that none can have
-        return Answer(server, error=str(error))
+        return Answer(server, error=str(error), is_unresolved=server.kind == UDP)
 
 
 def _ask(server: Server, host: str, timeout_s: float) -> Answer:

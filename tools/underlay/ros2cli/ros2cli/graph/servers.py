@@ -85,10 +85,13 @@ def read_servers(environment: Mapping[str, str] = os.environ) -> tuple[Server, .
     Raises
     ------
     RuntimeError
-        An entry of the list is not an address.
+        An entry of the list is not an address, or there is none; nodes then find nobody.
 
     """
-    texts = environment.get(SERVERS, '').split(';')
+    value = environment.get(SERVERS, '')
+    if value and not value.replace(';', '').strip():
+        raise RuntimeError(f"{SERVERS} is '{value}', which names no server: unset {SERVERS}")
+    texts = value.split(';')
     return tuple(_server(i, text.strip()) for i, text in enumerate(texts) if text.strip())
 
 

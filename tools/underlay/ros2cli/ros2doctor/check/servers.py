@@ -20,6 +20,10 @@ PROGRAM = 'fast-discovery-server'
 PEERS = 'ROS_STATIC_PEERS'
 LIBRARY = re.compile(r'libfastrtps\.so\.(\d+\.\d+\.\d+)')
 SECURITY = b'builtin.PKI-DH'  # the name of the plugin for authentication
+NOBODY = (
+    'each node prints an error, leaves out all servers and finds nobody; the running nodes were '
+    'not examined'
+)
 SUPER_CLIENT_VALUES = ('TRUE', 'True', 'true', '1', 'FALSE', 'False', 'false', '0')
 
 
@@ -118,12 +122,14 @@ def server_findings(facts: Discovery) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             facts.mistake,
-            'nodes print an error, and leave all servers out; running nodes were not examined',
+            NOBODY,
             f'correct it, or do without: unset {SERVERS}',
         )
     is_reached = any(not each.error for each in facts.answers)
     for each in facts.answers:
-        if each.error:
+        if each.is_unresolved:
+            yield Finding(Severity.ERROR, each.error, NOBODY, f'correct it, or: unset {SERVERS}')
+        elif each.error:
             yield _silent(each, Severity.WARNING if is_reached else Severity.ERROR)
         elif each.number not in (None, each.server.number):
             yield _other_number(each)
@@ -159,14 +165,6 @@ def _other_number(answer: Answer) -> Finding:
 
 def _variables(variables: Mapping[str, str]) -> Iterator[Finding]:
     """Yield the variables that do not fit."""
-    named = variables.get(SERVERS, '')
-    if named and not named.replace(';', '').strip():
-        yield Finding(
-            Severity.WARNING,
-            f"{SERVERS} is '{named}', which names no server",
-            'each node prints an error, and discovers others without a server',
-            f'unset {SERVERS}',
-        )
     if variables.get(SERVERS) and variables.get(PEERS):
         yield Finding(
             Severity.WARNING,
