@@ -19,6 +19,9 @@ from browser import chromium  # noqa: E402
 from obstacles import obstacles  # noqa: E402
 
 WITH_GROUND = 'Visualization Manager: {Global Options: {Ground and Sky: true}}'
+SMOOTHED = """
+    window.__viserMutable.canvas.getContext('webgl2').getContextAttributes().antialias
+"""
 RATIO = 'window.__viserTestpoints?.devSettings.get().fixedDpr'
 SCHEME = "document.documentElement.getAttribute('data-mantine-color-scheme')"
 
@@ -70,6 +73,7 @@ def test_each_browser_draws_as_much_as_it_can(
     look = tab.frame_locator('iframe[title=look]')
     told = look.locator('#told')
     spin_until(told.is_visible, 'a sentence')
+    assert tab.evaluate(SMOOTHED) is False
     assert 'without a graphics card' in (look.locator('#sentence').text_content() or '')
     (client,) = page.viser.get_clients().values()
     assert client.scene.get_handle_by_name(SHADOWS) is None
