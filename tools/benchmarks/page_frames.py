@@ -2,7 +2,7 @@
 """
 Measure how many frames a second a browser without a graphics card draws of the robot's page.
 
-`tools/in_environment --underlay python3 tools/benchmarks/page_frames.py --scene flat`. Starts the
+`tools/in_environment python3 tools/benchmarks/page_frames.py --scene flat`. Starts the
 robot as `bringup.launch.py` does, opens its page in Chromium, which draws with the processor, and
 measures the page as it opens, while the robot walks, and without one display after the other. The
 real-time factor is the one that the page shows. Needs playwright and Chromium. The page, the

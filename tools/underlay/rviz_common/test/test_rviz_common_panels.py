@@ -262,8 +262,7 @@ def test_panels_can_be_docked_beside_the_tabs(show: Show, tmp_path: Any) -> None
     again = show((tmp_path / 'a.rviz').read_text())
     assert on_left(again) == ['Views']
     assert [each.unknown for each in again.panels.panels] == [[], [], []]
-    widgets = list(time.context.gui._gui_input_handle_from_uuid.values())
-    assert widgets, 'what was in the moved tabs is still there'
+    assert len(shown.panels._tabs[time]._children) > 1, 'what was in it has moved along'
 
 
 def in_row(shown: Visualizer) -> list[str]:
