@@ -445,8 +445,11 @@ def _rate(traffic: Traffic) -> str:
 
 def main() -> int:
     """Measure each way and print the table."""
-    if len(sys.argv) > 2 and sys.argv[1] in ('join', 'listen'):
-        {'join': join, 'listen': listen}[sys.argv[1]](*map(int, sys.argv[2:]))
+    if len(sys.argv) == 4 and sys.argv[1] == 'join':
+        join(int(sys.argv[2]), int(sys.argv[3]))
+        return 0
+    if len(sys.argv) == 3 and sys.argv[1] == 'listen':
+        listen(int(sys.argv[2]))
         return 0
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter

@@ -52,16 +52,22 @@ class Instantly:
         """
         draw = random.Random(0).random
         for run in runs:
-            moved = {'end_x_m': draw() * LONGEST_M, 'end_y_m': draw(), 'end_yaw_rad': draw()}
-            command = {'forward_m_s': draw(), 'left_m_s': draw(), 'turn_rad_s': draw()}
-            push = {'push_x_ns': draw(), 'push_y_ns': draw(), 'push_s': draw()}
             result = RunResult(
-                *('stood', run.conditions.seconds, draw() * LONGEST_M, draw()),
+                outcome='stood',
+                survived_s=run.conditions.seconds,
+                distance_m=draw() * LONGEST_M,
+                largest_tilt_rad=draw(),
+                end_x_m=draw() * LONGEST_M,
+                end_y_m=draw(),
+                end_yaw_rad=draw(),
                 phase='double support',
+                forward_m_s=draw(),
+                left_m_s=draw(),
+                turn_rad_s=draw(),
+                push_x_ns=draw(),
+                push_y_ns=draw(),
+                push_s=draw(),
                 cpu_s=draw(),
-                **moved,
-                **command,
-                **push,
             )
             yield Done(run, result)
 
