@@ -27,13 +27,14 @@ CHEST = 15, -150
 """From the middle of the scene to the chest of the robot, in pixels."""
 PULL = -110, 30
 """How far the chest is pulled, in pixels."""
-PULL_MS = 1500
+PULL_MS, PULL_STEPS = 3000, 10
 SLOWED, NORMAL = '0.3', '1.0'
 THROW = (
     'service', 'call', '/simulator/apply_wrench', 'humanoid_interfaces/srv/ApplyWrench',
     '{wrench: {force: {x: 600.0}}, duration: {nanosec: 100000000}}',
 )  # fmt: skip
-LIES_MS = 4000
+LIES_MS = 1500
+"""When it lies still, before it gets up by itself."""
 PHONE = 390, 844
 CORRIDOR = {
     'Target Frame': ('base_link',),
@@ -153,8 +154,10 @@ def tools(browser: Any, address: str) -> None:
     tab.wait_for_timeout(2000)
     tab.mouse.move(x, y)
     tab.mouse.down()
-    tab.mouse.move(x + PULL[0], y + PULL[1], steps=4)
-    tab.wait_for_timeout(PULL_MS)
+    for step in range(PULL_STEPS):  # a page that draws slowly passes on some movements only
+        share = (step + 1) / PULL_STEPS
+        tab.mouse.move(x + share * PULL[0], y + share * PULL[1])
+        tab.wait_for_timeout(PULL_MS / PULL_STEPS)
     keep('push.webp', seen(tab))
     tab.mouse.up()
     tab.close()
