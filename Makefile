@@ -20,7 +20,7 @@ SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup mirror prepare build bringup demo run test check fix bench soak trials stories docs site pictures lock clean distclean
+.PHONY: help setup cluster mirror prepare build bringup demo run test check fix bench soak trials stories docs site pictures lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -28,6 +28,9 @@ help: ## Show this list
 
 setup: ## Make the environment in .venv (VENV=/other/place keeps it elsewhere)
 	@$(SETUP) setup
+
+cluster: ## Add Ray to the environment, for sweeps on several machines
+	@$(SETUP) cluster
 
 mirror: ## Download all wheels into a folder for machines without internet (WHEELS=/path PYTHONS='3.12')
 	@$(SETUP) mirror

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands of the set-up: setup, mirror, build, prepare, tests, site, clean, distclean."""
+"""The commands of the set-up: setup, cluster, mirror, build, prepare, tests, site, cleaning."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ MIRRORED = (
     environment.PART_REQUIREMENTS,
     environment.TEST_REQUIREMENTS,
 )
-"""What `make mirror` collects: everything but the generator of the site."""
+"""What `make mirror` collects: everything but Ray and the generator of the site."""
 _USE_MIRROR = ('setup', 'build', 'prepare', 'tests')
 
 
@@ -89,7 +89,10 @@ def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
 
     """
     parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
-    commands = ['setup', 'mirror', 'build', 'prepare', 'tests', 'site', 'clean', 'distclean']
+    commands = [
+        *('setup', 'cluster', 'mirror', 'build', 'prepare'),
+        *('tests', 'site', 'clean', 'distclean'),
+    ]
     parser.add_argument('command', nargs='?', default='setup', choices=commands)
     parser.add_argument('--venv', default=os.environ.get('VENV'), help='the environment to use')
     parser.add_argument(
@@ -108,7 +111,7 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
     Parameters
     ----------
     command
-        One of `setup`, `build`, `prepare`, `tests`, `site`, `clean` and `distclean`.
+        One of `setup`, `cluster`, `build`, `prepare`, `tests`, `site`, `clean` and `distclean`.
     locations
         The workspace and its environment.
     arguments : list[str]
@@ -129,6 +132,8 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
         return status or build(locations, [])
     if command == 'tests':
         return environment.set_up(locations, quiet=True) or environment.set_up_tests(locations)
+    if command == 'cluster':
+        return environment.set_up(locations, quiet=True) or environment.set_up_cluster(locations)
     if command == 'site':
         return environment.build_site(locations)
     if command == 'distclean':

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bring an environment up to date: for the workspace, for tests, and for the site."""
+"""Bring an environment up to date: for the workspace, tests, clusters, and the site."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ import wheels
 ROOT = Path(__file__).resolve().parents[2]
 REQUIREMENTS = ROOT / 'requirements.txt'
 PART_REQUIREMENTS = ROOT / 'requirements-parts.txt'
+CLUSTER_REQUIREMENTS = ROOT / 'requirements-cluster.txt'
 TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
 SITE_REQUIREMENTS = ROOT / 'requirements-site.txt'
 
@@ -56,18 +57,22 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
     asked_for = os.environ.get('ASKED_FOR', '')
     underlay = Underlay(locations, requirements, asked_for)
     parts = Parts(locations, PART_REQUIREMENTS, asked_for)
+    cluster = cluster_parts(locations)
     home = Home(locations)
     home.require_same()
     stale = underlay.to_build(everything=everything)
     missing = parts.to_install(everything=everything)
+    outdated = cluster.to_install(everything=False)
     compiled = wheels_digest(REQUIREMENTS, PART_REQUIREMENTS)
     compiled_stamp = Stamp(locations.environment / 'stamp' / 'compiled')
     is_compiled = not everything or compiled_stamp.matches(compiled)
     has_wheels = wheels_stamp.matches(requirements)
-    if locations.link.exists() and has_wheels and is_compiled and not missing and not stale:
+    is_complete = has_wheels and is_compiled and not (missing or outdated or stale)
+    if locations.link.exists() and is_complete:
         link_environment(locations)
         underlay.describe_others()
         parts.describe_others()
+        cluster.describe_others()
         if not quiet:
             print(f'The environment in {locations.link} is complete.')
         return 0
@@ -86,6 +91,8 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
         wheels_stamp.write(requirements)
     parts.install(missing, steps)
     parts.describe_others()
+    cluster.install(outdated, steps)
+    cluster.describe_others()
     if not is_compiled:
         wheels.compile_all(locations)
         compiled_stamp.write(compiled)
@@ -94,6 +101,50 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
     underlay.describe_others()
     steps.end()
     print('The environment is complete.' + ('' if quiet else ' Next: make bringup'))
+    return 0
+
+
+def cluster_parts(locations: Locations) -> Parts:
+    """
+    Return what only sweeps on several machines need, which `make cluster` installs.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment.
+
+    """
+    return Parts(locations, CLUSTER_REQUIREMENTS, command='make cluster')
+
+
+def set_up_cluster(locations: Locations) -> int:
+    """
+    Install the wheels of requirements-cluster.txt, which only sweeps on several machines need.
+
+    Parameters
+    ----------
+    locations
+        The workspace and its environment, which is complete except for them.
+
+    Returns
+    -------
+    int
+        The exit status, 0.
+
+    Raises
+    ------
+    SetupError
+        The wheels could not be installed.
+
+    """
+    cluster = cluster_parts(locations)
+    missing = cluster.to_install(everything=True)
+    if missing:
+        steps = Steps(1)
+        steps.begin('Ray from PyPI, as requirements-cluster.txt pins it')
+        cluster.install(missing, steps)
+        steps.end()
+    print('Ray is installed.')
     return 0
 
 

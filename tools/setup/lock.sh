@@ -54,6 +54,11 @@ pins requirements-test.in --constraint every "$@" > "$folder/all"
   grep -vxFf "$folder/every" "$folder/all"
 } > "$folder/requirements-test.txt"
 {
+  echo '# Made by `make lock` from tools/setup/requirements-cluster.in, which says what each is for.'
+  printf '\n%s\n' "$(grep '^# \[' "$folder/requirements-cluster.in")"
+  pins requirements-cluster.in --generate-hashes --constraint every --constraint all "$@"
+} > "$folder/requirements-cluster.txt"
+{
   echo '# Made by `make lock` from tools/setup/requirements-site.in, which says what each is for.'
   pins requirements-site.in --generate-hashes "$@"
 } > "$folder/requirements-site.txt"

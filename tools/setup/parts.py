@@ -91,12 +91,20 @@ class Parts:
         The file, which is read immediately.
     asked_for
         The arguments of the command, which may name parts.
+    command
+        The command that installs all parts of the file.
 
     """
 
-    def __init__(self, locations: Locations, requirements: Path, asked_for: str = '') -> None:
+    def __init__(
+        self,
+        locations: Locations,
+        requirements: Path,
+        asked_for: str = '',
+        command: str = 'make setup',
+    ) -> None:
         self._locations = locations
-        self._asked_for = asked_for
+        self._asked_for, self._command = asked_for, command
         self._parts = read_parts(requirements.read_text(encoding='utf-8'))
 
     def to_install(self, *, everything: bool) -> list[Part]:
@@ -157,7 +165,7 @@ class Parts:
                     continue
                 sentence = (
                     f'{module} is not installed yet, because only {part.name} needs it: run '
-                    f'`make setup` in {self._locations.root}'
+                    f'`{self._command}` in {self._locations.root}'
                 )
                 self._stub(module).write_text(
                     IN_PYTHON.format(sentence=sentence, name=module), encoding='utf-8'

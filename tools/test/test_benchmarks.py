@@ -49,6 +49,7 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['obstacle_trials', '--trials', '0'], "'0' is no int at least 1."),
         (['network_cut', '--loss', '2'], "'2' is no float from 0 to 1."),
         (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
+        (['sweep_ray', '--runs', '9'], "'9' is no int at least 10."),
         (['journeys', '--only', 'flight'], "invalid choice: 'flight'"),
         (['fleet', '--robots', '0'], "'0' is no int from 1 to 200."),
         (['fleet', '--ways', 'shouting'], "invalid choice: 'shouting'"),

@@ -27,7 +27,7 @@ JAZZY = set(
 )
 LIBRARIES = set(
     'OpenGL cv2 faster_whisper gymnasium httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '
-    'onnxruntime pinocchio pocketsphinx pyarrow pytest pywhispercpp scipy segno setuptools '
+    'onnxruntime pinocchio pocketsphinx pyarrow pytest pywhispercpp ray scipy segno setuptools '
     'sounddevice uvicorn yaml yourdfpy'.split()
 )
 ROOT = Path(__file__).resolve().parents[2]

@@ -106,3 +106,34 @@ def test_the_parts_of_this_workspace(root: Path) -> None:
         assert not part.is_asked_for('scene:=apartment gui:=false')
         assert part.pins and all('==' in pin for pin in part.pins)
         assert not set(part.pins) & set(base)
+
+
+def test_parts_of_another_file_and_command(locations: Locations, installed: list[str]) -> None:
+    """Pins may have digests; the sentence names the command that installs them."""
+    pins = 'ear==1.0 \\\n    --hash=sha256:12\n'
+    path = locations.root / 'requirements-cluster.txt'
+    path.write_text(f'# [cluster] words: ; modules: ear\n{pins}')
+    parts = Parts(locations, path, command='make cluster')
+    parts.describe_others()
+    stub = wheels.site_packages(locations) / 'ear.py'
+    assert f'run `make cluster` in {locations.root}' in stub.read_text()
+    assert parts.to_install(everything=False) == []
+    parts.install(parts.to_install(everything=True), Steps(1))
+    assert installed == [pins] and not stub.exists()
+    assert parts.to_install(everything=True) == []
+
+
+def test_what_clusters_need(root: Path) -> None:
+    """Every pin has digests; no command asks for it; versions are those of the others."""
+    text = (root / 'requirements-cluster.txt').read_text()
+    (part,) = read_parts(text)
+    assert part.modules == ('ray',) and not part.is_asked_for('cluster ray sweep full_system')
+    pins = [each.split()[0] for each in part.pins if '==' in each]
+    assert len(pins) == len(wheels.pinned_names(text)) and 'ray' in wheels.pinned_names(text)
+    assert all(line.endswith('\\') for line in part.pins if '==' in line)
+    assert all('--hash=sha256:' in line for line in part.pins if '==' not in line)
+    others = ''.join(
+        (root / f'requirements{each}.txt').read_text() for each in ('', '-parts', '-test')
+    )
+    shared = {*wheels.pinned_names(text)} & {*wheels.pinned_names(others)}
+    assert {pin for pin in pins if pin.partition('==')[0] in shared} <= {*others.split()}

@@ -3,23 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 import contextlib
 from dataclasses import dataclass
 import multiprocessing
 from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
-from multiprocessing.resource_tracker import ensure_running
 import os
 import signal
 import threading
 import traceback
 from typing import Any
 
+from humanoid_simulation import processes
+
 Work = Callable[[Any], Any]
 """Does a task; the process imports it by its module and name, or unpickles it."""
-_PATIENCE_S = 2.0
-_ENDING = {signal.SIGINT, signal.SIGTERM}
 
 
 @dataclass(frozen=True)
@@ -51,13 +49,8 @@ class WorkerProcess:
     """
 
     def __init__(self, work: Work, environment: Mapping[str, str]) -> None:
-        context = multiprocessing.get_context('spawn')
-        self.connection, theirs = context.Pipe()
-        self._process: BaseProcess = context.Process(
-            target=_serve, args=(theirs, work), daemon=True
-        )
-        with _environment(environment), _uninterrupted():
-            self._process.start()
+        self.connection, theirs = processes.CONTEXT.Pipe()
+        self._process = processes.start(_serve, (theirs, work), environment)
         theirs.close()
         self.has_ended = False
 
@@ -81,65 +74,18 @@ class WorkerProcess:
             return self.connection.recv()
         except (EOFError, OSError):
             self.has_ended = True
-            self._process.join(_PATIENCE_S)
-            return Failure(_ending(self._process.exitcode))
+            return Failure(f'its process {processes.ending_text(self._process)}')
 
     def end(self) -> None:
         """End the process."""
         self.connection.close()
-        self._process.terminate()
-        self._process.join(_PATIENCE_S)
-        if self._process.is_alive():
-            self._process.kill()
-            self._process.join()
-
-
-@contextlib.contextmanager
-def _environment(variables: Mapping[str, str]) -> Iterator[None]:
-    """Set environment variables while a process starts."""
-    before = {name: os.environ.get(name) for name in variables}
-    os.environ.update(variables)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
-
-
-@contextlib.contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Defer Ctrl-C and SIGTERM while a process starts: one that half starts leaves a traceback."""
-    ensure_running()  # when Python starts this process of its own, it lets all signals through
-    arrived: list[int] = []
-    handlers = {
-        number: signal.signal(number, lambda number, frame: arrived.append(number))
-        for number in _ENDING
-    }
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)  # the new process has it, too
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
-        for taken in arrived:
-            signal.raise_signal(taken)
-
-
-def _ending(exit_code: int | None) -> str:
-    """Describe how a process ended."""
-    if exit_code is not None and exit_code < 0:
-        return f'its process was ended by {signal.Signals(-exit_code).name}'
-    return f'its process ended with status {exit_code}'
+        processes.end(self._process)
 
 
 def _serve(connection: Connection, work: Work) -> None:
     """Do tasks until the connection is closed; the body of a worker process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)  # see _uninterrupted
+    processes.let_signals_through()
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(EOFError, OSError):
         while True:

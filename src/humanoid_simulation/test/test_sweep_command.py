@@ -120,6 +120,26 @@ def test_an_interrupted_sweep_keeps_its_runs(tmp_path: Path, number: signal.Sign
     assert '0 of 1' in (tmp_path / 'out' / 'report.html').read_text()
 
 
+def test_a_cluster_without_ray(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is said in a sentence, and nothing is done; without --ray, this machine does the runs."""
+    (tmp_path / 'ray.py').write_text("raise ImportError('get it with a command')")
+    monkeypatch.syspath_prepend(tmp_path)  # the process of the engine has the same path
+    (tmp_path / 'push.yaml').write_text(EXPERIMENT)
+    assert sweep(tmp_path, '--ray', 'auto') == command.PROBLEM_EXIT
+    assert 'needs the Python package ray (get it with a command)' in capsys.readouterr().err
+    assert (tmp_path / 'out' / 'report.html').exists() and runs(tmp_path) == []
+
+
+def test_an_address_that_is_none(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Ray would start a cluster of its own; the sentence has the address that finds one."""
+    with pytest.raises(SystemExit) as caught:
+        sweep(folder, '--ray', ' ')
+    assert caught.value.code == command.PROBLEM_EXIT
+    assert "an empty text is no address; 'auto' finds the cluster" in capsys.readouterr().err
+
+
 def test_replay_starts_a_launch(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With the record and the whole key of the run."""
     started: list[list[str]] = []

@@ -14,8 +14,9 @@ from humanoid_common.testing.processes import is_alive, running_program
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.sweep.conditions import Conditions, Run
-from humanoid_simulation.sweep.engine import Crashed, Done, LocalProcesses
+from humanoid_simulation.sweep.engine import Crashed, Done, Notice
 from humanoid_simulation.sweep.experiment import Experiment
+from humanoid_simulation.sweep.local_processes import LocalProcesses
 from humanoid_simulation.sweep.record import find_run, NAME, Record
 from humanoid_simulation.sweep.results import RunResult
 from humanoid_simulation.sweep.sweeping import Sweep
@@ -63,7 +64,7 @@ sys.path[:0] = [{folder!r}, {tests!r}]  # for its processes, too
 def main():
     import fake_runs
     import test_sweep_engine as test
-    from humanoid_simulation.sweep.engine import LocalProcesses
+    from humanoid_simulation.sweep.local_processes import LocalProcesses
     with test.Record(Path({folder!r})) as record:
         test.sweep(record).run(LocalProcesses(fake_runs.patient, 1))
 
@@ -105,6 +106,7 @@ def test_a_crash_is_recorded_and_tried_again_by_the_next_command(tmp_path: Path)
 
     class Crashing:
         def outcomes(self, runs):
+            yield Notice('There is a machine')
             yield Done(runs[0], STOOD)
             yield Crashed(runs[1], 1, 'no <memory>')
             yield Crashed(runs[1], 2, 'no <memory>')
@@ -116,6 +118,7 @@ def test_a_crash_is_recorded_and_tried_again_by_the_next_command(tmp_path: Path)
         assert one.crashed == [RUNS[1].key]
         assert 'no &lt;memory&gt;' in one.report('replay').html()
         assert '1 crashed twice' in one.conclusion(tmp_path)
+    assert said[1] == 'There is a machine'
     assert f'Run {RUNS[1].key} crashed: no <memory>; it is tried once more' in said
     with Record(tmp_path) as record:
         assert record.left(RUNS, VERSION) == [*RUNS[1:]] and len(record.crashes) == 2

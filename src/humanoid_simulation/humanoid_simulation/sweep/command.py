@@ -17,15 +17,19 @@ from humanoid_common.errors import UserError
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.files import replace_file
 from humanoid_simulation.sweep import record, report, table
-from humanoid_simulation.sweep.engine import LocalProcesses
+from humanoid_simulation.sweep.engine import Engine
 from humanoid_simulation.sweep.experiment import Experiment, load_experiment
+from humanoid_simulation.sweep.local_processes import LocalProcesses
 from humanoid_simulation.sweep.progress import print_progress
+from humanoid_simulation.sweep.ray_cluster import RayCluster
 from humanoid_simulation.sweep.record import find_run, read_record, Record
+from humanoid_simulation.sweep.separate_process import SeparateProcess
 from humanoid_simulation.sweep.sweeping import Sweep
 from humanoid_simulation.sweep.version import code_version
 from humanoid_simulation.sweep.walk import walk
 
 FALLS_EXIT, PROBLEM_EXIT = 1, 2
+_RAY_LOG = 'ray.log'
 _INTERRUPTED = 'Interrupted. Finished runs are kept; the same command does the others.'
 
 
@@ -78,8 +82,15 @@ def _parser() -> argparse.ArgumentParser:
         '--processes',
         type=_count,
         metavar='N',
-        default=_cores(),
-        help='how many runs at the same time (default: one for each core, %(default)s here)',
+        help='how many runs at the same time (default: one for each core, '
+        f'{_cores()} here; with --ray, one for each CPU of the cluster)',
+    )
+    parser.add_argument(
+        '--ray',
+        type=_address,
+        metavar='ADDRESS',
+        help='do the runs on a Ray cluster: auto for the one that this machine belongs to, '
+        'ray://HOST:10001 for one elsewhere',
     )
     parser.add_argument(
         '--set',
@@ -101,6 +112,13 @@ def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is no whole number of at least 1.")
     return int(text)
+
+
+def _address(text: str) -> str:
+    """Parse the address of a cluster: without one, Ray would start a cluster of its own."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("an empty text is no address; 'auto' finds the cluster.")
+    return text
 
 
 def _cores() -> int:
@@ -128,7 +146,7 @@ def _do(arguments: argparse.Namespace) -> int:
     with Record(folder) as finished:
         sweep = Sweep(experiment, finished, version, print_progress(sys.stdout))
         try:
-            sweep.run(LocalProcesses(walk, arguments.processes))
+            sweep.run(_engine(arguments, folder, version))
         except KeyboardInterrupt:
             print(f'\n{_INTERRUPTED}', file=sys.stderr)
             raise
@@ -139,6 +157,15 @@ def _do(arguments: argparse.Namespace) -> int:
         return PROBLEM_EXIT
     allowed = experiment.falls_allowed * len(experiment.runs)
     return FALLS_EXIT if sweep.summary.not_stood > allowed else 0
+
+
+def _engine(arguments: argparse.Namespace, folder: Path, version: str) -> Engine:
+    """Choose what does the runs."""
+    if arguments.ray is None:
+        return LocalProcesses(walk, arguments.processes or _cores())
+    cluster = RayCluster(walk, arguments.ray, version, arguments.processes)
+    # Ray ends its process when it loses the head of the cluster.
+    return SeparateProcess(cluster, f'The Ray cluster at {arguments.ray}', folder / _RAY_LOG)
 
 
 def _plan(experiment: Experiment, folder: Path, version: str) -> str:

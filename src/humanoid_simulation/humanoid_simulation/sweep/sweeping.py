@@ -8,7 +8,7 @@ from pathlib import Path
 import time
 
 from humanoid_simulation.sweep import report
-from humanoid_simulation.sweep.engine import Crashed, Done, Engine
+from humanoid_simulation.sweep.engine import Crashed, Done, Engine, Notice
 from humanoid_simulation.sweep.experiment import Experiment
 from humanoid_simulation.sweep.progress import falls_text, progress_line
 from humanoid_simulation.sweep.record import Record
@@ -69,7 +69,7 @@ class Sweep:
         Raises
         ------
         SimulationError
-            A run cannot be recorded.
+            A run cannot be recorded, or the engine cannot go on.
 
         """
         runs = self._experiment.runs
@@ -79,6 +79,9 @@ class Sweep:
         begin_s, outcomes = time.monotonic(), engine.outcomes(left)
         try:
             for outcome in outcomes:
+                if isinstance(outcome, Notice):
+                    self._say(outcome.sentence, True)
+                    continue
                 self._note(outcome)
                 self._tell(len(left), time.monotonic() - begin_s)
         finally:
