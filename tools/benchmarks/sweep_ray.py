@@ -276,7 +276,7 @@ def main() -> int:
     """Do the trial; the exit code says whether no run was lost, and none was done twice."""
     parser = argparse.ArgumentParser(description=__doc__.strip().split('\n')[0])
     parser.add_argument('--runs', type=in_range(int, 10), default=60)
-    parser.add_argument('--seconds', type=in_range(float, 2.0), default=8.0, help='of each run')
+    parser.add_argument('--seconds', type=in_range(float, 2.0), default=5.0, help='of each run')
     arguments = parser.parse_args()
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that no node is left
     if shutil.which('ray') is None:

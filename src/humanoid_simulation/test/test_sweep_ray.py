@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Sequence
 import pickle
+import socket
 import sys
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -313,3 +314,22 @@ def test_no_cluster(ray: FakeRay, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ray, 'init', refuse)
     with pytest.raises(SimulationError, match='at auto: Could not find any running Ray instance'):
         [*cluster().outcomes(RUNS)]
+
+
+@pytest.mark.parametrize('address', ['127.0.0.1:{}', 'ray://127.0.0.1:{}', '[::1]:{}'])
+def test_nothing_listens_at_an_address(ray: FakeRay, address: str) -> None:
+    """It is said at once; Ray itself would try again for minutes."""
+    with socket.socket() as reserved:  # bound, but nothing listens
+        reserved.bind(('127.0.0.1', 0))
+        address = address.format(reserved.getsockname()[1])
+        with pytest.raises(SimulationError, match='There is no connection with a Ray cluster at'):
+            [*RayCluster(work, address, VERSION).outcomes(RUNS)]
+    assert not ray.connected
+
+
+def test_something_listens_at_an_address(ray: FakeRay) -> None:
+    """Ray connects with it."""
+    with socket.create_server(('127.0.0.1', 0)) as server:
+        address = f'ray://127.0.0.1:{server.getsockname()[1]}'
+        assert len([*RayCluster(work, address, VERSION).outcomes(RUNS[:1])]) == 2
+    assert ray.connected['address'] == address

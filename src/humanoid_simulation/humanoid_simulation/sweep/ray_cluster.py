@@ -13,6 +13,8 @@ from collections.abc import Iterator, Sequence
 import contextlib
 from dataclasses import dataclass, replace
 import os
+import re
+import socket
 from typing import Any, TYPE_CHECKING
 
 from humanoid_simulation.errors import SimulationError
@@ -32,6 +34,9 @@ _TASKS_EACH = 2
 """Tasks given to Ray for each CPU: one works, the other one waits for it."""
 _LOOK_S = 1.0
 """How often to look for new machines."""
+_REACH_S = 10.0
+"""How long to wait for a connection with an address."""
+_ADDRESS = re.compile(r'(?:ray://)?\[?(?P<host>[^/]+?)\]?:(?P<port>\d+)')
 _PATHS = ('PYTHONPATH', 'AMENT_PREFIX_PATH')
 """Where Python and ROS find packages."""
 
@@ -217,6 +222,7 @@ def _connect(address: str) -> Any:
             f'--ray needs the Python package ray ({error}). Install it and give the same command '
             'again, or leave --ray out: the cores of this machine then do the runs.'
         ) from error
+    _reach(address)
     # A path of the worker itself comes first.
     paths = {name: f'${{{name}}}:{os.environ.get(name, "")}' for name in _PATHS}
     try:
@@ -227,11 +233,26 @@ def _connect(address: str) -> Any:
             log_to_driver=False,
         )
     except Exception as error:
-        raise SimulationError(
-            f'There is no connection with a Ray cluster at {address}: {_last_line(error)}. Start '
-            'one with `ray start --head`, or give the address that it has printed.'
-        ) from error
+        raise _no_connection(address, error) from error
     return ray
+
+
+def _reach(address: str) -> None:
+    """Check that something listens at an address with a port, where Ray would wait for minutes."""
+    found = _ADDRESS.fullmatch(address)
+    if found:
+        try:
+            socket.create_connection((found['host'], int(found['port'])), _REACH_S).close()
+        except (OSError, OverflowError) as error:
+            raise _no_connection(address, error) from error
+
+
+def _no_connection(address: str, error: Exception) -> SimulationError:
+    """Create the error for a cluster that cannot be reached."""
+    return SimulationError(
+        f'There is no connection with a Ray cluster at {address}: {_last_line(error)}. Start one '
+        'with `ray start --head`, or give the address that it has printed.'
+    )
 
 
 def _counted(number: int, noun: str) -> str:
