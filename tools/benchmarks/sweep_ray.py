@@ -69,7 +69,15 @@ class Node:
 
 
 def descendants(parent: int) -> list[int]:
-    """Return the ids of all processes below one."""
+    """
+    Return the ids of all processes below one.
+
+    Parameters
+    ----------
+    parent
+        The id of that process.
+
+    """
     children: dict[int, list[int]] = {}
     for path in Path('/proc').glob('[0-9]*/stat'):
         try:
@@ -87,7 +95,15 @@ def descendants(parent: int) -> list[int]:
 
 
 def command_of(process: int) -> str:
-    """Return the command line of a process; '' if it has ended."""
+    """
+    Return the command line of a process; '' if it has ended.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    """
     try:
         return Path(f'/proc/{process}/cmdline').read_text()
     except OSError:
@@ -95,7 +111,15 @@ def command_of(process: int) -> str:
 
 
 def end(process: int) -> None:
-    """Send SIGKILL to a process that this program has started."""
+    """
+    Send SIGKILL to a process that this program has started.
+
+    Parameters
+    ----------
+    process
+        The process id.
+
+    """
     try:
         os.kill(process, signal.SIGKILL)
     except ProcessLookupError:
@@ -161,7 +185,24 @@ class Cluster:
 
 
 def wait_for(is_true: Callable[[], bool], most_s: float, what: str) -> float:
-    """Wait until something is true, and return how long that took in s."""
+    """
+    Wait until something is true, and return how long that took in s.
+
+    Parameters
+    ----------
+    is_true
+        Whether it is.
+    most_s
+        How long to wait at most.
+    what
+        What is waited for, for the error.
+
+    Raises
+    ------
+    SystemExit
+        It did not become true.
+
+    """
     begin_s = time.monotonic()
     while not is_true():
         if time.monotonic() - begin_s > most_s:
@@ -203,7 +244,22 @@ class Folder:
 
 @contextmanager
 def sweep(experiment: Path, folder: Folder, *arguments: str) -> Iterator[subprocess.Popen[str]]:
-    """Start the command, and end it at the end of the block if it has not ended."""
+    """
+    Start the command, and end it at the end of the block if it has not ended.
+
+    Parameters
+    ----------
+    experiment, folder
+        The experiment, and where its results go.
+    *arguments
+        Further arguments of the command.
+
+    Yields
+    ------
+    Popen
+        The process.
+
+    """
     command = ['ros2', 'run', 'humanoid_simulation', 'sweep', str(experiment)]
     command += ['--output', str(folder.path), *arguments]
     with subprocess.Popen(
@@ -217,20 +273,47 @@ def sweep(experiment: Path, folder: Folder, *arguments: str) -> Iterator[subproc
                 end(each)
 
 
-def finished(experiment: Path, folder: Folder, *arguments: str) -> tuple[float, str]:
-    """Do the command to its end, and return how long it took in s, and its output."""
+def finished(experiment: Path, folder: Folder, *arguments: str) -> float:
+    """
+    Do the command to its end, and return how long it took in s.
+
+    Parameters
+    ----------
+    experiment, folder
+        The experiment, and where its results go.
+    *arguments
+        Further arguments of the command.
+
+    Raises
+    ------
+    SystemExit
+        It has ended with another status than 0.
+
+    """
     begin_s = time.monotonic()
     with sweep(experiment, folder, *arguments) as process:
         output, _ = process.communicate(timeout=10 * END_S)
     if process.returncode:
         raise SystemExit(f'The sweep has ended with status {process.returncode}:\n{output}')
-    return time.monotonic() - begin_s, output
+    return time.monotonic() - begin_s
 
 
 def interrupted(
     cluster: Cluster, nodes: list[Node], experiment: Path, folder: Folder, runs: int
 ) -> None:
-    """Do the sweep while parts of the cluster are killed, until it ends with its head."""
+    """
+    Do the sweep while parts of the cluster are killed, until it ends with its head.
+
+    Parameters
+    ----------
+    cluster, nodes
+        The cluster, and its head and second node; a new second node replaces the killed one.
+    experiment, folder
+        The experiment, and where its results go.
+    runs
+        The number of its runs.
+
+    """
     with sweep(experiment, folder, '--ray', cluster.address) as process:
 
         def after(part: str) -> None:
@@ -259,7 +342,22 @@ def interrupted(
 
 
 def check(cluster_sweep: Folder, local_sweep: Folder, planned: Sequence[str]) -> bool:
-    """Compare record, table and plan, and print what is found."""
+    """
+    Compare record, table and plan, and print what is found.
+
+    Parameters
+    ----------
+    cluster_sweep, local_sweep
+        The folders of the sweep on the cluster, and of that in local processes.
+    planned
+        The keys of the planned runs.
+
+    Returns
+    -------
+    bool
+        Whether the cluster did each run once, with the same result.
+
+    """
     keys, rows = cluster_sweep.keys(), cluster_sweep.rows()
     lost = {*planned} - {*keys}
     same = rows == local_sweep.rows()
@@ -288,7 +386,7 @@ def main() -> int:
         experiment.write_text(EXPERIMENT.format(**vars(arguments)))
         planned = [run.key for run in load_experiment(str(experiment), []).runs]
         local, whole, killed = (Folder(folder / name) for name in ('local', 'whole', 'killed'))
-        time_s, _ = finished(experiment, local, '--processes', '2')
+        time_s = finished(experiment, local, '--processes', '2')
         print(f'{time_s:6.1f} s  {arguments.runs} runs in two local processes', flush=True)
         cluster = Cluster(folder)
         nodes: list[Node] = []
@@ -297,7 +395,7 @@ def main() -> int:
             nodes += [cluster.start_second()]
             for name, address in (('its port', cluster.address), ('ray://', cluster.client)):
                 output = Folder(Path(f'{whole.path}_{len(name)}'))
-                time_s, _ = finished(experiment, output, '--ray', address)
+                time_s = finished(experiment, output, '--ray', address)
                 same = 'same' if output.rows() == local.rows() else 'OTHER'
                 print(f'{time_s:6.1f} s  on two nodes of Ray, by {name}; {same} results',
                       flush=True)  # fmt: skip
@@ -307,7 +405,7 @@ def main() -> int:
             nodes[:] = [cluster.start_head()]
             nodes += [cluster.start_second()]
             before = len(killed.keys())
-            time_s, _ = finished(experiment, killed, '--ray', cluster.address)
+            time_s = finished(experiment, killed, '--ray', cluster.address)
             print(f'{time_s:6.1f} s  for the {arguments.runs - before} that were left')
         finally:
             for node in nodes:
