@@ -72,9 +72,7 @@ class SeparateProcess:
 
         """
         connection, theirs = processes.CONTEXT.Pipe()
-        process = processes.start(
-            _serve, (theirs, self._engine, self._log), ENVIRONMENT
-        )
+        process = processes.start(_serve, (theirs, self._engine, self._log), ENVIRONMENT)
         theirs.close()
         try:
             try:
