@@ -324,10 +324,14 @@ def interrupted(
             )
             print(f'  {len(folder.keys()):2} of {runs} are finished: kill -9 the {part}')
 
+        def second_works() -> None:
+            wait_for(lambda: bool(nodes[1].workers()), END_S, 'a worker with a task')
+
         after('worker')
-        wait_for(lambda: bool(nodes[1].workers()), END_S, 'a worker with a task')
+        second_works()
         end(nodes[1].workers()[0])
         after('node')
+        second_works()
         nodes[1].kill()
         nodes[1] = cluster.start_second()
         after('head')
