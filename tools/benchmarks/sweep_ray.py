@@ -174,11 +174,15 @@ class Cluster:
                 command, stdin=subprocess.DEVNULL, stdout=stream, stderr=stream,
                 start_new_session=True,
             )  # fmt: skip
-        wait_for(
-            lambda: 'Ray runtime started' in log.read_text() or process.poll() is not None,
-            START_S,
-            f'{command}',
-        )
+        try:
+            wait_for(
+                lambda: 'Ray runtime started' in log.read_text() or process.poll() is not None,
+                START_S,
+                f'{command}',
+            )
+        except BaseException:
+            Node(process).kill()
+            raise
         if process.poll() is not None:
             raise SystemExit(f'{" ".join(command)} has ended: {log.read_text()}')
         return Node(process)
