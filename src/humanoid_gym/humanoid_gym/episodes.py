@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Any
 
 import gymnasium
+from humanoid_common.errors import UserError
 from humanoid_control.backends import Array
 from humanoid_gym import STAND
 from humanoid_gym.balance import BalancePolicy, weights_of
@@ -22,7 +23,7 @@ ATTEMPTS = 2
 """How often an episode is tried whose process crashes."""
 
 
-class TrainingError(Exception):
+class TrainingError(UserError):
     """A training cannot begin or go on; the message says why."""
 
 

@@ -20,13 +20,13 @@ import time
 from typing import Any
 
 import gymnasium
+from humanoid_common.errors import UserError
 from humanoid_common.naming import shortened
 from humanoid_control.backends import Array
 from humanoid_gym import STAND
 from humanoid_gym.balance import initial_gains, write_policy
 from humanoid_gym.episodes import EpisodeProcesses, Episodes, TrainingError, Trial
 from humanoid_gym.evolution import Search, SearchState
-from humanoid_simulation.errors import SimulationError
 
 SIGMA = 0.1
 """Standard deviation of the gains in the first generation."""
@@ -53,7 +53,7 @@ def main() -> int:
     try:
         with _alone(arguments.folder):
             _go_on(arguments)
-    except (SimulationError, TrainingError) as error:
+    except UserError as error:
         print(f'The training has stopped. {error}', file=sys.stderr)
         return 1
     except KeyboardInterrupt:

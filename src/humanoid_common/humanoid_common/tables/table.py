@@ -99,7 +99,7 @@ class Table:
 
         """
         value = self._value(name, default)
-        if not _is_number(value) or not limits[0] <= value <= limits[1]:
+        if not _is_finite(value) or not limits[0] <= value <= limits[1]:
             raise self.at(name).wrong(f'a finite number{_said(limits)}', value)
         return float(value)
 
@@ -276,11 +276,23 @@ def _said(limits: Limits) -> str:
     return f' of at least {least:g}' if least > -math.inf else ''
 
 
-def _is_number(value: Any) -> bool:
-    """Check whether a value is a finite number that a float can have."""
+def is_number(value: Any) -> bool:
+    """
+    Check whether a value is a number that a float can have; infinity is one, as a bound.
+
+    Parameters
+    ----------
+    value
+        The value.
+
+    """
     if isinstance(value, int):
         return not isinstance(value, bool) and abs(value) <= _LARGEST
-    return isinstance(value, float) and math.isfinite(value)
+    return isinstance(value, float) and not math.isnan(value)
+
+
+def _is_finite(value: Any) -> bool:
+    return is_number(value) and math.isfinite(value)
 
 
 def is_vector(value: Any, length: int) -> bool:
@@ -299,5 +311,5 @@ def is_vector(value: Any, length: int) -> bool:
         isinstance(value, Sequence)
         and not isinstance(value, str)
         and len(value) == length
-        and all(map(_is_number, value))
+        and all(map(_is_finite, value))
     )

@@ -7,12 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
 from pathlib import Path
-import sys
 from typing import Any
 
 from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
-from humanoid_common.tables import load_table, Table
+from humanoid_common.tables import is_number, load_table, Table
 from humanoid_control.backends import Array
 import numpy as np
 
@@ -30,7 +29,6 @@ TERMS = {
 BY_TERM, BY_STEP = 'by_term', 'by_step'
 FASTEST_HZ = 500.0
 MOST_HISTORY = 100
-_LARGEST = int(sys.float_info.max)
 
 
 class PolicyError(UserError):
@@ -207,13 +205,6 @@ def _each(table: Table, name: str, among: Sequence[str], value: Any) -> Array:
                 raise place.error(f"{place.name} names an unknown '{shortened(str(key))}'. {hint}")
         value = [value.get(key) for key in among]
     values = value if isinstance(value, list) else [value] * len(among)
-    if len(values) != len(among) or not all(map(_is_number, values)):
+    if len(values) != len(among) or not all(map(is_number, values)):
         raise place.wrong(f'a number, or {len(among)} of them', value)
     return np.array(values, dtype=np.float64)
-
-
-def _is_number(value: Any) -> bool:
-    """Check whether a value is a number; infinity is one, as a bound."""
-    if isinstance(value, int):
-        return not isinstance(value, bool) and abs(value) <= _LARGEST
-    return isinstance(value, float) and not math.isnan(value)
