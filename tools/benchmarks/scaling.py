@@ -9,6 +9,7 @@ until the page has it. `python3 tools/benchmarks/scaling.py` prints the tables.
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable, Mapping, Sequence
 import math
 from pathlib import Path
@@ -416,6 +417,7 @@ def all_tables(page: str) -> list[str]:
 
 def main() -> None:
     """Print the tables."""
+    argparse.ArgumentParser(description=(__doc__ or '').strip().split('\n')[0]).parse_args()
     print('\n\n'.join(all_tables(PAGE.read_text())))
 
 

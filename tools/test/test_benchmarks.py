@@ -51,6 +51,7 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
         (['sweep_ray', '--runs', '9'], "'9' is no int at least 10."),
         (['journeys', '--only', 'flight'], "invalid choice: 'flight'"),
+        (['scaling', 'nonsense'], 'unrecognized arguments: nonsense'),
         (['fleet', '--robots', '0'], "'0' is no int from 1 to 200."),
         (['fleet', '--ways', 'shouting'], "invalid choice: 'shouting'"),
         (['discovery_time', '--nodes', '1'], "'1' is no int from 2 to 100."),

@@ -27,6 +27,7 @@ from humanoid_gym import STAND
 from humanoid_gym.balance import initial_gains, write_policy
 from humanoid_gym.episodes import EpisodeProcesses, Episodes, TrainingError, Trial
 from humanoid_gym.evolution import Search, SearchState
+from humanoid_simulation.files import folder_argument
 
 SIGMA = 0.1
 """Standard deviation of the gains in the first generation."""
@@ -156,7 +157,10 @@ def _arguments() -> argparse.Namespace:
         prog='train_balance', description=(__doc__ or '').strip().split('\n')[0]
     )
     parser.add_argument(
-        '--folder', type=Path, default=Path('balance'), help='of the checkpoint and the policy'
+        '--folder',
+        type=folder_argument,
+        default=Path('balance'),
+        help='of the checkpoint and the policy',
     )
     parser.add_argument('--minutes', type=_above_zero(1e6), default=5.0, help='when to pause')
     parser.add_argument('--generations', type=_at_least(1), default=60)

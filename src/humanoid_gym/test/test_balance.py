@@ -276,6 +276,7 @@ def test_episodes_that_cannot_be_run(episodes: Any, name: str, reason: str) -> N
         (['--minutes', '0'], "'0' is no number above zero"),
         (['--minutes', 'nan'], "'nan' is no number above zero"),
         (['--steps', 'many'], "'many' is no whole number of at least 1."),
+        (['--folder', ''], 'an empty text names no folder.'),
         (['--seed', '-1'], "'-1' is no whole number of at least 0."),
         (['--strongest-ns', '51'], 'The robot survives no push of more than 50 N s.'),
         (['--generations', '9' * 5000], 'is no whole number of at least 1.'),

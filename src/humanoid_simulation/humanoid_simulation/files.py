@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentTypeError
 import os
 from pathlib import Path
 
@@ -41,6 +42,26 @@ def scene_path(name: str) -> Path:
     if name.endswith(SCENE_SUFFIXES):
         return Path(name)
     return named('scene', name, installed_scenes())
+
+
+def folder_argument(text: str) -> Path:
+    """
+    Read an argument of a command line that is a folder, which need not exist.
+
+    Parameters
+    ----------
+    text
+        The argument.
+
+    Raises
+    ------
+    ArgumentTypeError
+        It is empty, which would be the current folder.
+
+    """
+    if not text:
+        raise ArgumentTypeError('an empty text names no folder.')
+    return Path(text)
 
 
 def replace_file(path: Path, content: bytes) -> None:

@@ -132,6 +132,14 @@ def test_a_cluster_without_ray(
     assert (tmp_path / 'out' / 'report.html').exists() and runs(tmp_path) == []
 
 
+def test_an_output_that_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It would be the current folder."""
+    with pytest.raises(SystemExit) as caught:
+        command.main([str(tmp_path / 'walks.yaml'), '--output', ''])
+    assert caught.value.code == command.PROBLEM_EXIT
+    assert 'an empty text names no folder.' in capsys.readouterr().err
+
+
 def test_an_address_that_is_none(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Ray would start a cluster of its own; the sentence has the address that finds one."""
     with pytest.raises(SystemExit) as caught:

@@ -15,7 +15,7 @@ from typing import NoReturn
 
 from humanoid_common.errors import UserError
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.files import replace_file
+from humanoid_simulation.files import folder_argument, replace_file
 from humanoid_simulation.sweep import record, report, table
 from humanoid_simulation.sweep.engine import Engine
 from humanoid_simulation.sweep.experiment import Experiment, load_experiment
@@ -75,7 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument('experiment', help='its name, such as soak, or YAML file')
     parser.add_argument(
         '--output',
-        type=Path,
+        type=folder_argument,
         help='folder of record, table and report (default: the name of the experiment and _sweep)',
     )
     parser.add_argument(
