@@ -49,10 +49,11 @@ rclpy.spin(node)
 """
 
 # Drives and listens to the nodes that are named, until it has heard enough of each that it must
-# hear; then it prints whom it sees and how much it has heard.
+# hear, and they have acknowledged its commands; then it prints whom it sees and has heard.
 VISITOR = """
 import json, sys, time
 import rclpy
+from rclpy.duration import Duration
 from std_msgs.msg import String
 
 rclpy.init()
@@ -65,10 +66,19 @@ def hear(message):
 
 for name in names:
     node.create_subscription(String, f'{name}/out', hear, 10)
-commands = [node.create_publisher(String, f'{name}/command', 10) for name in names]
+commands = {name: node.create_publisher(String, f'{name}/command', 10) for name in names}
+
+def is_done(name):
+    driven = commands[name]
+    return (
+        heard[name] >= 100
+        and driven.get_subscription_count() > 0
+        and driven.wait_for_all_acked(Duration(seconds=0.1))
+    )
+
 end_s = time.monotonic() + 60.0
-while any(heard[name] < 100 for name in must) and time.monotonic() < end_s:
-    for each in commands:
+while not all(map(is_done, must)) and time.monotonic() < end_s:
+    for each in commands.values():
         each.publish(String(data='visitor'))
     rclpy.spin_once(node, timeout_sec=0.05)
 seen = sorted({*node.get_node_names()} - {'visitor'})

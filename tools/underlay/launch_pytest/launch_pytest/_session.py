@@ -101,7 +101,7 @@ class LaunchSession:
         )
         if not ready.done() and self.is_running:
             pytest.fail(f'The launch was not ready after {self._ready_timeout_s:g} s', False)
-        self._require_success(were_tests_running=ready.done())
+        self._require_success(was_ready=ready.done())
 
     def shutdown(self) -> None:
         """Shut the launch down, or wait for its end without auto_shutdown."""
@@ -109,7 +109,7 @@ class LaunchSession:
             self.service.shutdown()
         if self._task is not None:
             self._loop.run_until_complete(asyncio.wait({self._task}))
-        self._require_success(were_tests_running=True)
+        self._require_success(was_ready=True)
 
     def close(self) -> None:
         """Shut the launch down in any state and release its event loop."""
@@ -128,7 +128,7 @@ class LaunchSession:
             self._loop.run_until_complete(asyncio.wait(tasks))
         self._loop.run_until_complete(self._loop.shutdown_asyncgens())
 
-    def _require_success(self, *, were_tests_running: bool) -> None:
+    def _require_success(self, *, was_ready: bool) -> None:
         """Fail the test if the launch has failed or has ended early."""
         task = self._task
         if task is None or not task.done():
@@ -136,9 +136,9 @@ class LaunchSession:
         if self._observation.was_interrupted:
             raise KeyboardInterrupt
         status = task.result()
-        if status != 0 or not were_tests_running:
+        if status != 0 or not was_ready:
             self._task = None
-            text = self._observation.explain_end(status, were_tests_running=were_tests_running)
+            text = self._observation.explain_end(status, was_ready=was_ready)
             pytest.fail(f'{text}\n{self.report()}', pytrace=False)
 
     # Tests.
@@ -176,7 +176,7 @@ class LaunchSession:
         if self._task is not None and not self._task.done():
             await asyncio.wait({test, self._task}, return_when=asyncio.FIRST_COMPLETED)
         if not test.done():
-            self._require_success(were_tests_running=True)
+            self._require_success(was_ready=True)
         return await test
 
 

@@ -58,7 +58,7 @@ class Observation:
             shutdown.due_to_sigint or shutdown.reason in signal.Signals.__members__
         )
 
-    def explain_end(self, status: int, *, were_tests_running: bool) -> str:
+    def explain_end(self, status: int, *, was_ready: bool) -> str:
         """
         Return a failure message that explains why a launch ended early.
 
@@ -66,11 +66,11 @@ class Observation:
         ----------
         status
             The return code of the launch service; 0 for success.
-        were_tests_running
-            Whether the tests had started; otherwise the launch was not ready yet.
+        was_ready
+            Whether the launch had been ready for its tests.
 
         """
-        when = 'before the tests were done' if were_tests_running else 'before it was ready'
+        when = 'before the tests were done' if was_ready else 'before it was ready'
         if status != 0:
             reason = self._shutdown.reason if self._shutdown else 'see its output'
             return f'The launch failed {when}: {reason}'

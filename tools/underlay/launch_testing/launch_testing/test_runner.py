@@ -115,7 +115,7 @@ class SingleRun:
         self._ready = threading.Event()
         self._injected: dict[str, Any] = {}
         self._result: TestResult = self._empty_result()
-        self._is_over = self._tests_done = False
+        self._is_over = self._was_ready = self._tests_done = False
         self._failure = ''
 
     def execute(self) -> TestResult:
@@ -132,6 +132,7 @@ class SingleRun:
         thread.start()
         status = self._launch(description)
         self._is_over = True
+        self._was_ready = self._ready.is_set()
         self._result.stop()  # before a test whose wait ends makes way for the next one
         observation.close()
         self._ready.set()
@@ -165,7 +166,7 @@ class SingleRun:
             self._run_tests(self._run.post_shutdown_tests)
             return
         text = self._failure or self._observation.explain_end(
-            status, were_tests_running='test_args' in self._injected
+            status, was_ready=self._was_ready
         )
         text += self._observation.report()
         self._fail(text)

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 import re
 import time
 from typing import Any
 
 from launch_testing.observation import Observation
+from launch_testing.test_runner import SingleRun
 import pytest
 
 RunTest = Callable[..., Any]
@@ -57,15 +59,14 @@ class TestIt(unittest.TestCase):
 """
 
 
-def test_end_before_the_tests_are_done(run: RunTest) -> None:
-    """When all processes have ended, tests end, and the last output is shown."""
-    outcome = run(
-        """
+ENDS = """
 def generate_test_description():
     return LaunchDescription([ReadyToTest(), ExecuteProcess(cmd=['sh', '-c', 'echo a; exit 3'])])
 """
-        + PASSIVE
-    )
+
+
+def check_end(outcome: Any) -> None:
+    """Check that tests have ended with the processes, and that their last output is shown."""
     text = outcome.result.outcomes[-1].message
     assert not outcome.result.wasSuccessful()
     assert text.startswith('All processes of the launch ended before the tests were done.')
@@ -73,7 +74,27 @@ def generate_test_description():
     assert 'test_c' not in dict(outcome.outcomes)
 
 
-def test_no_test_begins_after_the_end(run: RunTest, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_end_before_the_tests_are_done(run: RunTest) -> None:
+    """When all processes have ended, tests end, and the last output is shown."""
+    check_end(run(ENDS + PASSIVE))
+
+
+def test_end_before_the_first_test(run: RunTest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also if all processes end before the thread of the tests has noticed that they may begin."""
+    work = SingleRun._work
+
+    def work_late(self: SingleRun) -> None:
+        while not self._observation.is_closed:
+            time.sleep(0.01)
+        work(self)
+
+    monkeypatch.setattr(SingleRun, '_work', work_late)
+    check_end(run(ENDS + PASSIVE))
+
+
+def test_no_test_begins_after_the_end(
+    run: RunTest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Also if the runner is held up just when the wait of the current test has ended."""
     close = Observation.close
 
@@ -82,12 +103,18 @@ def test_no_test_begins_after_the_end(run: RunTest, monkeypatch: pytest.MonkeyPa
         time.sleep(0.5)
 
     monkeypatch.setattr(Observation, 'close', close_slowly)
+    waits = f'until [ -e "{tmp_path}/begun" ]; do sleep 0.05; done'
     outcome = run(
-        """
+        f"""
 def generate_test_description():
-    return LaunchDescription([ReadyToTest(), ExecuteProcess(cmd=['sleep', '0.5'])])
+    return LaunchDescription([ReadyToTest(), ExecuteProcess(cmd=['sh', '-c', {waits!r}])])
+
+class TestIt(unittest.TestCase):
+    def test_b(self, proc_output):
+        open({str(tmp_path / 'begun')!r}, 'w').close()
+        proc_output.assertWaitFor('never', timeout=1000)
+    def test_c(self): pass
 """
-        + PASSIVE
     )
     assert 'test_b' in dict(outcome.outcomes)
     assert 'test_c' not in dict(outcome.outcomes)
