@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from launch.action import Action
+from launch.actions._described_process import DescribedProcess
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.substitution import SomeSubstitutionsType
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from launch._supervision.program import PerformedOptions, ProcessOptions
     from launch._supervision.supervisor import Supervisor
     from launch.launch_context import LaunchContext
-    from launch.launch_run import VisitObserver
 
 OnExit = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
 Output = Union[SomeSubstitutionsType, dict[str, Any]]
@@ -28,7 +27,7 @@ Output = Union[SomeSubstitutionsType, dict[str, Any]]
 _OVERRIDE_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
 
 
-class ExecuteLocal(Action):
+class ExecuteLocal(DescribedProcess):
     """
     Action that runs the program that a description stands for, and watches over it.
 
@@ -140,26 +139,6 @@ class ExecuteLocal(Action):
         """Return the output configuration."""
         return self.__output
 
-    @property
-    def name(self) -> Any:
-        """Return the label once it is known, until then the substitutions of the name."""
-        return self.__process_description.final_name or self.__process_description.name
-
-    @property
-    def cmd(self) -> Any:
-        """Return the command line once it is known, until then the substitutions of its words."""
-        return self.__process_description.final_cmd or self.__process_description.cmd
-
-    @property
-    def cwd(self) -> Any:
-        """Return the working directory once it is known, until then its substitutions."""
-        return self.__process_description.final_cwd or self.__process_description.cwd
-
-    @property
-    def env(self) -> Any:
-        """Return the environment once it is known, until then its substitutions."""
-        return self.__process_description.final_env or self.__process_description.env
-
     # State of the process.
 
     @property
@@ -188,28 +167,6 @@ class ExecuteLocal(Action):
         return '' if self.__supervisor is None else self.__supervisor.output.kept(stream)
 
     # Execution.
-
-    def description_of_process(self) -> dict[str, Any]:
-        """Return the final name, cmd, cwd and env."""
-        description = self.__process_description
-        return {
-            'name': description.final_name,
-            'cmd': description.final_cmd,
-            'cwd': description.final_cwd,
-            'env': description.final_env,
-        }
-
-    def prepare(self, context: LaunchContext) -> None:
-        """
-        Determine the final command, label, working directory and environment of the process.
-
-        Parameters
-        ----------
-        context
-            The launch context, in which substitutions are performed.
-
-        """
-        self.__process_description.prepare(context, self, shell=self.__shell)
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited when the process has exited."""
@@ -269,59 +226,6 @@ class ExecuteLocal(Action):
             respawn_delay=self.__respawn_delay,
             respawn_max_retries=self.__respawn_max_retries,
         )
-
-    def _check_program(self, context: LaunchContext) -> None:
-        """Raise an error if the program does not exist and nothing has been started yet."""
-        checks = context.run.before_start
-        if checks is not None and checks.resolves_programs and not self.shell:
-            from launch._before_start import require_program
-            from launch.logging import get_logger
-
-            require_program(self.description_of_process(), get_logger('launch'))
-
-    def _tell(self, observer: VisitObserver) -> None:
-        """Notify the observer of the process that would be started."""
-        details = self.description_of_process()
-        observer.note(
-            label=details['name'],
-            argv=details['cmd'],
-            shell=self.shell or None,
-            cwd=details['cwd'],
-            environment=observer.environment_changes(details['env']),
-        )
-        for event, entities in self.outline_of_waiting():
-            observer.note_waiting(event, entities)
-
-    def outline(self) -> dict[str, Any]:
-        """Return the description of the command."""
-        words = (' + '.join(part.describe() for part in word) for word in self.cmd)
-        return {'command': list(words)}
-
-    def outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """Return the entities that wait for the process to exit."""
-        entities = self.get_sub_entities()
-        return [('its end', entities)] if entities else []
-
-    def check_in_advance(self, context: LaunchContext) -> None:
-        """
-        Raise an error if the program is already known and does not exist.
-
-        Parameters
-        ----------
-        context
-            The launch context.
-
-        Raises
-        ------
-        ProgramNotFoundError
-            The program does not exist.
-
-        """
-        from launch.preflight import require_later_program
-
-        description = self.__process_description
-        if not self.shell and description.cmd:
-            require_later_program(description.cmd[0], description.env, context)
 
     def _begin_supervision(self, context: LaunchContext, options: PerformedOptions) -> None:
         from launch._supervision.supervisor import ProcessControl, Supervisor
