@@ -10,7 +10,7 @@ from typing import Optional, TYPE_CHECKING
 
 from tf2_py._frame_store import FrameStore
 from tf2_py.intake import Intake
-from tf2_py.known_frames import KnownFrames
+from tf2_py.known_frames import FrameIntrospection, KnownFrames
 from tf2_py.lookups import Lookups
 from tf2_py.messages import nanoseconds, Reading, reading_of, transform_message
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _CACHE_NS = 10 * 10**9
 
 
-class BufferCore:
+class BufferCore(FrameIntrospection):
     """
     Buffer of the transforms of the last seconds, with lookups between any two frames.
 
@@ -38,11 +38,6 @@ class BufferCore:
     ValueError
         The cache time is negative.
 
-    Attributes
-    ----------
-    known_frames
-        The frames that exist, with their latest samples.
-
     """
 
     def __init__(self, cache_time: Optional[Duration] = None) -> None:
@@ -51,7 +46,7 @@ class BufferCore:
             raise ValueError(f'The cache time must be 0 s or more, not {cache_ns / 1e9:g} s')
         self._store = FrameStore(cache_ns)
         self._lock = threading.RLock()
-        self.known_frames = KnownFrames(self._store, self._lock)
+        super().__init__(KnownFrames(self._store, self._lock))
         self._lookups = Lookups(self._store, self._lock)
         self._intake = Intake(self._store, self._lock, self._warn)
 
@@ -230,14 +225,6 @@ class BufferCore:
         with self._lock:
             self._store.clear()
 
-    def all_frames_as_yaml(self) -> str:
-        """Format the frames, their parents and broadcasters as YAML."""
-        return self.known_frames.as_yaml()
-
-    def all_frames_as_string(self) -> str:
-        """Format the frames and their parents as text, one per line."""
-        return self.known_frames.as_string()
-
     def insert_readings(
         self, readings: Iterable[Reading], authority: str, is_static: bool
     ) -> None:
@@ -257,31 +244,6 @@ class BufferCore:
 
         """
         self._intake.insert(readings, authority, is_static)
-
-    def _allFramesAsDot(self) -> str:  # noqa: N802
-        """Format the frames as a Graphviz graph."""
-        return self.known_frames.as_dot()
-
-    def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
-        """Whether a frame exists."""
-        return self.known_frames.has(frame_id)
-
-    def _getFrameStrings(self) -> list[str]:  # noqa: N802
-        """Return the names of all frames."""
-        return self.known_frames.names()
-
-    def _chain(
-        self,
-        target_frame: str,
-        target_time: Time,
-        source_frame: str,
-        source_time: Time,
-        fixed_frame: str,
-    ) -> list[str]:
-        """Return the chain of frames from the source via the fixed frame to the target."""
-        return self.known_frames.chain(
-            target_frame, target_time, source_frame, source_time, fixed_frame
-        )
 
     def _warn(self, text: str) -> None:
         """Log a warning about a transform."""

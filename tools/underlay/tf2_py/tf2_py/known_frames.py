@@ -170,6 +170,59 @@ class KnownFrames:
         return [*up, *reversed(down[:-1])]
 
 
+class FrameIntrospection:
+    """
+    Base class of buffers that answers, under the names of ROS 2, which frames there are.
+
+    Parameters
+    ----------
+    known_frames
+        The frames of the buffer.
+
+    Attributes
+    ----------
+    known_frames
+        The frames that exist, with their latest samples.
+
+    """
+
+    def __init__(self, known_frames: KnownFrames) -> None:
+        self.known_frames = known_frames
+
+    def all_frames_as_yaml(self) -> str:
+        """Format the frames, their parents and broadcasters as YAML."""
+        return self.known_frames.as_yaml()
+
+    def all_frames_as_string(self) -> str:
+        """Format the frames and their parents as text, one per line."""
+        return self.known_frames.as_string()
+
+    def _allFramesAsDot(self) -> str:  # noqa: N802
+        """Format the frames as a Graphviz graph."""
+        return self.known_frames.as_dot()
+
+    def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
+        """Whether a frame exists."""
+        return self.known_frames.has(frame_id)
+
+    def _getFrameStrings(self) -> list[str]:  # noqa: N802
+        """Return the names of all frames."""
+        return self.known_frames.names()
+
+    def _chain(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+    ) -> list[str]:
+        """Return the chain of frames from the source via the fixed frame to the target."""
+        return self.known_frames.chain(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+
+
 def _branch(frame: str, cache: Cache) -> _Branch:
     first, last = cache.samples[0], cache.samples[-1]
     latest_s, oldest_s = last.stamp_ns / 1e9, first.stamp_ns / 1e9
