@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from threading import Thread
 import time
 from typing import Any
 
@@ -16,6 +15,7 @@ from rviz_common.status import Level
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.description import DescriptionTopic, read_description
 from rviz_default_plugins.robot.mesh_loading import MeshShelf
+from rviz_default_plugins.robot.mesh_reader import MeshReader
 from rviz_default_plugins.robot.missing_links import say_missing
 from rviz_default_plugins.robot.robot_link import pick_link
 from rviz_default_plugins.robot.robot_scene import Look, MAX_SHAPES, PoseOf, RobotScene
@@ -61,7 +61,7 @@ class RobotModel(Display):
         super().__init__(*arguments, **options)
         self._links = Parts(super().to_file().get('Links'))
         self._links.all_shown = self.values[ALL_LINKS]
-        self._shelf = MeshShelf()
+        self._meshes = MeshReader(self.context.queue)
 
     def to_file(self) -> dict[str, Any]:
         """Return the entry for the .rviz file, with the settings of single links."""
@@ -71,7 +71,6 @@ class RobotModel(Display):
         """Subscribe to the robot description, or read it from a file."""
         self._model: Robot | None = None
         self._robot: RobotScene | None = None
-        self._awaited: object = None
         self._text = ''
         self._next_s = self._next_reasons_s = 0.0
         self._topic: DescriptionTopic | None = None
@@ -84,7 +83,7 @@ class RobotModel(Display):
         """Remove the robot."""
         if self._topic is not None:
             self._topic.close()
-        self._awaited = None
+        self._meshes.cancel()
         self._remove()
         self.status.clear()
 
@@ -217,26 +216,11 @@ class RobotModel(Display):
 
     def _prepare(self, model: Robot) -> None:
         """Draw a robot, immediately or once its meshes have been read in the background."""
-        self._awaited = awaited = object()
         self._model, look = model, self.look()
-        shelf = MeshShelf(self._shelf)
-        if not (names := _mesh_names(model, look)):
-            self._draw(model, look, shelf)
-            return
-
-        def finish() -> None:
-            if self._awaited is awaited:
-                self._draw(model, look, shelf)
-
-        def read() -> None:
-            shelf.read(names)
-            self.context.queue.post(finish)
-
-        Thread(target=read, name='meshes', daemon=True).start()
+        self._meshes.read(_mesh_names(model, look), lambda shelf: self._draw(model, look, shelf))
 
     def _draw(self, model: Robot, look: Look, shelf: MeshShelf) -> None:
         self._remove()
-        self._shelf = shelf
         self._robot = RobotScene(self.context.scene, self.root, model, look, shelf.meshes)
         self.say('Meshes', ' '.join(shelf.complaints))
         self.say('Bodies', _too_many(self._robot.left_out))
