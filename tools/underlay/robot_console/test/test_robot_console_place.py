@@ -16,8 +16,8 @@ from rclpy.node import Node
 from rviz_common.context import Context
 from rviz_common.inputs import WorkQueue
 from rviz_common.page import NO_TOKEN, Page, PageSettings
-from rviz_common.panel import ALWAYS_ORDER
 from rviz_common.panels.panel_tabs import PanelTabs
+from rviz_common.widget_order import ALWAYS_ORDER
 
 FILE = [
     {'Class': 'robot_console/Safety', 'Name': 'Stop', 'Robot': 'real'},

@@ -18,8 +18,8 @@ from robot_console.simulator_link import failure_of, SILENT, SimulatorLink
 from robot_console.state_words import slowness, words
 from rviz_common.pace import Pace
 from rviz_common.page.channel import Action, Viewer
-from rviz_common.panel import BAR_ORDER
 from rviz_common.properties import Text, Whole
+from rviz_common.widget_order import BAR_ORDER
 from simulation_interfaces.msg import SimulationState
 from simulation_interfaces.srv import (
     LoadWorld,

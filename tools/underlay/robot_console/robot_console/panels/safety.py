@@ -16,8 +16,9 @@ from robot_console.control_page import Connections, Session
 from robot_console.namespaces import NAMESPACE
 from robot_console.robot_link import link_of, node_names, RobotLink
 from robot_console.small_page import SmallPage
-from rviz_common.panel import ALWAYS_ORDER, Panel
+from rviz_common.panel import Panel
 from rviz_common.properties import Choice
+from rviz_common.widget_order import ALWAYS_ORDER
 from std_msgs.msg import Float64
 
 __all__ = [

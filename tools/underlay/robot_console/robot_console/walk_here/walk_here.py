@@ -27,9 +27,9 @@ from robot_console.walk_here.walk_session import (
 )
 from rviz_common.context import Context
 from rviz_common.frames import FrameError, Pose
-from rviz_common.panel import ALWAYS_ORDER
 from rviz_common.properties import Number, Topic
 from rviz_common.tool import Point, Tool
+from rviz_common.widget_order import ALWAYS_ORDER
 from rviz_default_plugins.tools.publishing import heading, PoseArrow
 from std_msgs.msg import String
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING
 
-from rviz_common.panel import TABS_ORDER
+from rviz_common.widget_order import TABS_ORDER
 from viser._messages import GuiFolderMessage
 
 if TYPE_CHECKING:

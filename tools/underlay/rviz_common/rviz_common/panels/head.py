@@ -10,9 +10,9 @@ from rviz_common.config import ConfigError, Configuration
 from rviz_common.config.configuration import LARGEST, TOO_LARGE
 from rviz_common.context import Context
 from rviz_common.pace import Pace
-from rviz_common.panel import FILE_ORDER, STATUS_ORDER, TOOLS_ORDER
 from rviz_common.status import escaped, Level, MARKS, printable
 from rviz_common.tool import Tool
+from rviz_common.widget_order import FILE_ORDER, STATUS_ORDER, TOOLS_ORDER
 
 if TYPE_CHECKING:
     from rviz_common.visualizer.visualizer import Visualizer

@@ -10,10 +10,11 @@ from typing import Any
 
 from rviz_common.context import Context
 from rviz_common.pace import Pace
-from rviz_common.panel import DOCK_ORDER, Panel
+from rviz_common.panel import Panel
 from rviz_common.panels.dock import Dock
 from rviz_common.plugins import load_plugin, PANELS, PANELS_ON_DEMAND, plugin_names
 from rviz_common.status import described_error, escaped
+from rviz_common.widget_order import DOCK_ORDER
 from viser import Icon
 
 __all__ = ['BUILT_IN', 'PanelTabs']

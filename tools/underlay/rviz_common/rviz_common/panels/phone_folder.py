@@ -7,7 +7,7 @@ from html import escape
 from urllib.parse import urlsplit
 
 from rviz_common.context import Context
-from rviz_common.panel import PHONE_ORDER
+from rviz_common.widget_order import PHONE_ORDER
 
 __all__ = ['PhoneFolder']
 

@@ -9,9 +9,10 @@ from typing import Any
 
 from rviz_common.frames import Pose
 from rviz_common.pace import Pace
-from rviz_common.panel import Panel, SELECTION_ORDER
+from rviz_common.panel import Panel
 from rviz_common.selection import SceneObject
 from rviz_common.status import escaped
+from rviz_common.widget_order import SELECTION_ORDER
 
 __all__ = ['SelectionPanel', 'roll_pitch_yaw']
 

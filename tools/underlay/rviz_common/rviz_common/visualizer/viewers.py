@@ -14,9 +14,9 @@ from rviz_common.page import Route
 from rviz_common.page.channel import Channel, Viewer
 from rviz_common.page.page import set_theme
 from rviz_common.page.web_files import filled, frame_text, web_file
-from rviz_common.panel import LOOK_ORDER
 from rviz_common.visualizer.quality import COARSE, FULL, Quality, SIMPLE
 from rviz_common.visualizer.surroundings import DARK, LIGHT, Surroundings
+from rviz_common.widget_order import LOOK_ORDER
 
 if TYPE_CHECKING:
     from viser import ClientHandle
