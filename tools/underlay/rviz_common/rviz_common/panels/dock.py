@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING
 
+from rviz_common.page.raw_messages import send
 from rviz_common.widget_order import TABS_ORDER
 from viser._messages import GuiFolderMessage
 
@@ -131,13 +132,11 @@ class Dock:
         A tab of viser stays where a browser has put it, and so does what is created in it: each
         place needs another one, and the folder is announced once more.
         """
-        folder, before = tab.folder._impl, tab.handle
-        folder.parent_container_id = handle._id
+        folder, before, container = tab.folder._impl, tab.handle, handle._id
+        folder.parent_container_id = container
         handle._children[folder.uuid] = before._children.pop(folder.uuid)
         tab.handle = handle
-        self._gui._websock_interface.queue_message(
-            GuiFolderMessage(folder.uuid, container_uuid=handle._id, props=folder.props)
-        )
+        send(self._gui, GuiFolderMessage(folder.uuid, container, folder.props))
 
     def _arrange_row(self) -> None:
         """Order the tabs in the row; viser has only a way to append new ones."""
