@@ -362,6 +362,32 @@ def test_scene_tape_is_bounded() -> None:
         frame.position = (0, 0, 0)
         tape.look()
         assert tape.size_bytes == 0
+        assert len(page.viser._websock_server._record_handles) == 1
+
+
+def test_scene_tape_misses_nothing_between_reels() -> None:
+    """What another thread sends while a reel follows the next is there once, and in order."""
+    with (
+        Page('test', PageSettings(token=NO_TOKEN)) as page,
+        mock.patch('robot_console.recordings.scene_folder.REEL_S', 0.0),
+    ):
+        frame = page.viser.scene.add_frame('/robot')
+        tape = SceneTape(page.viser, 60.0, 10**8)
+
+        def send() -> None:
+            for number in range(1, 501):
+                frame.position = (number, 0, 0)
+
+        sender = threading.Thread(target=send)
+        sender.start()
+        while sender.is_alive():
+            tape.look()
+        with mock.patch.object(tape, '_encoded', return_value='') as encoded:
+            tape.page('test', 10**7)
+        tape.close()
+        _, sent, *_ = encoded.call_args.args
+        positions = [message.position[0] for _, message in sent if hasattr(message, 'position')]
+        assert positions == list(range(1, 501))
 
 
 def test_scene_too_large() -> None:

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from datetime import datetime
 from html import escape
 import threading
 import time
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from robot_console.recordings.widgets import assign, size_text
@@ -34,15 +35,20 @@ class Reel:
     """
     A snapshot of the scene, and the scene messages sent since then.
 
+    The cost is low, because messages are only encoded on export: the recorder of viser gets each
+    message in its filter, which keeps it here.
+
     Parameters
+    ----------
+    web
+        The websocket server of the page, a `viser.infra.WebsockServer`.
+
+    Attributes
     ----------
     start_s
         The time of the snapshot, from `time.monotonic`.
     scene
         The viser messages that constitute the scene.
-
-    Attributes
-    ----------
     sent
         The messages sent since then, each with its time from `time.monotonic`.
     size_bytes
@@ -50,19 +56,32 @@ class Reel:
 
     """
 
-    def __init__(self, start_s: float, scene: list[Any]) -> None:
-        self.start_s = start_s
-        self.scene = scene
+    def __init__(self, web: Any) -> None:
+        self.start_s = time.monotonic()
         self.sent: list[tuple[float, Any]] = []
         self.size_bytes = 0
+        # What is sent from here on until the snapshot is in both, and shown once more at worst.
+        self._recorder = web.get_message_serializer(self._keep)
+        buffer = web.get_message_buffer()
+        with buffer.buffer_lock:
+            known = list(buffer.message_from_id.values())
+        self.scene = [message for message in known if message.include_in_scene_serialization]
+
+    def end(self) -> None:
+        """Stop recording; what was recorded stays."""
+        self._recorder.serialize()  # nothing; viser has no other way to end a recording
+
+    def _keep(self, message: Any) -> bool:
+        """Record a message that the server sends; return that viser does not have to."""
+        if message.include_in_scene_serialization:
+            self.sent.append((time.monotonic(), message))
+            self.size_bytes += MESSAGE_BYTES + _array_bytes(vars(message))
+        return False
 
 
 class SceneTape:
     """
     Records the messages of a scene in segments of some seconds; the oldest ones are dropped.
-
-    The cost is low, because messages are only encoded on export. The server calls
-    `_insert_message` for every message that it sends, as for its own recordings.
 
     Parameters
     ----------
@@ -76,15 +95,12 @@ class SceneTape:
     """
 
     def __init__(self, server: ViserServer, span_s: float, max_bytes: int) -> None:
-        web = cast(Any, server._websock_server)
-        self._web = web
-        self._lock, self._recorders = web._record_lock, web._record_handles
+        self._web: Any = server._websock_server
         self._span_s = span_s
         self._max_bytes = max_bytes
-        self._reels: list[Reel] = []
-        with self._lock:
-            self._begin_reel()
-            self._recorders.append(self)
+        self._lock = threading.Lock()
+        self._reels = [Reel(self._web)]
+        self._is_closed = False
 
     @property
     def size_bytes(self) -> int:
@@ -105,14 +121,15 @@ class SceneTape:
             while len(self._reels) > 1 and self._is_spare(now_s):
                 del self._reels[0]
             if self.size_bytes > self._max_bytes:
-                self._reels.clear()
                 self._begin_reel()
+                del self._reels[:-1]
 
     def close(self) -> None:
         """Stop recording."""
         with self._lock:
-            if self in self._recorders:
-                self._recorders.remove(self)
+            if not self._is_closed:
+                self._is_closed = True
+                self._reels[-1].end()
 
     def page(self, title: str, max_bytes: int) -> bytes:
         """
@@ -139,7 +156,7 @@ class SceneTape:
         with self._lock:
             scene = self._reels[0].scene
             start_s, end_s = self._reels[0].start_s, time.monotonic()
-            sent = [each for reel in self._reels for each in reel.sent]
+            sent = _once(each for reel in self._reels for each in list(reel.sent))
         html = self._encoded(scene, sent, start_s, end_s)
         page = html.replace(TITLE, f'<title>{escape(title)}</title>', 1).encode()
         if len(page) > max_bytes:
@@ -168,24 +185,23 @@ class SceneTape:
         page: str = recorder.as_html(dark_mode=True)
         return page
 
-    def _insert_message(self, message: Any) -> None:
-        """Record a message that the server sends."""
-        if message.include_in_scene_serialization:
-            reel = self._reels[-1]
-            reel.sent.append((time.monotonic(), message))
-            reel.size_bytes += MESSAGE_BYTES + _array_bytes(vars(message))
-
     def _begin_reel(self) -> None:
-        buffer = self._web.get_message_buffer()
-        with buffer.buffer_lock:
-            sent = list(buffer.message_from_id.values())
-        scene = [message for message in sent if message.include_in_scene_serialization]
-        self._reels.append(Reel(time.monotonic(), scene))
+        """Begin another segment, before the last one ends: no message is lost in between."""
+        self._reels.append(Reel(self._web))
+        self._reels[-2].end()
 
     def _is_spare(self, now_s: float) -> bool:
         """Check whether the first segment is no longer needed, or exceeds the memory limit."""
         is_old = now_s - self._reels[1].start_s >= self._span_s
         return is_old or self.size_bytes > self._max_bytes
+
+
+def _once(sent: Iterable[tuple[float, Any]]) -> list[tuple[float, Any]]:
+    """Leave out what the next segment has recorded, too, before the one before ended."""
+    first: dict[int, tuple[float, Any]] = {}
+    for each in sent:
+        first.setdefault(id(each[1]), each)
+    return list(first.values())
 
 
 def _array_bytes(values: dict[str, Any]) -> int:
