@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 import math
 
 from humanoid_control.backends import Array, JointTargets
-from humanoid_control.walking.balance import Balance
 from humanoid_control.walking.get_up_motions import (
     Keyframe,
     KNEEL,
@@ -18,7 +17,6 @@ from humanoid_control.walking.get_up_motions import (
     STRETCH,
 )
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.walking_robot import RobotState, WalkingRobot
 import numpy as np
 
@@ -186,8 +184,10 @@ class GetUp:
 
     Parameters
     ----------
-    robot, shape
-        The robot, and the supporting rectangle of its soles.
+    robot
+        The robot, whose joints move.
+    balance_nm
+        Computes the joint torques (n,) that keep its balance on both soles, from its state.
     parameters : WalkParameters
         Gait parameters, with the unit of time of the motions and the number of tries.
     time_s
@@ -212,7 +212,7 @@ class GetUp:
     def __init__(
         self,
         robot: WalkingRobot,
-        shape: FootShape,
+        balance_nm: Callable[[RobotState], Array],
         parameters: WalkParameters,
         time_s: float,
         positions_rad: Array,
@@ -220,7 +220,7 @@ class GetUp:
         self._robot, self._fall = robot, parameters.fall
         self._motion, self._tries = '', 0
         self._mirrored, self._balances = False, False
-        self._balance = Balance(robot, shape, parameters)
+        self._balance_nm = balance_nm
         self._keyframes: Iterator[Keyframe] = iter(())
         self._since_s, self._duration_s = time_s, 0.0
         self._start_rad = self._goal_rad = positions_rad.copy()
@@ -267,7 +267,7 @@ class GetUp:
         passed_s = time_s - self._since_s
         targets = minimum_jerk(self._start_rad, self._goal_rad, self._duration_s, passed_s)
         if self._balances:
-            targets = replace(targets, efforts_nm=self._balance.efforts_nm(sensed))
+            targets = replace(targets, efforts_nm=self._balance_nm(sensed))
         self._last = targets
         return targets
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.backends import Array, JointTargets
+from humanoid_control.walking.balance import Balance
 from humanoid_control.walking.get_up import GetUp, Rising
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import NAMES, outwards, SIDES
@@ -119,7 +120,8 @@ class Recovery:
         if self._detector.can_stand(stance):
             return Rising(positions_rad, self._home.positions_rad, self._parameters, time_s)
         if self._is_allowed_up() and action.has_lain(time_s):
-            return GetUp(self._robot, self._shape, self._parameters, time_s, positions_rad)
+            balance = Balance(self._robot, self._shape, self._parameters)
+            return GetUp(self._robot, balance.efforts_nm, self._parameters, time_s, positions_rad)
         return action
 
     def _is_allowed_up(self) -> bool:
