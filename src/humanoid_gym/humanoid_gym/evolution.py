@@ -80,7 +80,7 @@ class SearchState:
         try:
             with np.load(BytesIO(path.read_bytes())) as stored:
                 state = cls(**{each.name: stored[each.name] for each in fields(cls)})
-            state._check(size)
+            state.check(size)
         except (
             AttributeError, BadZipFile, EOFError, KeyError, NotImplementedError, OSError,
             TypeError, ValueError, zlib.error,
@@ -109,8 +109,21 @@ class SearchState:
         np.savez(content, **{each.name: getattr(self, each.name) for each in fields(self)})
         replace_file(path, content.getvalue())
 
-    def _check(self, size: int) -> None:
-        """Check that all values are finite numbers, as many as there have to be."""
+    def check(self, size: int) -> None:
+        """
+        Check that all values are finite numbers, as many as there have to be.
+
+        Parameters
+        ----------
+        size
+            The number n of parameters.
+
+        Raises
+        ------
+        ValueError
+            A value is wrong; the message is its name.
+
+        """
         wanted = dict.fromkeys(('mean', 'covariance_path', 'sigma_path'), (size,))
         shapes = {'sigma': (), 'generation': (), 'covariance': (size, size), **wanted}
         for name, shape in shapes.items():
