@@ -27,6 +27,21 @@ class GoalCanceled(Exception):
     """The client has canceled the goal."""
 
 
+class _Server(rclpy.action.ActionServer):
+    """Action server of rclpy that sends no results once its handle has been destroyed."""
+
+    is_destroyed = False
+
+    def destroy(self) -> None:
+        """Destroy the handle, through which clients are answered."""
+        self.is_destroyed = True
+        super().destroy()
+
+    def _send_result_response(self, request_header: Any, future: Any) -> None:
+        if not self.is_destroyed:
+            super()._send_result_response(request_header, future)
+
+
 class ActionServer:
     """
     Action server that executes one goal at a time; a newer goal preempts the running one.
@@ -72,7 +87,7 @@ class ActionServer:
         self._is_active = self._has_to_end = False
         self.result: Any = kind.Result()
         """The result of the running goal, for `work` to fill in; error codes are added."""
-        self._server = rclpy.action.ActionServer(
+        self._server = _Server(
             node,
             kind,
             name,
@@ -113,8 +128,6 @@ class ActionServer:
     def destroy(self) -> None:
         """Destroy the action server; clients receive no result of a goal that is still active."""
         self._is_active, self._has_to_end, self._pending = False, True, None
-        for result in self._server._result_futures.values():
-            result._callbacks = []  # which would be sent through the handle that is destroyed here
         self._server.destroy()
 
     @property

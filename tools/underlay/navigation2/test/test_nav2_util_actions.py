@@ -273,7 +273,7 @@ def test_no_step_of_a_simulated_clock_meets_the_result_timeout(
     """Whatever the parameter says: rclpy dispatches timers without end when one does."""
     timeouts_s: list[float] = []
     monkeypatch.setattr(
-        'rclpy.action.ActionServer',
+        'rclpy.action.ActionServer.__init__',
         lambda *_, result_timeout, **__: timeouts_s.append(result_timeout),
     )
     for result_timeout_s in (10.0, 2.5, 900.0):
