@@ -15,7 +15,7 @@ import sys
 import colcon
 from console import SetupError
 import environment
-from locations import find_locations, Locations
+from locations import expanded_path, find_locations, Locations
 import mirror
 from ownership import (
     forget_environment,
@@ -193,7 +193,7 @@ def make_mirror(locations: Locations, folder: str) -> int:
 
     """
     versions = mirror.versions_of(os.environ.get('PYTHONS', ''))
-    place = Path(folder).expanduser().resolve()
+    place = expanded_path(folder).resolve()
     mirror.make_mirror(locations, place, MIRRORED, versions)
     print(
         f'The wheels for Python {", ".join(versions)} are in {place}. On each machine without '

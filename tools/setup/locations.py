@@ -67,13 +67,13 @@ def find_locations(root: Path, wanted: str | None) -> Locations:
     Raises
     ------
     SetupError
-        .venv holds another environment than the requested one, or scripts cannot name the
-        interpreter in their first line.
+        .venv holds another environment than the requested one, scripts cannot name the
+        interpreter in their first line, or there is no such home folder.
 
     """
     link = root / '.venv'
     if wanted:
-        environment = Path(os.path.realpath(Path(wanted).expanduser()))
+        environment = Path(os.path.realpath(expanded_path(wanted)))
         if link.is_dir() and not link.is_symlink() and environment != link:
             raise SetupError(
                 f'{link} already holds an environment, so VENV={wanted} cannot take its place: '
@@ -91,6 +91,30 @@ def find_locations(root: Path, wanted: str | None) -> Locations:
             'for the first line of a script. Keep it elsewhere, as in: make setup VENV=/opt/venv'
         )
     return Locations(root, link, environment)
+
+
+def expanded_path(given: str) -> Path:
+    """
+    Replace `~` or `~user` at the beginning of a path by that home folder.
+
+    Parameters
+    ----------
+    given
+        The path as the user gave it.
+
+    Raises
+    ------
+    SetupError
+        There is no such home folder.
+
+    """
+    try:
+        return Path(given).expanduser()
+    except RuntimeError:
+        raise SetupError(
+            f"There is no home folder '{Path(given).parts[0]}': give the whole path instead of "
+            f"'{given}', from / on"
+        ) from None
 
 
 def fits_in_shebang(environment: Path) -> bool:

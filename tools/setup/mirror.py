@@ -10,7 +10,7 @@ import re
 from tempfile import TemporaryDirectory
 
 from console import SetupError, Steps
-from locations import Locations
+from locations import expanded_path, Locations
 from processes import environment_variables, last_words, run_logged
 import wheels
 
@@ -181,10 +181,10 @@ def use_mirror(folder: str) -> None:
     Raises
     ------
     SetupError
-        There are no wheels in it.
+        There are no wheels in it, or it is in a home folder that does not exist.
 
     """
-    path = Path(folder).expanduser().resolve()
+    path = expanded_path(folder).resolve()
     if not any(path.glob('*.whl')):
         raise SetupError(
             f'There are no wheels in {path}: make them on a machine with internet, with '

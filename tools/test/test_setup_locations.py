@@ -49,6 +49,12 @@ def test_a_named_environment_does_not_replace_a_real_one(tmp_path: Path) -> None
         find_locations(tmp_path, str(tmp_path / 'other'))
 
 
+def test_a_home_folder_that_does_not_exist(tmp_path: Path) -> None:
+    """It is named, and nothing is made beside the workspace."""
+    with pytest.raises(SetupError, match="There is no home folder '~no_one': give the whole path"):
+        find_locations(tmp_path, '~no_one/venv')
+
+
 def test_a_named_environment_with_a_space_is_refused(tmp_path: Path) -> None:
     """Scripts could not start from there."""
     with pytest.raises(SetupError, match='VENV='):

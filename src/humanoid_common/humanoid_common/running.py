@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import sys
 from typing import ParamSpec
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.executing import destroy, make_executor, spin_until
 from humanoid_common.interrupts import stop_on_signals, StopRequest
 import rclpy
@@ -32,7 +32,7 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
     Run a node until it is told to stop, and return the exit status of the process.
 
     SIGINT and SIGTERM end the node between two callbacks, or while it starts, with status 0. A
-    node that cannot start ends with status 1 and one message on stderr.
+    UserError, of the start or of a callback, ends it with status 1 and its message on stderr.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
             _run(factory, stop)
         except (KeyboardInterrupt, ExternalShutdownException):
             return 0
-        except (NodeStartError, ParameterException) as error:
+        except (UserError, ParameterException) as error:
             sys.stderr.write(f'{error}\n')
             return 1
         finally:
@@ -58,7 +58,7 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
 
 def ending(node: Node, callback: Callable[P, None]) -> Callable[P, None]:
     """
-    Wrap a callback of a node so that it ends the node when it raises NodeStartError.
+    Wrap a callback of a node so that it ends the node when it raises UserError.
 
     `run_node` then shows the message, and nothing else. In a node that is run otherwise, the error
     propagates.
@@ -79,7 +79,7 @@ def ending(node: Node, callback: Callable[P, None]) -> Callable[P, None]:
         elif not end.done():
             try:
                 callback(*args, **kwargs)
-            except NodeStartError as error:
+            except UserError as error:
                 end.set_exception(error)
 
     return call
@@ -97,7 +97,7 @@ def _initialize(args: Sequence[str] | None) -> None:
             signal_handler_options=SignalHandlerOptions.NO,
         )
     except RuntimeError as error:
-        raise NodeStartError(_refusal(str(error))) from error
+        raise UserError(_refusal(str(error))) from error
 
 
 def _refusal(reason: str) -> str:

@@ -20,7 +20,7 @@ import pytest
 
 HEAD = """
 import sys, time
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.running import run_node
 from rclpy.node import Node
 """
@@ -53,7 +53,7 @@ REFUSING = (
     HEAD
     + """
 def refuse():
-    raise NodeStartError('There is no robot. Build one.')
+    raise UserError('There is no robot. Build one.')
 sys.exit(run_node(refuse))
 """
 )
@@ -66,7 +66,7 @@ class Attached(Node):
         super().__init__('attached')
         self.create_timer(0.01, ending(self, self.look))
     def look(self):
-        raise NodeStartError('The robot is silent. Look at its line.')
+        raise UserError('The robot is silent. Look at its line.')
 sys.exit(run_node(Attached))
 """
 )

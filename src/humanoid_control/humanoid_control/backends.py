@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_description.drives import Drive
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class BackendError(NodeStartError):
+class BackendError(UserError):
     """A robot can no longer be moved; its node ends with this message."""
 
 

@@ -9,7 +9,7 @@ import sys
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.periodic import clock_s
 from humanoid_common.running import run_node
@@ -75,7 +75,7 @@ class MockRobot(Node):
         try:
             model = load_robot(humanoid_urdf(scale, prefix, hands=hands), 'the humanoid')
         except DescriptionError as error:
-            raise NodeStartError(f'The mock robot has no model. {error}') from error
+            raise UserError(f'The mock robot has no model. {error}') from error
         drives, say = (
             load_drives(scale, prefix, hands=hands),
             Refusals(self.get_logger().error).add,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -110,7 +111,7 @@ def test_policies_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert policy_path('~/run/walk.yaml') == Path.home() / 'run' / 'walk.yaml'
     with pytest.raises(PolicyError, match="No policy 'stant' is installed. Did you mean 'stand'?"):
         policy_path('stant')
-    with pytest.raises(PolicyError, match='there is no such home folder. Give the whole path'):
+    with pytest.raises(UserError, match="no home folder '~nobody_of_this_name'. Give the whole"):
         policy_path('~nobody_of_this_name/walk.yaml')
     with pytest.raises(PolicyError, match='to the path of a file that ends with .yaml'):
         policy_path(str(tmp_path))

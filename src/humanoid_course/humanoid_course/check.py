@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 import argparse
 from collections.abc import Sequence
 import os
@@ -18,7 +19,7 @@ from humanoid_course.observations import Submission
 from humanoid_course.observer import free_domain
 from humanoid_course.report import is_complete, listing, result_lines, summary
 from humanoid_course.trial import missing_programs, scratch_folder, Trial
-from humanoid_course.workspace import find_workspace, UsageError
+from humanoid_course.workspace import find_workspace
 
 _MODULES = (exercise_1, exercise_2, exercise_3)
 EXERCISES: dict[str, Exercise[Submission]] = {
@@ -62,14 +63,14 @@ def find_exercise(name: str) -> Exercise[Submission]:
 
     Raises
     ------
-    UsageError
+    UserError
         There is no such exercise.
 
     """
     exercise = EXERCISES.get(name) or EXERCISES.get(f'exercise_{name}')
     if exercise is None:
         hint = did_you_mean(name, EXERCISES)
-        raise UsageError(
+        raise UserError(
             f"There is no exercise '{shortened(name)}'. {hint} The exercises are: "
             f'{", ".join(EXERCISES)}.'.replace('  ', ' ')
         )
@@ -94,14 +95,14 @@ def check(exercise: Exercise[Submission], options: argparse.Namespace) -> int:
 
     Raises
     ------
-    UsageError
+    UserError
         The environment is not sourced, or a package is not found.
 
     """
     missing = missing_programs()
     if missing or not os.environ.get('AMENT_PREFIX_PATH'):
         what = f"the command '{missing[0]}'" if missing else 'AMENT_PREFIX_PATH'
-        raise UsageError(
+        raise UserError(
             f'ROS is not sourced in this terminal, where {what} is missing: run source '
             'install/setup.bash in your workspace, then check again.'
         )
@@ -134,7 +135,7 @@ def main() -> int:
             print('\n'.join(listing(EXERCISES.values())))
             return 0
         return check(find_exercise(options.exercise), options)
-    except UsageError as error:
+    except UserError as error:
         print(error, file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
+from humanoid_common.errors import UserError
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 import os
@@ -16,14 +18,6 @@ MANIFEST = 'package.xml'
 _IGNORE_MARKS = ('COLCON_IGNORE', 'AMENT_IGNORE', 'CATKIN_IGNORE')
 _OUTPUT_FOLDERS = ('build', 'install', 'log')
 _MOST_LEVELS = 6
-
-
-class UsageError(Exception):
-    """
-    The command cannot start its checks.
-
-    The message is shown to the user as it is: sentences that state what is wrong and what to do.
-    """
 
 
 @dataclass(frozen=True)
@@ -131,14 +125,14 @@ def find_workspace(
 
     Raises
     ------
-    UsageError
+    UserError
         There is no workspace, or a package is not in it.
 
     """
     if given is not None:
-        folder = Path(given).expanduser().absolute()
+        folder = expanded_path(given).absolute()
         if not folder.is_dir():
-            raise UsageError(
+            raise UserError(
                 f"There is no folder '{shortened(given)}': give the path of your workspace, as in "
                 '--workspace ~/ros2_ws.'
             )
@@ -151,7 +145,7 @@ def find_workspace(
         if all(name in packages for name in wanted):
             return folder, packages
         seen.append((folder, packages))
-    raise UsageError(_not_found(wanted, seen))
+    raise UserError(_not_found(wanted, seen))
 
 
 def _candidates(here: Path, variables: Mapping[str, str]) -> Iterator[Path]:

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 from pathlib import Path
 
 from humanoid_course.testing import MODEL_AND_CONTROL, write_workspace
-from humanoid_course.workspace import find_packages, find_workspace, UsageError
+from humanoid_course.workspace import find_packages, find_workspace
 import pytest
 
 
@@ -41,11 +42,12 @@ def test_sourced_workspace(workspace: Path, tmp_path: Path) -> None:
         ),
         (None, 'zzz', 'Packages there: robot_control, robot_description. .*--package'),
         ('nowhere', 'robot_control', "There is no folder 'nowhere'"),
+        ('~no_one/ros2_ws', 'robot_control', "there is no home folder '~no_one'"),
     ],
 )
 def test_not_found(workspace: Path, given: str | None, wanted: str, words: str) -> None:
     """What is not found is one sentence with the closest name."""
-    with pytest.raises(UsageError, match=words) as caught:
+    with pytest.raises(UserError, match=words) as caught:
         find_workspace(given, [wanted], workspace, {})
     assert '\n' not in str(caught.value)
 
@@ -53,7 +55,7 @@ def test_not_found(workspace: Path, given: str | None, wanted: str, words: str) 
 def test_no_workspace(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """The home folder is not searched."""
     monkeypatch.setenv('HOME', str(tmp_path))
-    with pytest.raises(UsageError, match='There is no workspace here'):
+    with pytest.raises(UserError, match='There is no workspace here'):
         find_workspace(None, ['robot_control'], tmp_path, {})
 
 

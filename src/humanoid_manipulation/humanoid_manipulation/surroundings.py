@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 import math
 
-from humanoid_common.errors import NodeStartError
 from humanoid_common.qos import LATCHED, STATE
 from humanoid_common.single_goal import RunningGoal
 from humanoid_control.dynamics.frames import Frame
@@ -18,7 +17,7 @@ from humanoid_manipulation.free_floor import FreeFloor
 from humanoid_manipulation.grasps import Graspable
 from humanoid_manipulation.obstacle import Obstacle
 from humanoid_perception.places import Outline, Places, Surface
-from humanoid_perception.places_file import load_places, places_path, PlacesError
+from humanoid_perception.places_file import load_places, places_path
 from humanoid_perception.transforms import Transforms
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
@@ -83,7 +82,7 @@ class Surroundings:
 
     Raises
     ------
-    NodeStartError
+    UserError
         The file of named places cannot be used.
 
     """
@@ -94,11 +93,8 @@ class Surroundings:
         self._node, self._transforms, self._base = node, transforms, base_frame
         self._detections: list[Detection3DArray] = []
         self._objects = Detection3DArray()
-        try:
-            path = places_path(places_file)
-            self.places = load_places(path) if path else Places()
-        except PlacesError as error:
-            raise NodeStartError(str(error)) from error
+        path = places_path(places_file)
+        self.places = load_places(path) if path else Places()
         self._map = OccupancyGrid()
         self._floor: FreeFloor | None = None
         node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
+from humanoid_common.errors import UserError
 from pathlib import Path
 from typing import Any
 
@@ -50,13 +52,18 @@ class MapChoice(Substitution):
         Raises
         ------
         SubstitutionFailure
-            There is no such map; the message lists those of this package.
+            There is no such map, whose message lists those of this package, or no such home
+            folder.
 
         """
         folder = Path(get_package_share_directory('humanoid_navigation')) / 'maps'
         given = perform_substitutions(context, [self._given])
         name = given or perform_substitutions(context, [self._scene])
-        for path in (Path(given).expanduser(), folder / f'{name}.yaml'):
+        try:
+            candidates = (expanded_path(given), folder / f'{name}.yaml')
+        except UserError as error:
+            raise SubstitutionFailure(str(error)) from None
+        for path in candidates:
             if name and path.is_file():
                 return str(path.absolute())
         stems = sorted(path.stem for path in folder.glob('*.yaml'))

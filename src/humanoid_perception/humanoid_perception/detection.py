@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 import numpy as np
 import numpy.typing as npt
 
@@ -51,7 +51,7 @@ COLOURS = {
 _BORDER_PX = 1.5
 
 
-class DetectorError(NodeStartError):
+class DetectorError(UserError):
     """A detector cannot be used; the message states why, and what to do."""
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -98,12 +99,14 @@ def make_detector(told: DetectorParameters) -> Detector:
     ------
     DetectorError
         Its model cannot be loaded or used.
+    UserError
+        The path of the model begins with a home folder that does not exist.
 
     """
     if told.backend == COLOUR:
         return ColourDetector()
     share = Path(get_package_share_directory('humanoid_perception'))
-    path = str(Path(told.model_path).expanduser()) if told.model_path else ''
+    path = str(expanded_path(told.model_path)) if told.model_path else ''
     return OnnxDetector(
         path or str(share / 'models' / DEFAULT_MODEL),
         told.labels_file,

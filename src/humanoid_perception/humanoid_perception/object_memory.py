@@ -9,7 +9,7 @@ import sys
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import LATCHED, STATE
 from humanoid_common.running import run_node
@@ -28,7 +28,7 @@ from humanoid_perception.memory_conversions import (
 )
 from humanoid_perception.memory_parameters import MemoryParameters
 from humanoid_perception.places import Places
-from humanoid_perception.places_file import load_places, places_path, PlacesError
+from humanoid_perception.places_file import load_places, places_path
 from humanoid_perception.planar_poses import placed, Pose2
 from humanoid_perception.remembered import RememberedThing
 from humanoid_perception.visibility import View
@@ -247,8 +247,8 @@ def _load_places(given: str) -> Places:
     try:
         path = places_path(given)
         return load_places(path) if path else Places()
-    except PlacesError as error:
-        raise NodeStartError(f'object_memory cannot start. {error}') from error
+    except UserError as error:
+        raise UserError(f'object_memory cannot start. {error}') from error
 
 
 def _settings(told: MemoryParameters) -> MemorySettings:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
 import ast
 from collections.abc import Sequence
 from pathlib import Path
@@ -204,7 +205,7 @@ def names_in_file(path: str) -> list[str]:
 
     """
     try:
-        text = Path(path).expanduser().read_text(encoding='utf-8')
+        text = expanded_path(path).read_text(encoding='utf-8')
         if path.endswith(('.yaml', '.yml')):
             content = yaml.safe_load(text)
             names = _listed(content.get('names') if isinstance(content, dict) else content)

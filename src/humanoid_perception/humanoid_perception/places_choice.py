@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 from typing import Any
 
 from humanoid_perception.places_file import places_path, PlacesError
@@ -56,7 +57,7 @@ class PlacesChoice(Substitution):
         if given:
             try:
                 return str(places_path(given))
-            except PlacesError as error:
+            except UserError as error:
                 raise SubstitutionFailure(str(error)) from None
         scene = perform_substitutions(context, [self._scene])
         try:

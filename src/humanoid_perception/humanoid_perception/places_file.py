@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
+from humanoid_common.errors import UserError
 from collections.abc import Iterable, Mapping
 import math
 from pathlib import Path
@@ -18,7 +20,7 @@ __all__ = ['PlacesError', 'load_places', 'places_path']
 _PREFIX = 'places_'
 
 
-class PlacesError(Exception):
+class PlacesError(UserError):
     """A file of named places cannot be used; the message states why."""
 
 
@@ -36,11 +38,13 @@ def places_path(given: str) -> Path | None:
     ------
     PlacesError
         There is no such file.
+    UserError
+        The path begins with a home folder that does not exist.
 
     """
     if not given:
         return None
-    path = Path(given).expanduser()
+    path = expanded_path(given)
     if path.is_file():
         return path
     folder = Path(get_package_share_directory('humanoid_perception')) / 'config'

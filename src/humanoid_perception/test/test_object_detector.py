@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Quaternion, TransformStamped
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.qos import LATCHED, SENSOR, STATE
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_perception import frames, object_detector
@@ -285,6 +285,16 @@ def test_a_camera_that_offers_best_effort_is_seen(ros: RosSandbox):
     ros.wait_until(send, what='detections')
 
 
-def test_a_model_that_is_missing_is_said_at_the_start(ros: RosSandbox):
-    with pytest.raises(NodeStartError, match='Model file .* not found'):
-        ros.start(ObjectDetector, {'model_path': '/nowhere.onnx'})
+@pytest.mark.parametrize(
+    ('parameters', 'said'),
+    [
+        ({'model_path': '/nowhere.onnx'}, 'Model file .* not found'),
+        ({'model_path': '~no_one/m.onnx'}, "there is no home folder '~no_one'"),
+        ({'labels_file': '~no_one/names.txt'}, "there is no home folder '~no_one'"),
+    ],
+)
+def test_a_model_that_is_missing_is_said_at_the_start(
+    ros: RosSandbox, parameters: dict[str, str], said: str
+):
+    with pytest.raises(UserError, match=said):
+        ros.start(ObjectDetector, parameters)

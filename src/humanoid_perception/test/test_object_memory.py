@@ -9,7 +9,7 @@ from pathlib import Path
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped, Vector3
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.qos import LATCHED, SENSOR, STATE
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.srv import FindObjects
@@ -297,11 +297,18 @@ def test_a_picture_without_depth_is_enough(head: Head) -> None:
     assert head.ids() == []
 
 
-def test_a_file_of_places_that_is_not_there_is_said() -> None:
+@pytest.mark.parametrize(
+    ('given', 'said'),
+    [
+        ('apartmant', r"apartmant.*Did you mean 'apartment'"),
+        ('~no_one/places.yaml', "there is no home folder '~no_one'. Give the whole path"),
+    ],
+)
+def test_a_file_of_places_that_is_not_there_is_said(given: str, said: str) -> None:
     """With the names that there are."""
     with ros_sandbox() as ros:
-        with pytest.raises(NodeStartError, match=r"apartmant.*Did you mean 'apartment'"):
-            ros.start(ObjectMemoryNode, {'places_file': 'apartmant'})
+        with pytest.raises(UserError, match=f'object_memory cannot start. .*{said}'):
+            ros.start(ObjectMemoryNode, {'places_file': given})
 
 
 def test_pictures_arrive_late_joining_sensors(head: Head) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError, UserError
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.diagnostics import DuplicatePublisherCheck, HostDiagnostics, Speed
@@ -95,11 +95,11 @@ class Simulator(Node):
         super().destroy_node()
 
     def _build(self, parameters: SimulatorParameters) -> SimulatedRobots:
-        """Build the world, or raise NodeStartError."""
+        """Build the world, or raise UserError."""
         try:
             return simulated_robots(parameters, Refusals(self.get_logger().error).add)
         except (DescriptionError, UserError) as error:
-            raise NodeStartError(f'The simulator cannot start. {error}') from error
+            raise UserError(f'The simulator cannot start. {error}') from error
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:
         """Publish what is due after a period; nothing at time zero, which is unset time in ROS."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geometry_msgs.msg import Vector3, WrenchStamped
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.parameters import ParameterError
 from humanoid_common.qos import LATCHED
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
@@ -222,7 +222,7 @@ def test_how_fast_time_passes_is_a_parameter_and_is_measured(ros: RosSandbox) ->
 )
 def test_a_start_that_fails_says_why(ros: RosSandbox, parameters, sentence: str) -> None:
     """The node does not start, with a sentence."""
-    with pytest.raises(NodeStartError, match=sentence):
+    with pytest.raises(UserError, match=sentence):
         WatchedSimulator(ros, **parameters)
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.parameters import parameter
 from humanoid_perception.places import Places
-from humanoid_perception.places_file import load_places, places_path, PlacesError
+from humanoid_perception.places_file import load_places, places_path
 from llm_planner.rules import RulePlanner
-from llm_planner.skills_file import load_skills, skills_path, SkillsError
+from llm_planner.skills_file import load_skills, skills_path
 from llm_planner.world_watch import WorldWatch
 from rclpy.node import Node
 
@@ -48,13 +48,13 @@ def begin_watch(
 
     Raises
     ------
-    NodeStartError
+    UserError
         A file cannot be loaded.
 
     """
     try:
         skills, path = load_skills(skills_path(told.skills_file)), places_path(told.places_file)
         places = load_places(path) if path else Places()
-    except (SkillsError, PlacesError) as error:
-        raise NodeStartError(f'{node.get_name()} cannot start. {error}') from error
+    except UserError as error:
+        raise UserError(f'{node.get_name()} cannot start. {error}') from error
     return RulePlanner(skills), WorldWatch(node, skills, places, implemented)

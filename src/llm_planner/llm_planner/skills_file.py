@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
+from humanoid_common.errors import UserError
 from collections.abc import Iterable, Mapping
 import math
 from pathlib import Path
@@ -40,7 +42,7 @@ _SKILL_KEYS = (
 _MOST_TIMEOUT_S = 3600.0
 
 
-class SkillsError(Exception):
+class SkillsError(UserError):
     """A skills file is invalid; the message states why."""
 
 
@@ -53,9 +55,14 @@ def skills_path(given: str = '') -> Path:
     given
         A path, which may begin with `~`; empty for the file of this package.
 
+    Raises
+    ------
+    UserError
+        It begins with a home folder that does not exist.
+
     """
     if given:
-        return Path(given).expanduser()
+        return expanded_path(given)
     return Path(get_package_share_directory('llm_planner')) / 'config' / 'skills.yaml'
 
 

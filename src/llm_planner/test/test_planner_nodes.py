@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from diagnostic_msgs.msg import KeyValue
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.qos import LATCHED
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_interfaces.action import ExecutePlan
@@ -321,7 +321,7 @@ def test_a_language_model_plans(ros: RosSandbox, tell: Any) -> None:
 @pytest.mark.parametrize('name', ['skills_file', 'places_file'])
 def test_files_that_cannot_be_used(ros: RosSandbox, kind: Any, name: str) -> None:
     """The node says which one, and does not start."""
-    with pytest.raises(
-        NodeStartError, match=r'cannot start. (The skills in|File of named places)'
-    ):
+    with pytest.raises(UserError, match=r'cannot start. (The skills in|File of named places)'):
         ros.start(kind, {name: '/nowhere.yaml'})
+    with pytest.raises(UserError, match="cannot start. .* there is no home folder '~no_one'"):
+        ros.start(kind, {name: '~no_one/file.yaml'})

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import math
 from xml.etree import ElementTree
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
 
 _LIMITED = ('revolute', 'prismatic')
@@ -52,7 +52,7 @@ class RobotModel:
         return [summary, *(f'  {joint.describe()}' for joint in self.joints)]
 
 
-class UrdfError(NodeStartError):
+class UrdfError(UserError):
     """Refuse a URDF, with the reason."""
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
 from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
 import json
@@ -24,8 +25,13 @@ def default_path(environment: Mapping[str, str]) -> Path:
     environment
         The environment variables, of which ROS_HOME is used.
 
+    Raises
+    ------
+    UserError
+        It is not set, and the user has no home folder.
+
     """
-    home = environment.get('ROS_HOME') or str(Path('~').expanduser() / '.ros')
+    home = environment.get('ROS_HOME') or expanded_path('~/.ros')
     return Path(home) / 'robot_mcp' / 'audit.jsonl'
 
 

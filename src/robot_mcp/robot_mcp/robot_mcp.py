@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
 from dataclasses import dataclass
 import os
-from pathlib import Path
 import re
 import secrets
 import sys
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.running import run_node
@@ -91,7 +91,7 @@ class RobotMcp(Node):
         told = NodeParameters(self, McpParameters).current
         require_sdk()
         planner, watch = begin_watch(self, told, Actions.IMPLEMENTED)
-        path = Path(told.audit_log).expanduser() if told.audit_log else default_path(os.environ)
+        path = expanded_path(told.audit_log) if told.audit_log else default_path(os.environ)
         self._link = RobotLink(self, may_move=told.allow_motion)
         logger = self.get_logger()
         calls = Calls(
@@ -144,7 +144,7 @@ def _token() -> str:
     if not token:
         return secrets.token_urlsafe(24)
     if len(token) < _SHORTEST_TOKEN or not token.isascii() or not token.isprintable():
-        raise NodeStartError(
+        raise UserError(
             f'{TOKEN_VARIABLE} must have at least {_SHORTEST_TOKEN} letters or digits. Unset it '
             'for a random token.'
         )

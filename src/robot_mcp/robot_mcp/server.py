@@ -8,7 +8,7 @@ import base64
 import importlib.util
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from robot_mcp.calls import Calls
 from robot_mcp.clients import Answer, NeedsInputError
 from robot_mcp.confirmations import Confirmations
@@ -34,7 +34,7 @@ def require_sdk() -> None:
 
     Raises
     ------
-    NodeStartError
+    UserError
         The SDK is not installed, or too old.
 
     """
@@ -46,7 +46,7 @@ def require_sdk() -> None:
         if int(found.partition('.')[0]) >= _OLDEST:
             return
         reason = f'is too old ({found})'
-    raise NodeStartError(
+    raise UserError(
         f'The Model Context Protocol SDK {reason}: install "mcp>={_OLDEST}" with pip '
         'where ROS finds it; docs/how-to/assistants.md has the command.'
     )

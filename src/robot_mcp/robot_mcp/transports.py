@@ -10,7 +10,7 @@ import socket
 import threading
 from typing import Any
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from robot_mcp.gate import Gate, LONGEST_BODY
 
 __all__ = ['PATH', 'ServerThread', 'listen', 'serve_http', 'serve_stdio', 'take_stdout']
@@ -40,7 +40,7 @@ def listen(port: int) -> socket.socket:
 
     Raises
     ------
-    NodeStartError
+    UserError
         The port cannot be used.
 
     """
@@ -51,7 +51,7 @@ def listen(port: int) -> socket.socket:
         listener.listen(_MOST_CONNECTIONS)  # early clients are queued until the server runs
     except OSError as error:
         listener.close()
-        raise NodeStartError(
+        raise UserError(
             f'Port {port} cannot be used ({error.strerror}): choose another one with port:=..., '
             'or 0 for any free port.'
         ) from error

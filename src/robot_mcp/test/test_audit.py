@@ -7,8 +7,11 @@ import json
 import os
 from pathlib import Path
 
+from humanoid_common.errors import UserError
+from humanoid_common.testing.ros import ros_sandbox
 import pytest
 from robot_mcp.audit import AuditLog, default_path
+from robot_mcp.robot_mcp import RobotMcp
 
 
 def test_lines_are_appended(tmp_path: Path) -> None:
@@ -82,3 +85,11 @@ def test_where_it_is() -> None:
     """Below ROS_HOME, or ~/.ros."""
     assert default_path({'ROS_HOME': '/r'}) == Path('/r/robot_mcp/audit.jsonl')
     assert default_path({}) == Path('~/.ros/robot_mcp/audit.jsonl').expanduser()
+
+
+def test_a_home_folder_that_does_not_exist() -> None:
+    """The node does not start, and says so."""
+    pytest.importorskip('mcp')
+    with ros_sandbox() as ros:
+        with pytest.raises(UserError, match="there is no home folder '~no_one'"):
+            ros.start(RobotMcp, {'audit_log': '~no_one/audit.jsonl'})

@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from audio_common_msgs.msg import AudioData, AudioInfo
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.msg import SpeechResult
@@ -231,13 +231,14 @@ def test_a_file_is_played(ros: RosSandbox, ear: Ear) -> None:
         ({'source': 'file'}, 'set wav_file'),
         ({'source': 'file', 'wav_file': '/no/where.wav'}, 'No such file'),
         ({'source': 'file', 'wav_file': __file__}, 'is not a WAV file'),
+        ({'source': 'file', 'wav_file': '~no_one/a.wav'}, "no home folder '~no_one'"),
     ],
 )
 def test_a_file_that_cannot_be_played(
     ros: RosSandbox, parameters: dict[str, str], reason: str
 ) -> None:
     """The node does not start, and says why."""
-    with pytest.raises(NodeStartError, match=reason):
+    with pytest.raises(UserError, match=reason):
         ros.start(AudioSource, parameters)
 
 
@@ -258,15 +259,17 @@ def test_no_microphone(
     [
         ({'backend': 'whisper'}, 'set model_path'),
         ({'backend': 'whisper', 'model_path': '/no/where'}, 'not found'),
+        ({'backend': 'whisper', 'model_path': '~no_one/m'}, "no home folder '~no_one'"),
         ({'backend': 'openai'}, 'not a valid server address'),
         ({'dictionary_file': '/no/where'}, 'cannot be read'),
+        ({'dictionary_file': '~no_one/words'}, "no home folder '~no_one'"),
     ],
 )
 def test_a_recogniser_that_cannot_start(
     ros: RosSandbox, parameters: dict[str, str], reason: str
 ) -> None:
     """One sentence says why."""
-    with pytest.raises(NodeStartError, match=reason):
+    with pytest.raises(UserError, match=reason):
         ros.start(SpeechRecognizer, parameters)
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 from collections.abc import Iterator
 import io
 from math import gcd
@@ -28,7 +29,7 @@ _HIGHEST_RATE_HZ = 192_000
 _LONGEST_S = 3600.0
 
 
-class AudioError(Exception):
+class AudioError(UserError):
     """Audio is unavailable or cannot be used; the message suggests a remedy."""
 
 

@@ -6,14 +6,14 @@ from __future__ import annotations
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 import sys
 from typing import Any
 
 from audio_common_msgs.msg import AudioData, AudioInfo
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
+from humanoid_common.paths import expanded_path
 from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
 from rclpy.clock import Clock, ClockType
@@ -63,7 +63,7 @@ class AudioSource(Node):
 
     Raises
     ------
-    NodeStartError
+    UserError
         If the file cannot be played.
 
     """
@@ -98,11 +98,8 @@ class AudioSource(Node):
 
     def _file(self) -> Iterator[bytes]:
         if not self._told.wav_file:
-            raise NodeStartError('source:=file needs a file: set wav_file:=/path/to/speech.wav')
-        try:
-            sound = read_wav(Path(self._told.wav_file).expanduser())
-        except AudioError as error:
-            raise NodeStartError(str(error)) from error
+            raise UserError('source:=file needs a file: set wav_file:=/path/to/speech.wav')
+        sound = read_wav(expanded_path(self._told.wav_file))
         silence = b'\0' * int(_SILENCE_S * RATE_HZ) * 2
         return chunks(silence + sound + silence, self._told.chunk_s)
 

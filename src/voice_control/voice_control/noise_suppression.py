@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 import ctypes
 from functools import cache
 from importlib.util import find_spec
@@ -34,7 +35,7 @@ there are as many as the second number: it takes a second to adapt to the noise.
 """
 
 
-class NoiseSuppressionError(Exception):
+class NoiseSuppressionError(UserError):
     """Noise cannot be suppressed; the message suggests a remedy."""
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
@@ -25,7 +26,7 @@ _SAME = 0.7
 """Similarity, from 0 to 1, above which two texts are taken for the same words."""
 
 
-class RecognizerError(Exception):
+class RecognizerError(UserError):
     """A recogniser cannot be used; the message suggests a remedy."""
 
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable
 import math
 import os
-from pathlib import Path
 from queue import Queue
 import sys
 import threading
@@ -16,8 +15,8 @@ from typing import Any
 
 from audio_common_msgs.msg import AudioData
 from humanoid_common.diagnostics import Diagnostics, PartStatus
-from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.paths import expanded_path
 from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
 from humanoid_interfaces.msg import SpeechResult
@@ -77,14 +76,14 @@ def make_listener(
 
     Raises
     ------
-    RecognizerError
+    UserError
         If a configured part cannot be used.
 
     """
     dictionary = {}
     if told.dictionary_file:
         try:
-            text = Path(told.dictionary_file).expanduser().read_text(encoding='utf-8')
+            text = expanded_path(told.dictionary_file).read_text(encoding='utf-8')
         except (OSError, UnicodeDecodeError) as error:
             raise RecognizerError(f"'{told.dictionary_file}' cannot be read: {error}") from error
         dictionary = read_dictionary(text.splitlines())
@@ -120,7 +119,7 @@ class SpeechRecognizer(Node):
 
     Raises
     ------
-    NodeStartError
+    UserError
         If a configured part cannot be used.
 
     """
@@ -128,10 +127,7 @@ class SpeechRecognizer(Node):
     def __init__(self, **options: Any) -> None:
         super().__init__('speech_recognizer', **options)
         told = NodeParameters(self, RecognizerParameters).current
-        try:
-            self._listener, main = make_listener(told, self._report)
-        except RecognizerError as error:
-            raise NodeStartError(str(error)) from error
+        self._listener, main = make_listener(told, self._report)
         self._title, self._language = main.title, told.language
         self._segmenter = UtteranceSegmenter(told.vad_mode, told.max_utterance_s)
         self._is_enabled, self._is_speaking = True, False

@@ -7,6 +7,7 @@ The user provides the libraries and their models: nothing is ever downloaded.
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
 from collections.abc import Sequence
 import math
 import os
@@ -291,7 +292,7 @@ class TranscriptionServer:
 def _existing(path: str, library: str, what: str) -> Path:
     if not path:
         raise RecognizerError(f'{library} needs {what}: set model_path.')
-    found = Path(path).expanduser()
+    found = expanded_path(path)
     if not found.exists():
         raise RecognizerError(f"'{found}' not found: {library} needs {what}.")
     return found

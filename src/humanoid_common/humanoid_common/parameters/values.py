@@ -9,7 +9,7 @@ from dataclasses import fields, is_dataclass
 import math
 from typing import Any, cast, TypeVar, Union
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
 from humanoid_common.parameters.specs import ParameterSpec, specs_of
 
@@ -18,7 +18,7 @@ ParameterValue = Union[Scalar, tuple[Scalar, ...]]
 T = TypeVar('T')
 
 
-class ParameterError(NodeStartError):
+class ParameterError(UserError):
     """
     The values of one or several parameters are invalid.
 

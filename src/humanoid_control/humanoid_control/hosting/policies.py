@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_common.paths import expanded_path
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -117,17 +118,13 @@ def policy_path(name: str) -> Path:
     Raises
     ------
     PolicyError
-        No such policy is installed, or the path begins with a home folder that does not exist.
+        No such policy is installed.
+    UserError
+        The path begins with a home folder that does not exist.
 
     """
     if name.endswith('.yaml'):
-        try:
-            return Path(name).expanduser()
-        except RuntimeError:
-            raise PolicyError(
-                f"The policy file '{name}' cannot be found: there is no such home folder. Give "
-                'the whole path of the file.'
-            ) from None
+        return expanded_path(name)
     folder = Path(get_package_share_directory('humanoid_control')) / 'policies'
     installed = sorted(path.stem for path in folder.glob('*.yaml'))
     if name not in installed:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import NodeStartError
+from humanoid_common.errors import UserError
 from humanoid_common.running import ending
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -11,7 +11,7 @@ from rclpy.node import Node
 PATIENCE_S = 5.0
 
 
-class ExampleError(NodeStartError):
+class ExampleError(UserError):
     """An example cannot start or continue."""
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import time
 from typing import Any
 
-from humanoid_common.errors import NodeStartError, UserError
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.qos import LATCHED, STATE
@@ -73,24 +73,21 @@ class Replay(Node):
         self._timer = self.create_timer(_PERIOD_S, ending(self, self._go_on), clock=steady)
 
     def _find(self) -> FinishedRun:
-        """Find the run, or raise NodeStartError."""
+        """Find the run, or raise UserError."""
         parameters = self._settings.current
         if not parameters.record or not parameters.key:
-            raise NodeStartError(
+            raise UserError(
                 "Nothing to replay: set the parameters 'record' and 'key', or use 'ros2 run "
                 "humanoid_simulation sweep EXPERIMENT --replay KEY'."
             )
-        try:
-            return find_run(Path(parameters.record), parameters.key)
-        except SimulationError as error:
-            raise NodeStartError(str(error)) from error
+        return find_run(Path(parameters.record), parameters.key)
 
     def _begin(self) -> None:
         """Put the robot at the start of the run."""
         try:
             self._walk = Walk(conditions_of(dict(self._run.conditions)))
         except (UserError, WalkingError, DescriptionError) as error:
-            raise NodeStartError(
+            raise UserError(
                 f'Run {self._run.key} cannot be simulated, so there is nothing to show. {error}'
             ) from error
         self._motion = Motion(self._walk.robot.backend)

@@ -48,7 +48,7 @@ class WatchedSimulator:
 
     Raises
     ------
-    NodeStartError
+    UserError
         The simulator cannot start with these parameters.
 
     """

@@ -33,7 +33,8 @@ class PoseError(ValueError):
 
 def poses_folder() -> Path:
     """Return the folder of the pose files of all robots."""
-    return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / 'joint_state_publisher_gui'
+    home = os.path.expanduser(os.environ.get('ROS_HOME') or '~/.ros')
+    return Path(home) / 'joint_state_publisher_gui'
 
 
 def pose_file(robot: str, folder: Path) -> Path:

@@ -92,7 +92,7 @@ def read_map(path: str | os.PathLike[str]) -> OccupancyMap:
         Each is a MapError.
 
     """
-    file = Path(path).expanduser()
+    file = Path(os.path.expanduser(path))
     metadata = _read_metadata(file)
     pixels, opacity = _read_image(metadata.image, file)
     return OccupancyMap(
@@ -140,7 +140,7 @@ def write_map(
         It cannot be written with these arguments.
 
     """
-    stem = Path(stem).expanduser()
+    stem = Path(os.path.expanduser(stem))
     kind = image_format or ('png' if mode == 'scale' else 'pgm')
     _check_choice('image format', kind, IMAGE_FORMATS)
     _check_choice('mode', mode, MODES)
@@ -238,7 +238,7 @@ def _read_metadata(file: Path) -> _Metadata:
     if negate not in (0, 1):
         reader.fail('negate', '0 or 1')
     return _Metadata(
-        file.parent / Path(image).expanduser(),
+        file.parent / os.path.expanduser(image),
         resolution,
         reader.origin(),
         mode,

@@ -88,11 +88,12 @@ def test_inactive_map_server(ros, room):
     assert server.trigger_cleanup().name == 'SUCCESS'
 
 
-def test_wrong_map_fails_to_configure(ros, capfd):
+@pytest.mark.parametrize('path', ['/nowhere/room.yaml', '~no_one/room.yaml'])
+def test_wrong_map_fails_to_configure(ros, capfd, path):
     """A map server with a missing map is not configured and says why."""
-    server = ros.make(MapServer, {'yaml_filename': '/nowhere/room.yaml'})
+    server = ros.make(MapServer, {'yaml_filename': path})
     assert server.trigger_configure().name == 'FAILURE'
-    assert "There is no map '/nowhere/room.yaml'" in capfd.readouterr().err
+    assert f"There is no map '{path}'" in capfd.readouterr().err
 
 
 def test_map_saver_saves(ros, tmp_path):

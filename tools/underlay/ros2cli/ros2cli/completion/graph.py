@@ -277,7 +277,7 @@ def remember(subject: str, data: Any) -> None:
 
 def _cache_path(subject: str) -> Path:
     """Return the cache file for a subject, by what this shell discovers."""
-    folder = Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser()
+    folder = Path(os.path.expanduser(os.environ.get('ROS_HOME') or '~/.ros'))
     reach = read_reach()
     servers = ';'.join(str(each) for each in reach.servers)
     name = quote(f'{reach.domain_id}_{reach.extent}_{servers}_{subject}', safe='')
