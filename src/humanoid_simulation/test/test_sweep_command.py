@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 import os
 from pathlib import Path
+import shutil
 import signal
 
 from humanoid_common.testing.processes import assert_clean_exit, module_command, running_program
@@ -121,15 +122,23 @@ def test_an_interrupted_sweep_keeps_its_runs(tmp_path: Path, number: signal.Sign
 
 
 def test_a_cluster_without_ray(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    folder: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """It is said in a sentence, and nothing is done; without --ray, this machine does the runs."""
+    """It is said in a sentence, and nothing is left; what was finished before stays."""
     (tmp_path / 'ray.py').write_text("raise ImportError('get it with a command')")
     monkeypatch.syspath_prepend(tmp_path)  # the process of the engine has the same path
     (tmp_path / 'push.yaml').write_text(EXPERIMENT)
     assert sweep(tmp_path, '--ray', 'auto') == command.PROBLEM_EXIT
     assert 'needs the Python package ray (get it with a command)' in capsys.readouterr().err
-    assert (tmp_path / 'out' / 'report.html').exists() and runs(tmp_path) == []
+    assert not (tmp_path / 'out').exists()
+    shutil.copytree(folder / 'out', tmp_path / 'out')
+    (tmp_path / 'out' / 'report.html').unlink()
+    assert sweep(tmp_path, '--ray', 'auto', '--set', 'seeds=2') == command.PROBLEM_EXIT
+    assert '2 of 4' in (tmp_path / 'out' / 'report.html').read_text()
+    assert len(runs(tmp_path)) == 2 and not (tmp_path / 'out' / 'ray.log').exists()
 
 
 def test_an_output_that_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

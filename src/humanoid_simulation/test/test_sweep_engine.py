@@ -159,6 +159,19 @@ def test_a_record_is_for_one_process_and_one_version(tmp_path: Path) -> None:
         assert record.of(RUNS, VERSION)[0].result == STOOD
 
 
+def test_an_empty_record_can_be_removed(tmp_path: Path) -> None:
+    """With the folders that were made for it, but with nothing else; another sweep goes on."""
+    (tmp_path / 'mine').mkdir()
+    for folder in (tmp_path / 'mine', tmp_path / 'a' / 'b'):
+        with Record(folder) as record:
+            assert record.remove_if_empty()
+    assert [*tmp_path.rglob('*')] == [tmp_path / 'mine']
+    with Record(tmp_path / 'a') as record:
+        record.add(RUNS[0], VERSION, STOOD)
+        assert not record.remove_if_empty()
+    assert len(lines(tmp_path / 'a' / NAME)) == 1
+
+
 def test_a_damaged_record(tmp_path: Path) -> None:
     """The line is named; nothing is deleted without being asked."""
     with Record(tmp_path) as record:

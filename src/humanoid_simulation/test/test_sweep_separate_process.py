@@ -81,12 +81,16 @@ def test_outcomes_arrive(engine: SeparateProcess, tmp_path: Path) -> None:
     assert (tmp_path / 'cleared').exists()
 
 
-def test_an_error_of_the_engine_arrives(engine: SeparateProcess) -> None:
-    """After what has been done before."""
+def test_an_error_of_the_engine_arrives(engine: SeparateProcess, tmp_path: Path) -> None:
+    """After what has been done before; if nothing was, there is no log, either."""
     outcomes = engine.outcomes(['good', 'raises'])
     assert next(outcomes).run == 'good'
     with pytest.raises(SimulationError, match=r'^There is no cluster\.$'):
         next(outcomes)
+    assert (tmp_path / 'log').exists()
+    with pytest.raises(SimulationError, match=r'^There is no cluster\.$'):
+        next(engine.outcomes(['raises']))
+    assert not (tmp_path / 'log').exists()
 
 
 @pytest.mark.parametrize(('run', 'status'), [('ends', 7), ('fails', 1)])

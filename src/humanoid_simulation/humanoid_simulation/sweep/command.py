@@ -145,13 +145,18 @@ def _do(arguments: argparse.Namespace) -> int:
         return 0
     with Record(folder) as finished:
         sweep = Sweep(experiment, finished, version, print_progress(sys.stdout))
+        is_to_report = True
         try:
             sweep.run(_engine(arguments, folder, version))
         except KeyboardInterrupt:
             print(f'\n{_INTERRUPTED}', file=sys.stderr)
             raise
+        except UserError:
+            is_to_report = not finished.remove_if_empty()
+            raise
         finally:
-            _write(sweep, folder, _replay_command(arguments))
+            if is_to_report:
+                _write(sweep, folder, _replay_command(arguments))
     print(sweep.conclusion(folder))
     if sweep.crashed:
         return PROBLEM_EXIT

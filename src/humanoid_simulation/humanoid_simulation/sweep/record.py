@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+import contextlib
 from dataclasses import asdict
 from datetime import datetime, timezone
 import errno
@@ -52,6 +53,7 @@ class Record:
     def __init__(self, folder: Path) -> None:
         self._path = folder / NAME
         try:
+            self._new_folders = [each for each in (folder, *folder.parents) if not each.exists()]
             folder.mkdir(parents=True, exist_ok=True)
             self._file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
             _sync_folder(folder)
@@ -77,6 +79,16 @@ class Record:
     ) -> None:
         """Close the file, so that another process may open it."""
         os.close(self._file)
+
+    def remove_if_empty(self) -> bool:
+        """Delete a record without any entry, and the folders that were created for it."""
+        if self.finished or self.crashes:
+            return False
+        with contextlib.suppress(OSError):  # such as a folder with something else in it
+            self._path.unlink()
+            for folder in self._new_folders:
+                folder.rmdir()
+        return True
 
     def left(self, runs: Sequence[Run], version: str) -> list[Run]:
         """
@@ -177,6 +189,8 @@ class Record:
         """Reserve the file for this process; the lock ends with it."""
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if os.fstat(self._file).st_nlink == 0:
+                raise BlockingIOError(errno.EAGAIN, 'another sweep has just removed it')
         except BlockingIOError as error:
             raise SimulationError(
                 f'Another sweep is writing to {self._path}. Wait for it or stop it, or give '

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 from humanoid_simulation import processes
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.sweep import ENVIRONMENT
-from humanoid_simulation.sweep.engine import Engine, Outcomes
+from humanoid_simulation.sweep.engine import Engine, Notice, Outcomes
 
 if TYPE_CHECKING:  # processes of tests need not import the walk
     from humanoid_simulation.sweep.conditions import Run
@@ -49,7 +49,8 @@ class SeparateProcess:
     name
         What is lost with the process, for the error.
     log
-        The file for all that the engine and its libraries print.
+        The file for all that the engine and its libraries print. It is removed if the engine
+        raises an error before the first outcome of a run.
 
     """
 
@@ -77,9 +78,13 @@ class SeparateProcess:
         try:
             try:
                 connection.send([*runs])
+                has_outcome = False
                 while (answer := connection.recv()) is not None:
                     if isinstance(answer, _Problem):
+                        if not has_outcome:  # what libraries printed has led to nothing
+                            self._log.unlink(missing_ok=True)
                         raise SimulationError(answer.sentence)
+                    has_outcome |= not isinstance(answer, Notice)
                     yield answer
             except (EOFError, OSError) as error:
                 raise SimulationError(
