@@ -35,13 +35,21 @@ def pose(x: float, y: float = 0.0, yaw: float = 0.0, frame: str = 'map') -> Pose
     return make_pose_stamped(Pose2D(x, y, yaw), frame, PoseStamped().header.stamp)
 
 
+def _lasts(todo: Any, waited_s: float) -> bool:
+    """Check whether an action that has an entry of a script goes on."""
+    if callable(todo):
+        return not todo()
+    return todo == 'hang' or (isinstance(todo, float) and waited_s < todo)
+
+
 class Servers:
     """
     All servers of navigation in a node.
 
     `scripts` has, by the name of an action, a list with what to do with its next goals: None for
-    success, a tuple (code, message) for a failure, a number for a success after so many s,
-    'hang' to go on until it is canceled. The last entry holds for all further goals.
+    success, a tuple (code, message) for a failure, a number for a success after so many s, a
+    function for a success once it returns true, 'hang' to go on until it is canceled. The last
+    entry holds for all further goals.
     """
 
     def __init__(self, node: Node, missing: tuple[str, ...] = ()) -> None:
@@ -105,7 +113,7 @@ class Servers:
                     raise ActionAborted(*todo)
                 waited = 0.0
                 try:
-                    while todo == 'hang' or (isinstance(todo, float) and waited < todo):
+                    while _lasts(todo, waited):
                         server.check()
                         if server.is_preempt_requested:
                             break

@@ -11,6 +11,7 @@ from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Point, Point32, PolygonStamped, TransformStamped, Twist
 from nav2_behaviors import BehaviorServer
 from nav2_behaviors.motion import drive_speed, motion_ahead, Turn, turn_rate
+from nav2_behaviors.timed_behavior import seconds
 from nav2_msgs.action import AssistedTeleop, BackUp, DriveOnHeading, Spin, Wait
 from nav2_msgs.msg import Costmap, CostmapUpdate
 from nav2_util.geometry import make_quaternion, Pose2D
@@ -201,14 +202,15 @@ class TestEnds:
     def test_spin(self, ros):
         """The robot turns by the angle, with feedback, and slower near the end."""
         world, feedback = World(ros), [None]
+        start = time.monotonic()
         status, result = world.run(Spin, 'spin', spin(-1.0), feedback)
+        took = time.monotonic() - start
         assert status == GoalStatus.STATUS_SUCCEEDED and result.error_code == Spin.Result.NONE
         assert world.pose.yaw == pytest.approx(0.3 - 1.0, abs=0.15)
         assert feedback[-1].angular_distance_traveled == pytest.approx(-1.0, abs=0.1)
         rates = [each.yaw for each in world.speeds if not each.is_zero]
         assert min(rates) == -1.0 and max(rates) == pytest.approx(-0.4, abs=0.3)
-        elapsed = result.total_elapsed_time
-        assert 0.8 < elapsed.sec + elapsed.nanosec * 1e-9 < 5.0
+        assert 0.8 < seconds(result.total_elapsed_time) <= took
 
     def test_drive_on_heading(self, ros):
         """The robot drives the distance along its heading."""
@@ -233,10 +235,13 @@ class TestEnds:
         """Waiting lasts as long as it is told to, with the time left as feedback."""
         world, feedback = World(ros, costmap=False), [None]
         start = time.monotonic()
-        status, _result = world.run(Wait, 'wait', Wait.Goal(time=span(0.4)), feedback)
+        status, result = world.run(Wait, 'wait', Wait.Goal(time=span(0.4)), feedback)
+        took = time.monotonic() - start
         assert status == GoalStatus.STATUS_SUCCEEDED
-        assert 0.4 <= time.monotonic() - start < 3.0
-        assert feedback[1].time_left.nanosec > 3e8 and feedback[-1].time_left.nanosec == 0
+        assert 0.4 <= seconds(result.total_elapsed_time) <= took
+        left = [seconds(each.time_left) for each in feedback[1:]]
+        assert left == sorted(left, reverse=True)
+        assert left[0] <= 0.4 and left[-1] == 0.0
 
     def test_assisted_teleop(self, ros):
         """A person drives; a message ends it well."""
@@ -370,15 +375,14 @@ class TestRefusals:
 
 class TestInterruptions:
     def test_cancel_stops_at_once(self, ros):
-        """A goal that is canceled ends with zero velocity within a cycle."""
-        world = World(ros, {'cycle_frequency': 2.0})
-        handle = world.send(Spin, 'spin', spin(30.0, 60.0))
+        """A goal that is canceled ends with zero velocity before its cycle of 10 s is over."""
+        world, feedback = World(ros, {'cycle_frequency': 0.1}), [None]
+        handle = world.send(Spin, 'spin', spin(30.0, 60.0), feedback)
         world.moves()
         handle.cancel_goal_async()
-        start = time.monotonic()
-        ros.wait_until(lambda: world.velocity.is_zero, what='rest')
-        assert time.monotonic() - start < 0.4
         assert world.result(handle)[0] == GoalStatus.STATUS_CANCELED
+        ros.wait_until(lambda: world.velocity.is_zero, what='rest')
+        assert len(feedback) == 2  # one a cycle
 
     def test_newer_goal_takes_over(self, ros):
         """A newer goal ends the older one and is reached."""

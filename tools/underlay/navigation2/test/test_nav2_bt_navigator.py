@@ -8,7 +8,6 @@ import glob
 import os
 from pathlib import Path
 import sys
-import time
 from typing import Any
 
 from action_msgs.msg import GoalStatus
@@ -37,7 +36,7 @@ class Stack:
     """A navigator, its servers and a client."""
 
     def __init__(self, ros: Any, parameters: dict[str, Any], missing: tuple[str, ...] = ()):
-        self.ros = ros
+        self.ros, self._clock = ros, None
         self.node = ros.node('servers')
         self.servers = Servers(self.node, missing)
         self.navigator = ros.make(BtNavigator, parameters)
@@ -50,6 +49,14 @@ class Stack:
         ros.wait_until(
             lambda: self.navigator.ros.can_transform('map', 'base_link'), what='the transform'
         )
+
+    def set_clock(self, time_s: int) -> None:
+        """Set simulated time, which stands until it is set again."""
+        if self._clock is None:
+            self._clock = self.node.create_publisher(Clock, '/clock', 1)
+            self.ros.wait_until(self._clock.get_subscription_count)
+        self._clock.publish(Clock(clock=Time(sec=time_s)))
+        self.ros.wait_until(lambda: self.navigator.ros.now_s() == time_s)
 
     def close(self) -> None:
         self.client.close()
@@ -78,7 +85,7 @@ def stack(make_stack: Any) -> Stack:
 
 def test_a_goal_is_reached(stack: Stack) -> None:
     """Plan, follow, succeed; feedback tells how far it is."""
-    stack.servers.scripts['follow_path'] = [0.8]
+    stack.servers.scripts['follow_path'] = [lambda: len(stack.client.feedback) >= 12]
     handle = stack.client.send(pose=pose(3.0, 4.0))
     status, result = stack.client.wait(handle)
     assert (status, result.error_code, result.error_msg) == (SUCCEEDED, 0, '')
@@ -87,7 +94,7 @@ def test_a_goal_is_reached(stack: Stack) -> None:
     took_s = feedback.navigation_time.sec + 1e-9 * feedback.navigation_time.nanosec
     assert took_s > 0.5
     assert feedback.current_pose.header.frame_id == 'map'
-    assert 5 <= len(stack.client.feedback) <= 10.0 * took_s + 7.0  # ten times a second at most
+    assert 12 <= len(stack.client.feedback) <= 10.0 * took_s + 7.0  # ten times a second at most
 
 
 def test_it_plans_once_a_second_and_updates_the_path(stack: Stack) -> None:
@@ -102,12 +109,11 @@ def test_it_plans_once_a_second_and_updates_the_path(stack: Stack) -> None:
 def test_a_goal_that_cannot_be_helped_ends_at_once(stack: Stack) -> None:
     """The planner's code and sentence are those of the result."""
     stack.servers.scripts['compute_path_to_pose'] = [(GOAL_OCCUPIED, 'A wall is there.')]
-    start_s = time.monotonic()
     status, result = stack.client.wait(stack.client.send(pose=pose(1.0)))
     assert (status, result.error_code) == (ABORTED, GOAL_OCCUPIED)
     assert result.error_msg == 'The planner found no way to the goal: A wall is there.'
-    assert time.monotonic() - start_s < 2.0
-    assert 'spin' not in stack.servers.calls
+    plan = 'compute_path_to_pose'
+    assert stack.servers.calls == [plan, 'clear global', plan]  # no recovery that takes time
 
 
 def test_an_unreachable_goal_ends_after_bounded_recoveries(stack: Stack) -> None:
@@ -144,36 +150,36 @@ def test_a_missing_server_is_named(make_stack: Any) -> None:
 
 
 @pytest.mark.parametrize('phase', ['compute_path_to_pose', 'follow_path', 'wait'])
-def test_canceling_stops_what_runs(stack: Stack, phase: str) -> None:
-    """In each phase the action that runs is canceled at once."""
+def test_canceling_stops_what_runs(make_stack: Any, phase: str) -> None:
+    """In each phase the action that runs is canceled at once: simulated time stands meanwhile."""
+    stack = make_stack(use_sim_time=True)
+    stack.set_clock(100)
     scripts = stack.servers.scripts
     scripts[phase] = ['hang']
     if phase == 'wait':
         scripts['compute_path_to_pose'] = [(NO_VALID_PATH, 'No.')]
     handle = stack.client.send(pose=pose(1.0))
     stack.ros.wait_until(lambda: phase in stack.servers.calls)
-    start_s = time.monotonic()
     handle.cancel_goal_async()
     status, _ = stack.client.wait(handle)
     assert status == CANCELED
     stack.ros.wait_until(lambda: phase in stack.servers.canceled)
-    assert time.monotonic() - start_s < 1.0
     calls = len(stack.servers.calls)
     stack.ros.spin(0.1)
     assert len(stack.servers.calls) == calls
 
 
-def test_a_newer_goal_takes_over_without_a_stop(stack: Stack) -> None:
-    """The old goal ends, the controller gets a new path, and is not canceled."""
+def test_a_newer_goal_takes_over_without_a_stop(make_stack: Any) -> None:
+    """The old goal ends, the controller gets a new path at once, and is not canceled."""
+    stack = make_stack(use_sim_time=True)
+    stack.set_clock(100)  # as it stands, nothing is planned because a second has passed
     stack.servers.scripts['follow_path'] = ['hang', 0.1]
     first = stack.client.send(pose=pose(1.0))
     stack.ros.wait_until(lambda: 'follow_path' in stack.servers.calls)
     second = stack.client.send(pose=pose(2.0))
-    start_s = time.monotonic()
     status, result = stack.client.wait(first)
     assert status == ABORTED and 'newer goal' in result.error_msg
     stack.ros.wait_until(lambda: len(stack.servers.goals['compute_path_to_pose']) == 2)
-    assert time.monotonic() - start_s < 0.5
     assert stack.client.wait(second)[0] == SUCCEEDED
     assert stack.servers.canceled == []
     assert stack.servers.goals['follow_path'][-1].path.poses[-1].pose.position.x == 2.0
@@ -357,16 +363,13 @@ def test_it_can_be_brought_up_and_down_many_times(stack: Stack) -> None:
 def test_it_works_in_simulated_time(make_stack: Any) -> None:
     """Also while that stands: goals can be canceled; paths are planned by that clock."""
     stack = make_stack(use_sim_time=True)
-    clock = stack.node.create_publisher(Clock, '/clock', 1)
-    stack.ros.wait_until(clock.get_subscription_count)
-    clock.publish(Clock(clock=Time(sec=100)))
-    stack.ros.wait_until(lambda: stack.navigator.ros.now_s() == 100.0)
+    stack.set_clock(100)
     stack.servers.scripts['follow_path'] = ['hang']
     handle = stack.client.send(pose=pose(1.0))
     stack.ros.wait_until(lambda: 'follow_path' in stack.servers.calls)
     stack.ros.spin(1.3)
     assert stack.servers.calls.count('compute_path_to_pose') == 1
-    clock.publish(Clock(clock=Time(sec=102)))
+    stack.set_clock(102)
     stack.ros.wait_until(lambda: stack.servers.calls.count('compute_path_to_pose') == 2)
     stack.ros.wait_until(lambda: stack.client.feedback[-1].navigation_time.sec == 2)
     handle.cancel_goal_async()
