@@ -24,6 +24,7 @@ from tempfile import TemporaryDirectory
 import time
 
 from arguments import in_range
+from humanoid_common.errors import UserError
 from llm_planner.dialogue import Dialogue
 from llm_planner.plan import Plan
 from llm_planner.rules import RulePlanner
@@ -33,8 +34,8 @@ from numpy.typing import NDArray
 from planner import apartment, KINDS, TESTS
 from voice_control.audio import AudioError, chunks, duration_s, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer
-from voice_control.noise_suppression import NoiseSuppressionError, NoiseSuppressor
-from voice_control.recognition import Listener, RecognizerError
+from voice_control.noise_suppression import NoiseSuppressor
+from voice_control.recognition import Listener
 from voice_control.recognizer_parameters import THRESHOLD
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper
@@ -140,7 +141,7 @@ def main() -> int:
     try:
         suppress = None if options.raw else NoiseSuppressor().suppress
         whisper = FasterWhisper(options.whisper) if options.whisper else None
-    except (NoiseSuppressionError, RecognizerError) as error:
+    except UserError as error:
         parser.error(str(error))
     grammar = GrammarRecognizer(options.threshold, suppress=suppress)
     listener = Listener(grammar, whisper)

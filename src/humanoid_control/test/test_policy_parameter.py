@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 from collections.abc import Iterator
 from pathlib import Path
 
+from humanoid_common.errors import UserError
 from humanoid_common.onnx_file import Operation, Tensor, write_onnx
 from humanoid_common.qos import LATCHED
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 import argparse
 from collections.abc import Sequence
 import os
@@ -12,6 +11,7 @@ import signal
 import sys
 
 from ament_index_python.packages import get_packages_with_prefixes
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_course import exercise_1, exercise_2, exercise_3
 from humanoid_course.grading import Exercise, grade, Results

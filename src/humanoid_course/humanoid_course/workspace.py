@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
-from humanoid_common.errors import UserError
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 import os
 from pathlib import Path
 from xml.etree import ElementTree
 
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
+from humanoid_common.paths import expanded_path
 from humanoid_course.report import quoted
 
 MANIFEST = 'package.xml'

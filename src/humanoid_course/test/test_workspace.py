@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 from pathlib import Path
 
+from humanoid_common.errors import UserError
 from humanoid_course.testing import MODEL_AND_CONTROL, write_workspace
 from humanoid_course.workspace import find_packages, find_workspace
 import pytest

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
 
-class DescriptionError(Exception):
+
+class DescriptionError(UserError):
     """A robot model cannot be made or loaded; the message gives the reason."""

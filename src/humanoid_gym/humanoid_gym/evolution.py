@@ -15,6 +15,7 @@ from pathlib import Path
 from zipfile import BadZipFile
 import zlib
 
+from humanoid_common.errors import UserError
 from humanoid_control.backends import Array
 from humanoid_simulation.files import replace_file
 import numpy as np
@@ -73,7 +74,7 @@ class SearchState:
         ------
         OSError
             The file cannot be read.
-        ValueError
+        UserError
             It is no checkpoint of a search for so many parameters.
 
         """
@@ -87,7 +88,7 @@ class SearchState:
         ) as error:  # fmt: skip
             if isinstance(error, OSError) and error.errno is not None:
                 raise
-            raise ValueError(f"'{path}' is no checkpoint of a search. Move it away.") from None
+            raise UserError(f"'{path}' is no checkpoint of a search. Move it away.") from None
         return state
 
     def save(self, path: Path) -> None:

@@ -119,8 +119,6 @@ def _loaded(checkpoint: Path, size: int) -> SearchState:
         return SearchState.load(checkpoint, size)
     except OSError as error:
         raise TrainingError(f"'{checkpoint}' cannot be read: {error.strerror}.") from None
-    except ValueError as error:
-        raise TrainingError(str(error)) from None
 
 
 def _train(arguments: argparse.Namespace, search: Search, checkpoint: Path) -> None:

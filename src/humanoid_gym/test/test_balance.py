@@ -19,7 +19,8 @@ import pytest
 
 gymnasium = pytest.importorskip('gymnasium')
 
-from humanoid_control.policy import Policy  # noqa: E402, I100
+from humanoid_common.errors import UserError  # noqa: E402, I100
+from humanoid_control.policy import Policy  # noqa: E402
 from humanoid_control.policy.policy_file import read_policy_file  # noqa: E402
 import humanoid_gym  # noqa: E402
 from humanoid_gym import train_balance  # noqa: E402
@@ -76,7 +77,7 @@ def test_a_file_that_is_no_checkpoint(tmp_path: Path, content: bytes) -> None:
     """It is refused with a sentence that says what to do."""
     path = tmp_path / 'checkpoint.npz'
     path.write_bytes(content)
-    with pytest.raises(ValueError, match=r'checkpoint\.npz. is no checkpoint of a search\. Move'):
+    with pytest.raises(UserError, match=r'checkpoint\.npz. is no checkpoint of a search\. Move'):
         SearchState.load(path, 3)
 
 
@@ -95,7 +96,7 @@ def test_a_checkpoint_of_another_search(tmp_path: Path, changes: dict[str, Any])
     """With other sizes, or values that no search has, it is refused as well."""
     path = tmp_path / 'checkpoint.npz'
     replace(SearchState.around(np.zeros(3), 0.1), **changes).save(path)
-    with pytest.raises(ValueError, match='is no checkpoint of a search'):
+    with pytest.raises(UserError, match='is no checkpoint of a search'):
         SearchState.load(path, 3)
 
 

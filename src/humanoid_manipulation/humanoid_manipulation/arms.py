@@ -6,18 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
+from humanoid_common.errors import UserError
 from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.joint_mover import JointMover, trajectory_point
 from humanoid_common.periodic import clock_s
 from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_description.drives import SIDES
-from humanoid_description.errors import DescriptionError
 from humanoid_description.loading import load_robot
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_trajectory import ArmTrajectory
 from humanoid_manipulation.arm_world import ArmWorld
-from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.obstacle import Obstacle
 from humanoid_manipulation.upper_body import Reach, UpperBody
 import numpy as np
@@ -257,7 +256,7 @@ class Arms:
         try:
             robot = load_robot(message.data, 'robot_description')
             body = UpperBody.of(robot)
-        except (DescriptionError, ManipulationError) as error:
+        except UserError as error:
             self._body, self._reason = None, str(error)
             return
         self._urdf, self._prefix = message.data, robot.prefix

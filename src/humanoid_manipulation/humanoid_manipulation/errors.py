@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from humanoid_common.errors import UserError
+
 __all__ = ['ManipulationError']
 
 
-class ManipulationError(Exception):
+class ManipulationError(UserError):
     """An operation is impossible with this robot or these values; the message states why."""

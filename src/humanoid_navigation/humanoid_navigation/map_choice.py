@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
-from humanoid_common.errors import UserError
 from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
+from humanoid_common.errors import UserError
+from humanoid_common.paths import expanded_path
 from launch import LaunchContext, Substitution
 from launch.substitutions import LaunchConfiguration, SubstitutionFailure
 from launch.utilities import perform_substitutions

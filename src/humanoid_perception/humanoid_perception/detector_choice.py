@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
 from dataclasses import dataclass
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from humanoid_common.parameters import parameter
+from humanoid_common.paths import expanded_path
 from humanoid_perception.colour_backend import ColourDetector
 from humanoid_perception.detection import Detector
 from humanoid_perception.onnx_backend import OnnxDetector

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_perception.detection import COLOURS
 from humanoid_perception.places import Places
@@ -15,7 +16,7 @@ from humanoid_perception.sighting import greatest_sigma_m
 __all__ = ['ObjectQuery', 'QuestionError', 'find', 'place_of']
 
 
-class QuestionError(Exception):
+class QuestionError(UserError):
     """A query names an unknown class, colour, place or id; the message suggests a known one."""
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import math
 from xml.etree import ElementTree
 
+from humanoid_common.errors import UserError
 from humanoid_description.rotations import about_axis, from_rpy
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +21,7 @@ _ROUNDS = 25
 _GOOD_RAD = 1e-3
 
 
-class HeadError(Exception):
+class HeadError(UserError):
     """The robot description has no usable neck; the message states why."""
 
 

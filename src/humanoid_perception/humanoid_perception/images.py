@@ -6,6 +6,7 @@ from __future__ import annotations
 from array import array
 from typing import Any, Protocol
 
+from humanoid_common.errors import UserError
 from humanoid_perception.detection import Color, Depth
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +18,7 @@ _CHANNELS = {'rgb8': 3, 'bgr8': 3, 'rgba8': 4, 'bgra8': 4, 'mono8': 1, '8UC1': 1
 _DEPTHS = {'32FC1': ('f4', 1.0), '16UC1': ('u2', 0.001), 'mono16': ('u2', 0.001)}
 
 
-class ImageError(Exception):
+class ImageError(UserError):
     """An image message cannot be used; the message states why, and what to do."""
 
 

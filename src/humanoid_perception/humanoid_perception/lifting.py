@@ -14,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from humanoid_common.errors import UserError
 from humanoid_perception.detection import Box, Box3, Depth
 import numpy as np
 import numpy.typing as npt
@@ -51,7 +52,7 @@ _STEEP = 0.97
 """A line of sight with a larger vertical component points straight down (or up)."""
 
 
-class CameraInfoError(Exception):
+class CameraInfoError(UserError):
     """A `camera_info` cannot be used; the message states why, and what to do."""
 
 

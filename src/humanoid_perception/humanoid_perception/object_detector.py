@@ -10,6 +10,7 @@ import sys
 import time
 from typing import Any
 
+from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import SENSOR, STATE
 from humanoid_common.running import ending, run_node
@@ -32,7 +33,6 @@ from humanoid_perception.frames import FramePairs, RgbdFrame, stamp_in
 from humanoid_perception.images import color_of, depth_of, ImageError
 from humanoid_perception.lifting import (
     camera_of,
-    CameraInfoError,
     lift,
     PinholeCamera,
     surface_of,
@@ -247,7 +247,7 @@ class ObjectDetector(Node):
         try:
             depth_m = depth_of(deserialize_message(frame.depth, Image))
             camera = camera_of(info.k, info.width, info.height, (color.shape[0], color.shape[1]))
-        except (ImageError, CameraInfoError) as error:
+        except UserError as error:
             self._warn(f'Detections are 2-D only. {error}')
             return None, None
         if depth_m.shape != color.shape[:2]:

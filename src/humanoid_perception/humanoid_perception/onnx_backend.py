@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
 import ast
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from humanoid_common.paths import expanded_path
 from humanoid_perception.detection import Color, Depth, Detection, DetectorError, is_cut
 from humanoid_perception.yolo import (
     AUTO,

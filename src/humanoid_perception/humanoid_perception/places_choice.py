@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 from typing import Any
 
+from humanoid_common.errors import UserError
 from humanoid_perception.places_file import places_path, PlacesError
 from launch import LaunchContext, Substitution
 from launch.substitutions import LaunchConfiguration, SubstitutionFailure

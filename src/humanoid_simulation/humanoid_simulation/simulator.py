@@ -15,7 +15,6 @@ from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.reports import Refusals
 from humanoid_control.hosting.topics.filling import topic
-from humanoid_description.errors import DescriptionError
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.entity_services import EntityServices
 from humanoid_simulation.model.description import in_world
@@ -98,7 +97,7 @@ class Simulator(Node):
         """Build the world, or raise UserError."""
         try:
             return simulated_robots(parameters, Refusals(self.get_logger().error).add)
-        except (DescriptionError, UserError) as error:
+        except UserError as error:
             raise UserError(f'The simulator cannot start. {error}') from error
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:

@@ -15,6 +15,7 @@ import re
 import time
 from typing import Any
 
+from humanoid_common.errors import UserError
 from llm_planner.dialogue import Refusal
 from llm_planner.plan import check, Plan, PlanError, Step
 from llm_planner.replanning import Account
@@ -45,7 +46,7 @@ failed, and do not repeat what was done. If nothing else makes sense, refuse.
 """
 
 
-class ModelError(Exception):
+class ModelError(UserError):
     """The model gave no usable answer; the message states why, without the API key."""
 
 

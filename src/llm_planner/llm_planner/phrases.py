@@ -13,6 +13,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 import re
 
+from humanoid_common.errors import UserError
+
 __all__ = [
     'Choice', 'GrammarError', 'Option', 'Phrase', 'Series', 'Slot', 'Word', 'parse_phrase',
     'part_of', 'with_rules',
@@ -21,7 +23,7 @@ __all__ = [
 _TOKEN = re.compile(r'\{\w+\}|[\[\]()|,]|[^\s\[\](){}|,]+')
 
 
-class GrammarError(Exception):
+class GrammarError(UserError):
     """A phrase or a word list is invalid; the message states why."""
 
 

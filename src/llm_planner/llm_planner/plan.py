@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Any
 
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
 from llm_planner.skills import Argument, Skill, Skills
 from llm_planner.world import in_words, listed, ObjectDescription, World
@@ -20,7 +21,7 @@ MOST_STEPS = 12
 _LONGEST_TEXT = 300
 
 
-class PlanError(Exception):
+class PlanError(UserError):
     """A plan is invalid; the message tells the user why."""
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Any
 
+from humanoid_common.errors import UserError
 from llm_planner.phrases import Phrase
 
 __all__ = [
@@ -27,7 +28,7 @@ Closing it cancels pending work, such as a goal that was sent.
 """
 
 
-class SkillError(Exception):
+class SkillError(UserError):
     """
     A skill has failed; the message tells the user why.
 

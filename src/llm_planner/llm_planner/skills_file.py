@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
-from humanoid_common.errors import UserError
 from collections.abc import Iterable, Mapping
 import math
 from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
+from humanoid_common.paths import expanded_path
 from llm_planner.phrases import GrammarError, parse_phrase, part_of, Slot, with_rules
 from llm_planner.skills import (
     Argument,

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
 from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
 import json
 import os
 from pathlib import Path
 from typing import Any
+
+from humanoid_common.paths import expanded_path
 
 __all__ = ['AuditLog', 'default_path']
 

@@ -17,9 +17,9 @@ import time
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_interfaces.action import ExecutePlan
-from humanoid_perception.images import ImageError
 from llm_planner.plan import check, Plan, PlanError, UnavailableError, words_for
 from llm_planner.plan_messages import plan_message, plan_of
 from llm_planner.rules import RulePlanner
@@ -111,7 +111,7 @@ class Calls:
             answer = await self._answer(client, name, arguments)
             kind = 'failed' if answer.is_error else 'done'
             outcome = f'{kind}: {answer.text}' if acts else kind
-        except (RobotError, PlanError, ImageError) as error:
+        except UserError as error:
             outcome, answer = f'failed: {error}', Answer(str(error), is_error=True)
         except NeedsInputError as error:
             outcome = f'asks: {error}'

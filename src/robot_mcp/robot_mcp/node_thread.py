@@ -13,6 +13,7 @@ from collections.abc import Callable
 import time
 from typing import Any
 
+from humanoid_common.errors import UserError
 from rclpy.node import Node
 from robot_mcp.deadlines import in_time
 
@@ -25,7 +26,7 @@ _DISCOVERY_S = 4.0
 _SETTLED_S = 1.5
 
 
-class RobotError(Exception):
+class RobotError(UserError):
     """The robot cannot do or show something now; the message states why."""
 
 

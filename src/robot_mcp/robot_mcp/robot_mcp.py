@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
 from dataclasses import dataclass
 import os
 import re
@@ -15,6 +14,7 @@ from typing import Any
 from humanoid_common.errors import UserError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
+from humanoid_common.paths import expanded_path
 from humanoid_common.running import run_node
 from llm_planner.actions import Actions
 from llm_planner.knowledge import begin_watch, KnowledgeParameters

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 from collections.abc import Iterator
 import io
 from math import gcd
 from pathlib import Path
 import wave
 
+from humanoid_common.errors import UserError
 import numpy as np
 from numpy.typing import NDArray
 

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 import ctypes
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 import weakref
 
+from humanoid_common.errors import UserError
 import numpy as np
 from numpy.typing import NDArray
 from voice_control.audio import RATE_HZ

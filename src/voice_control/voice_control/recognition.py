@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from humanoid_common.errors import UserError
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 import time
 from typing import Protocol
 
+from humanoid_common.errors import UserError
 from voice_control.audio import duration_s
 
 __all__ = [

@@ -7,7 +7,6 @@ The user provides the libraries and their models: nothing is ever downloaded.
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
 from collections.abc import Sequence
 import math
 import os
@@ -15,6 +14,7 @@ from pathlib import Path
 import re
 from typing import Any
 
+from humanoid_common.paths import expanded_path
 import numpy as np
 from numpy.typing import NDArray
 from voice_control.audio import wav_of

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_control.backends import Array, JointTargets
 import numpy as np
@@ -16,7 +17,7 @@ LARGEST = 1e6
 """Far beyond any joint value in any unit; sums of larger values may overflow."""
 
 
-class CommandError(ValueError):
+class CommandError(UserError):
     """A command was rejected; the message states what is wrong and what to do."""
 
 

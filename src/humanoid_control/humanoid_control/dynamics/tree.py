@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
 from humanoid_description.kinematics import chain
 from humanoid_description.robot import Body, Joint, named, repeated, Robot
@@ -17,7 +18,7 @@ Array = NDArray[np.float64]
 TURNING = ('revolute', 'continuous')
 
 
-class DynamicsError(Exception):
+class DynamicsError(UserError):
     """A robot model or state that the dynamics cannot handle; the message states why."""
 
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from geometry_msgs.msg import Pose, Twist
+from humanoid_common.errors import UserError
 from humanoid_common.qos import COMMAND
 from humanoid_control.backends import Observation
-from humanoid_control.controllers import CommandError
 from humanoid_control.controllers.modes import POLICY
 from humanoid_control.emergency_stop import StopListener
 from humanoid_control.hosting.controller_actions import ControllerActions
@@ -30,7 +30,6 @@ from humanoid_control.hosting.topics.walk import (
     OdometryTopics,
     WalkingStateTopic,
 )
-from humanoid_control.walking.parameters import WalkingError
 from humanoid_control.walking.walker import Walker
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -230,7 +229,7 @@ class RobotInputs:
         """Execute a command; log the reason if it is rejected."""
         try:
             command()
-        except (CommandError, WalkingError) as error:
+        except UserError as error:
             self._refusals.add(f"Rejected a message on '{self._place}{name}'. {error}")
 
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from humanoid_common.paths import expanded_path
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -11,6 +10,7 @@ from typing import Protocol
 from ament_index_python.packages import get_package_share_directory
 from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
+from humanoid_common.paths import expanded_path
 from humanoid_control.controllers.modes import POLICY
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.policy.controller import PolicyController

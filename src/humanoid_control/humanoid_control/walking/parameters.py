@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
+from humanoid_common.errors import UserError
 from humanoid_common.parameters import parameter, ParameterError
 
 _POWER = 'humanoid_control.power'
@@ -14,7 +15,7 @@ _MOST_CHANGE = 4.0
 """Factor by which a parameter may be above or below its default."""
 
 
-class WalkingError(ValueError):
+class WalkingError(UserError):
     """An input that walking cannot handle; the message states which, and why."""
 
 

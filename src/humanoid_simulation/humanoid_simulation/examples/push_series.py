@@ -6,6 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from humanoid_common.errors import UserError
+
 DIRECTIONS = {'forward': 1 + 0j, 'back': -1 + 0j, 'left': 1j, 'right': -1j}
 """Unit vectors of the ground plane in the robot's axes: x forward, y to the left."""
 
@@ -39,7 +41,7 @@ class NextAction(Enum):
     DONE = 'done'
 
 
-class NeverStoodError(Exception):
+class NeverStoodError(UserError):
     """The robot does not stand, so it cannot be pushed."""
 
 

@@ -22,7 +22,6 @@ from humanoid_simulation.examples.conversions import (
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
 from humanoid_simulation.examples.push_series import (
-    NeverStoodError,
     NextAction,
     PushPlan,
     PushSeries,
@@ -107,10 +106,7 @@ class PushTest(Node):
         if self._waits:
             return
         stands = self._fall_watch.stands(*height_and_tilt(message))
-        try:
-            step = self._series.update(seconds(message.header.stamp), stands)
-        except NeverStoodError as error:
-            raise ExampleError(str(error)) from error
+        step = self._series.update(seconds(message.header.stamp), stands)
         if step is NextAction.PUSH:
             self._send_push(message)
         elif step is NextAction.RESET:

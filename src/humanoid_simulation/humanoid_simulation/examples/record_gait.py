@@ -13,7 +13,7 @@ import sys
 from typing import Any
 
 from humanoid_common.errors import UserError
-from humanoid_control.walking import VelocityCommand, WalkingError
+from humanoid_control.walking import VelocityCommand
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.examples.gait_recording import GaitPlan, GaitRecording, record_walk
 from humanoid_simulation.scene import load_scene
@@ -45,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         recording = record_walk(_plan(arguments), load_scene(arguments.scene))
         _write(recording, arguments)
-    except (UserError, WalkingError) as error:
+    except UserError as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from humanoid_common.errors import UserError
 from humanoid_control.walking.commands import STANDING, VelocityCommand
 from humanoid_control.walking.planar import limited, PlanarPose
 from humanoid_description.rotations import wrap_angle
@@ -21,7 +22,7 @@ _SLOWEST_SHARE = 0.3
 """Fraction of the speed that is left just before a corner."""
 
 
-class NotRoundError(Exception):
+class NotRoundError(UserError):
     """The robot did not complete the square."""
 
 

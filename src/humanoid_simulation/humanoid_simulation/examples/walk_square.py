@@ -15,9 +15,8 @@ from humanoid_common.running import ending, run_node
 from humanoid_control.hosting.conversions import seconds
 from humanoid_simulation.examples.conversions import height_and_tilt, planar_pose, twist_message
 from humanoid_simulation.examples.fall_watch import FallWatch
-from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
+from humanoid_simulation.examples.needs_simulator import SimulatorWatch
 from humanoid_simulation.examples.square_walk import (
-    NotRoundError,
     SquarePlan,
     SquareWalk,
     WalkUpdate,
@@ -86,10 +85,7 @@ class WalkSquare(Node):
         if self._truth is None or not self.context.ok():
             return  # no ground truth yet, or the walk is over and messages were still queued
         self._simulator.heard()
-        try:
-            progress = self._progress(message, self._truth)
-        except NotRoundError as error:
-            raise ExampleError(str(error)) from error
+        progress = self._progress(message, self._truth)
         self._publisher.publish(twist_message(progress.command))
         self._say(progress)
 

@@ -15,9 +15,6 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.qos import LATCHED, STATE
 from humanoid_common.running import ending
-from humanoid_control.walking import WalkingError
-from humanoid_description.errors import DescriptionError
-from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.sweep.conditions import conditions_of
 from humanoid_simulation.sweep.motion import Motion
 from humanoid_simulation.sweep.record import find_run
@@ -86,7 +83,7 @@ class Replay(Node):
         """Put the robot at the start of the run."""
         try:
             self._walk = Walk(conditions_of(dict(self._run.conditions)))
-        except (UserError, WalkingError, DescriptionError) as error:
+        except UserError as error:
             raise UserError(
                 f'Run {self._run.key} cannot be simulated, so there is nothing to show. {error}'
             ) from error
@@ -121,7 +118,7 @@ class Replay(Node):
             self._ahead_s -= period_s
             try:
                 self._tick()
-            except SimulationError as error:
+            except UserError as error:
                 self._end(str(error))
         self._ahead_s = 0.0
 

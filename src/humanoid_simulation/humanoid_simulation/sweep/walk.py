@@ -11,11 +11,9 @@ import time
 
 from humanoid_common.errors import UserError
 from humanoid_control.controllers import TrajectoryPoint, TrajectoryRequest
-from humanoid_control.walking import VelocityCommand, WalkingError
-from humanoid_description.errors import DescriptionError
+from humanoid_control.walking import VelocityCommand
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.backend.settings import BackendSettings
-from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.model import Physics
 from humanoid_simulation.scene.loading import load_scene
 from humanoid_simulation.scene.scene import Scene
@@ -260,12 +258,12 @@ def walk(run: Run) -> RunResult:
     begin_s = time.process_time()
     try:
         each = Walk(run.conditions)
-    except (UserError, WalkingError, DescriptionError) as error:
+    except UserError as error:
         return RunResult(FAILED, 0.0, problem=str(error))
     try:
         for _ in each.ticks():
             pass
-    except (SimulationError, WalkingError) as error:
+    except UserError as error:
         failed = replace(each.result(), outcome=FAILED, problem=str(error))
         return replace(failed, cpu_s=time.process_time() - begin_s)
     return each.result(time.process_time() - begin_s)
