@@ -211,7 +211,7 @@ def names_in_file(path: str) -> list[str]:
             names = _listed(content.get('names') if isinstance(content, dict) else content)
         else:
             names = [line.strip() for line in text.splitlines() if line.strip()]
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except (OSError, ValueError, RecursionError, yaml.YAMLError) as error:
         raise DetectorError(
             f"The labels file '{path}' cannot be read: {_first_line(error)} Correct the parameter "
             "'labels_file', or leave it empty for the names in the model."

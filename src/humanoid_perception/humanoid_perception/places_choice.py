@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from humanoid_common.errors import UserError
-from humanoid_perception.places_file import places_path, PlacesError
+from humanoid_perception.places_file import places_path
 from launch import LaunchContext, Substitution
 from launch.substitutions import LaunchConfiguration, SubstitutionFailure
 from launch.utilities import perform_substitutions
@@ -62,7 +62,7 @@ class PlacesChoice(Substitution):
         scene = perform_substitutions(context, [self._scene])
         try:
             return str(places_path(scene) or '') if scene.isidentifier() else ''
-        except PlacesError:
+        except UserError:
             return ''
 
 

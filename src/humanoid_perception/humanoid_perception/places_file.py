@@ -3,25 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-import math
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
 from humanoid_common.errors import UserError
 from humanoid_common.naming import did_you_mean
 from humanoid_common.paths import expanded_path
+from humanoid_common.tables import is_vector, load_table, Table
 from humanoid_perception.places import Fixture, Outline, Places, Room, Surface, TOLERANCE_M
-import yaml
 
-__all__ = ['PlacesError', 'load_places', 'places_path']
+__all__ = ['load_places', 'places_path']
 
 _PREFIX = 'places_'
-
-
-class PlacesError(UserError):
-    """A file of named places cannot be used; the message states why."""
 
 
 def places_path(given: str) -> Path | None:
@@ -36,10 +30,8 @@ def places_path(given: str) -> Path | None:
 
     Raises
     ------
-    PlacesError
-        There is no such file.
     UserError
-        The path begins with a home folder that does not exist.
+        There is no such file.
 
     """
     if not given:
@@ -53,7 +45,7 @@ def places_path(given: str) -> Path | None:
         return path
     known = sorted(path.stem.removeprefix(_PREFIX) for path in folder.glob(f'{_PREFIX}*.yaml'))
     hint = f' {question}' if (question := did_you_mean(given, known)) else ''
-    raise PlacesError(
+    raise UserError(
         f"File of named places '{given}' not found.{hint} Set "
         f'places_file to the path of one, the name of one in this package ({", ".join(known)}), '
         'or leave it empty for none.'
@@ -71,108 +63,63 @@ def load_places(path: Path) -> Places:
 
     Raises
     ------
-    PlacesError
+    TableError
         The file cannot be read, or has missing or invalid entries.
 
     """
-    try:
-        table = yaml.safe_load(path.read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise PlacesError(f'The named places in {path} cannot be read: {error}') from error
-    try:
-        return _places(table)
-    except PlacesError as error:
-        raise PlacesError(f'The named places in {path} cannot be used: {error}') from None
-
-
-def _places(table: Any) -> Places:
-    keys = ('frame', 'surfaces', 'rooms')
-    entries = _checked(table, 'the file', keys, ())
-    frame = entries.get('frame', 'map')
-    if not isinstance(frame, str) or not frame:
-        raise PlacesError(f'frame is {frame!r}. Give the name of a frame, such as map.')
-    places = Places(
-        frame,
-        tuple(_surface(each) for each in _list(entries, 'surfaces')),
-        tuple(_room(each) for each in _list(entries, 'rooms')),
+    table = load_table(path)
+    table.allow('frame', 'surfaces', 'rooms')
+    seen: set[str] = set()
+    for entry in (*_entries(table, 'surfaces'), *_entries(table, 'rooms')):
+        name = entry.text('name')
+        if name in seen:
+            raise entry.at('name').error(
+                f"two places are named '{name}'. Give each a unique name."
+            )
+        seen.add(name)
+    return Places(
+        table.text('frame', 'map'),
+        tuple(map(_surface, _entries(table, 'surfaces'))),
+        tuple(map(_room, _entries(table, 'rooms'))),
     )
-    for name in places.names:
-        if places.names.count(name) > 1:
-            raise PlacesError(f"two places are named '{name}'. Give each a unique name.")
-    return places
 
 
-def _surface(entry: Any) -> Surface:
-    keys = ('name', 'outline', 'height', 'tolerance', 'depth', 'container', 'fixtures')
-    known = _checked(entry, 'a surface', keys, ('name', 'outline', 'height'))
-    name, is_container = _name(known), known.get('container', False)
+def _entries(table: Table, name: str) -> Iterator[Table]:
+    """Return the items of a list, which may be left empty."""
+    return table.tables(name) if table.has(name) else iter(())
+
+
+def _surface(table: Table) -> Surface:
+    table.allow('name', 'outline', 'height', 'tolerance', 'depth', 'container', 'fixtures')
+    is_container = table.value('container') if table.has('container') else False
     if not isinstance(is_container, bool):
-        raise PlacesError(f'container of {name} is {is_container!r}, but must be true or false.')
+        raise table.at('container').wrong('true or false', is_container)
     return Surface(
-        name,
-        _outline(known['outline'], name),
-        _number(known['height'], f'the height of {name}'),
-        abs(_number(known.get('tolerance', TOLERANCE_M), f'the tolerance of {name}')),
-        abs(_number(known.get('depth', 0.0), f'the depth of {name}')),
+        table.text('name'),
+        _outline(table),
+        table.number('height'),
+        abs(table.number('tolerance', TOLERANCE_M)),
+        abs(table.number('depth', 0.0)),
         is_container,
-        tuple(_fixture(each, name) for each in _list(known, 'fixtures')),
+        tuple(map(_fixture, _entries(table, 'fixtures'))),
     )
 
 
-def _fixture(entry: Any, surface: str) -> Fixture:
-    what, keys = f'what stands on {surface}', ('outline', 'height')
-    known = _checked(entry, what, keys, keys)
-    height_m = abs(_number(known['height'], f'the height of {what}'))
-    return Fixture(_outline(known['outline'], what), height_m)
+def _fixture(table: Table) -> Fixture:
+    table.allow('outline', 'height')
+    return Fixture(_outline(table), abs(table.number('height')))
 
 
-def _room(entry: Any) -> Room:
-    known = _checked(entry, 'a room', ('name', 'outline'), ('name', 'outline'))
-    name = _name(known)
-    return Room(name, _outline(known['outline'], name))
+def _room(table: Table) -> Room:
+    table.allow('name', 'outline')
+    return Room(table.text('name'), _outline(table))
 
 
-def _checked(
-    entry: Any, what: str, keys: Iterable[str], needed: Iterable[str]
-) -> Mapping[str, Any]:
-    """Validate the keys of a table: no unknown ones, and none missing."""
-    if not isinstance(entry, dict):
-        raise PlacesError(f'{what} is {entry!r}, but must be a table of {", ".join(keys)}.')
-    for key in entry:
-        if key not in keys:
-            question = did_you_mean(str(key), keys)
-            raise PlacesError(f"{what} has no '{key}'. {question or ', '.join(keys)}")
-    for key in needed:
-        if key not in entry:
-            raise PlacesError(f"{what} needs '{key}': {entry!r}.")
-    return entry
-
-
-def _list(table: Mapping[str, Any], key: str) -> list[Any]:
-    value = table.get(key) or []
-    if not isinstance(value, list):
-        raise PlacesError(f'{key} is {value!r}, but must be a list.')
-    return value
-
-
-def _name(entry: Mapping[str, Any]) -> str:
-    if not isinstance(entry['name'], str) or not entry['name']:
-        raise PlacesError(f'a name is {entry["name"]!r}, but must be a string.')
-    return entry['name']
-
-
-def _number(value: Any, what: str) -> float:
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not is_number or not math.isfinite(value):
-        raise PlacesError(f'{what} is {value!r}, but must be a number of metres.')
-    return float(value)
-
-
-def _outline(value: Any, name: str) -> Outline:
-    is_list = isinstance(value, list) and len(value) >= 3
-    if not is_list or any(not isinstance(each, list) or len(each) != 2 for each in value):
-        raise PlacesError(
-            f'the outline of {name} is {value!r}, but must be three or more corners [x, y].'
-        )
-    what = f'a corner of {name}'
-    return tuple((_number(x, what), _number(y, what)) for x, y in value)
+def _outline(table: Table) -> Outline:
+    if not table.has('outline'):
+        raise table.place.missing('outline')
+    corners = table.value('outline')
+    is_list = isinstance(corners, list) and len(corners) >= 3
+    if not is_list or not all(is_vector(corner, 2) for corner in corners):
+        raise table.at('outline').wrong('three or more corners [x, y] in metres', corners)
+    return tuple((float(x), float(y)) for x, y in corners)

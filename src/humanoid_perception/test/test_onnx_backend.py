@@ -169,6 +169,15 @@ def test_what_is_no_detector_is_refused(tmp_path: Path, shape, output, metadata,
 def test_a_labels_file_that_does_not_fit_is_refused(tmp_path: Path):
     path = write_constant_network(tmp_path / 'm.onnx', scores_layout(), metadata=NAMES)
     assert 'cannot be read' in refusal(path, labels_file=str(tmp_path / 'none.txt'))
+    labels = tmp_path / 'labels.yaml'
+    for text in ('names: [a', 'names: 2026-13-01', '[' * 5000):
+        labels.write_text(text)
+        assert 'cannot be read' in refusal(path, labels_file=str(labels))
+    for text in ('', 'nams: [a, b]', 'names: 3', 'names: {first: a}'):
+        labels.write_text(text)
+        assert "has no names. Give one per line, or a YAML list 'names'" in refusal(
+            path, labels_file=str(labels)
+        )
     labels = tmp_path / 'labels.txt'
     labels.write_text('only one\n')
     assert 'names 1 classes' in refusal(path, labels_file=str(labels))

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from humanoid_common.errors import UserError
 from humanoid_perception.places import Places, Room, Surface
-from humanoid_perception.places_file import load_places, PlacesError
+from humanoid_perception.places_file import load_places
 import numpy as np
 import pytest
 
@@ -97,20 +98,26 @@ def test_the_apartment_has_what_people_name() -> None:
         (
             'surfaces: [{name: a, height: 1, outline: [[0, 0], [1, 0], [1, 1]], '
             'fixtures: [{outline: [[0, 0], [1, 0]], height: 1}]}]',
-            'the outline of what stands on a is [[0, 0], [1, 0]]',
+            'surfaces[0].fixtures[0].outline must be three or more corners',
         ),
         (
             'surfaces: [{name: a, height: 1, outline: [[0, 0], [1, 0], [1, 1]], '
             'fixtures: [{outline: [[0, 0], [1, 0], [1, 1]]}]}]',
-            "what stands on a needs 'height'",
+            "surfaces[0].fixtures[0] lacks the required key 'height'",
         ),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0]]}]', 'three or more corners'),
-        ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, .nan]]}]', 'number of metres'),
+        ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, .nan]]}]', 'corners [x, y] in metres'),
+        ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, "1"]]}]', 'corners [x, y] in metres'),
+        (
+            'surfaces:\n- {name: a, outline: [[0, 0], [1, 0], [1, 1]],\n   height: "1"}',
+            "line 3: surfaces[0].height must be a finite number, but is '1'.",
+        ),
+        ('rooms: [{name: a}]', "rooms[0] lacks the required key 'outline'"),
         ('rooms: [{name: 3, outline: [[0, 0], [1, 0], [1, 1]]}]', 'string'),
         ('room: []', "Did you mean 'rooms'?"),
         ('frame: 3', 'frame'),
-        ('- 3', 'table'),
-        ('{', 'cannot be read'),
+        ('- 3', 'must be a mapping of names to values'),
+        ('{', 'is not a valid YAML file (line 1'),
         (
             'rooms: [{name: a, outline: [[0, 0], [1, 0], [1, 1]]}, '
             '{name: a, outline: [[0, 0], [1, 0], [1, 1]]}]',
@@ -122,22 +129,29 @@ def test_a_mistake_in_the_file_is_named(tmp_path: Path, text: str, part: str) ->
     """With the file, and what was meant."""
     path = tmp_path / 'places.yaml'
     path.write_text(text)
-    with pytest.raises(PlacesError, match='places.yaml') as error:
+    with pytest.raises(UserError, match='places.yaml') as error:
         load_places(path)
     assert part in str(error.value)
+
+
+def test_lists_may_be_empty(tmp_path: Path) -> None:
+    """Also without brackets."""
+    path = tmp_path / 'places.yaml'
+    path.write_text('surfaces:\nrooms: []\n')
+    assert load_places(path) == Places()
 
 
 def test_an_empty_file_of_places_is_no_table(tmp_path: Path) -> None:
     """Nothing was saved: that is said."""
     path = tmp_path / 'places.yaml'
     path.write_text('')
-    with pytest.raises(PlacesError, match='table'):
+    with pytest.raises(UserError, match='the file must be a mapping .*, but is empty'):
         load_places(path)
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     """As a sentence."""
-    with pytest.raises(PlacesError, match='cannot be read'):
+    with pytest.raises(UserError, match='cannot be read'):
         load_places(tmp_path / 'nothing.yaml')
 
 
