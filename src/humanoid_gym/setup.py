@@ -22,9 +22,5 @@ setup(
     maintainer_email='maintainers@humanoid-workspace.dev',
     description='Gymnasium environments of the simulated humanoid: walk, stand, reach',
     license='Apache-2.0',
-    entry_points={
-        'console_scripts': [
-            'train_balance = humanoid_gym.train_balance:main',
-        ],
-    },
+    scripts=['scripts/train_balance'],
 )

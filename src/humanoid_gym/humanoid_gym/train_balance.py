@@ -50,8 +50,10 @@ def main() -> int:
     """
     arguments = _arguments()
     before = {number: signal.getsignal(number) for number in _ENDING}
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
+        for number, handler in before.items():
+            if handler is not signal.SIG_IGN:
+                signal.signal(number, signal.default_int_handler)
         with _alone(arguments.folder):
             _go_on(arguments)
     except UserError as error:
@@ -203,7 +205,3 @@ def _above_zero(most: float, hint: str = '') -> Callable[[str], float]:
         return value
 
     return read
-
-
-if __name__ == '__main__':
-    sys.exit(main())

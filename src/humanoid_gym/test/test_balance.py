@@ -11,6 +11,7 @@ import os
 from pathlib import Path
 import resource
 import signal
+import subprocess
 import sys
 from typing import Any
 
@@ -219,6 +220,25 @@ def test_an_interruption_before_the_first_generation(
     assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
     assert (tmp_path / 'stand.yaml').read_text() == 'mine'
     assert not (tmp_path / 'stand.onnx').exists()
+
+
+def test_ctrl_c_while_modules_are_loaded(tmp_path: Path) -> None:
+    """The program ends quietly, by the signal; nothing says that a library is missing."""
+    text = "import os, signal\nos.kill(os.getpid(), signal.SIGINT)\nraise ImportError('half')\n"
+    (tmp_path / 'gymnasium.py').write_text(text)
+    program = Path(__file__).parents[1] / 'scripts' / 'train_balance'
+    known = os.environ.get('PYTHONPATH', '')
+    done = subprocess.run(
+        [sys.executable, str(program), '--folder', str(tmp_path / 'balance')],
+        env={**os.environ, 'PYTHONPATH': f'{tmp_path}{os.pathsep}{known}'},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, '', '')
+    assert not (tmp_path / 'balance').exists()
 
 
 EPISODES = """
