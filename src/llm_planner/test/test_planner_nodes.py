@@ -321,7 +321,9 @@ def test_a_language_model_plans(ros: RosSandbox, tell: Any) -> None:
 @pytest.mark.parametrize('name', ['skills_file', 'places_file'])
 def test_files_that_cannot_be_used(ros: RosSandbox, kind: Any, name: str) -> None:
     """The node says which one, and does not start."""
-    with pytest.raises(UserError, match=r'cannot start. (The skills in|File of named places)'):
+    with pytest.raises(
+        UserError, match=r'cannot start. (/nowhere.yaml cannot be read|File of named)'
+    ):
         ros.start(kind, {name: '/nowhere.yaml'})
     with pytest.raises(UserError, match="cannot start. .* there is no home folder '~no_one'"):
         ros.start(kind, {name: '~no_one/file.yaml'})

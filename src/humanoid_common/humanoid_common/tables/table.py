@@ -38,14 +38,14 @@ class Table:
     def __init__(self, values: Any, place: SourceLocation) -> None:
         if not isinstance(values, Mapping):
             raise place.wrong('a mapping of names to values', values)
-        self._values = values
+        self._values = {str(name): value for name, value in values.items()}
         self._lines: Mapping[str, int] = getattr(values, 'lines', {})
         self.place = place
 
     @property
     def names(self) -> list[str]:
         """Return the names, in the order of the file."""
-        return [str(name) for name in self._values]
+        return [*self._values]
 
     def has(self, name: str) -> bool:
         """
