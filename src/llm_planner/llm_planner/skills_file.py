@@ -131,8 +131,8 @@ def _skill(name: str, table: Table) -> Skill:
         _templates(table, 'does', arguments),
         ' '.join(_templates(table, 'says', arguments)),
         tuple(
-            _saying(name, arguments, entry, table.at('phrases'))
-            for entry in _list(table, 'phrases')
+            _saying(name, arguments, entry, table.at('phrases').item(number, _line(entry)))
+            for number, entry in enumerate(_list(table, 'phrases'))
         ),
     )
 
@@ -176,6 +176,11 @@ def _saying(
         Table(constants, place).allow(*arguments)
     own = {name: _RULES.get(each.kind, f'{skill}_{name}') for name, each in arguments.items()}
     return Saying(with_rules(_phrase(entry, place), own), dict(constants))
+
+
+def _line(entry: Any) -> int:
+    """Return the line of a list item; 0, which is unknown, unless it is a table."""
+    return getattr(entry, 'line', 0)
 
 
 def _phrase(text: Any, place: SourceLocation) -> Phrase:
@@ -250,8 +255,8 @@ def _words(table: Table) -> dict[str, tuple[str, ...]]:
     """Read the list of words for each value."""
     found = {}
     for value in table.names:
-        words = _list(table, value)
-        if not words or not all(isinstance(word, str) for word in words):
-            raise table.at(value).wrong('a list of words', table.value(value))
+        words = table.value(value)
+        if not isinstance(words, list) or not all(isinstance(word, str) for word in words):
+            raise table.at(value).wrong('a list of words', words)
         found[value] = tuple(words)
     return found

@@ -75,7 +75,7 @@ CHANGES: list[tuple[tuple[str, ...], Any, str]] = [
     (
         ('vocabulary', 'colour'),
         {'red': 'red'},
-        "vocabulary.colour.red must be a list, but is 'red'",
+        "vocabulary.colour.red must be a list of words, but is 'red'",
     ),
     (('skils',), {}, "Did you mean 'skills'?"),
 ]

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
-from humanoid_common.parameters import checked_value, ParameterError, ParameterSpec, specs_of
+from humanoid_common.parameters import checked_value, ParameterSpec, specs_of
 from humanoid_common.tables import load_table, SourceLocation, Table
 from humanoid_simulation.errors import named, SimulationError
 from humanoid_simulation.files import share
@@ -20,7 +21,6 @@ import yaml
 MOST_RUNS = 1_000_000
 _KEYS = ('method', 'runs', 'first_seed', 'seeds', 'falls_allowed', 'conditions')
 _SEED = 'seed'
-T = TypeVar('T')
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ def experiment_of(file: Table, name: str, overrides: Table) -> Experiment:
     _check_number(file, sampling, factors)
     for scene in factors['scene'].grid() if 'scene' in factors else []:
         load_scene(scene)
-    runs = _checked(file.at('conditions'), lambda: sampling.runs(factors))
+    runs = file.at('conditions').checked(lambda: sampling.runs(factors))
     varied = tuple(each for each, factor in factors.items() if factor.is_varied)
     return Experiment(name, tuple(runs), varied, allowed)
 
@@ -211,7 +211,7 @@ def _factor(table: Table, key: str, spec: ParameterSpec, method: str) -> Factor:
         spec.is_list and not any(isinstance(each, list) for each in value)
     )
     options = tuple(
-        _checked(place, lambda each=each: checked_value(spec, each))  # type: ignore[misc]
+        place.checked(partial(checked_value, spec, each))
         for each in (value if is_list else [value])
     )
     if not options:
@@ -233,7 +233,7 @@ def _range(table: Table, spec: ParameterSpec, method: str) -> Range:
 
     def bound(name: str) -> Any:
         table.number(name)
-        return _checked(table.at(name), lambda: checked_value(spec, table.value(name)))
+        return table.at(name).checked(lambda: checked_value(spec, table.value(name)))
 
     low, high = bound('from'), bound('to')
     if not low < high:
@@ -250,11 +250,3 @@ def _range(table: Table, spec: ParameterSpec, method: str) -> Range:
             f"{place.key}: 'steps' are for a grid; 'method: {method}' draws anywhere in the range."
         )
     return Range(low, high, steps, whole)
-
-
-def _checked(place: SourceLocation, make: Callable[[], T]) -> T:
-    """Add the location in the file to the error of a parameter."""
-    try:
-        return make()
-    except ParameterError as error:
-        raise place.error(error.reason) from error

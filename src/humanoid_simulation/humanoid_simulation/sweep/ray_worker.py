@@ -12,7 +12,7 @@ import time
 import traceback
 from typing import TYPE_CHECKING
 
-from humanoid_simulation.errors import SimulationError
+from humanoid_common.errors import UserError
 from humanoid_simulation.sweep.engine import Work
 from humanoid_simulation.sweep.results import RunResult
 from humanoid_simulation.sweep.version import code_version
@@ -90,7 +90,7 @@ def _difference(run: Run) -> str:
     try:
         if run.conditions.digest == run.key:
             return ''
-    except (SimulationError, OSError) as error:
+    except (UserError, OSError) as error:
         return (
             f'{_here()} cannot read the scene {scene}: {error}. Put it there, too, or give its '
             'absolute path on a shared disk.'
