@@ -40,6 +40,7 @@ _SKILL_KEYS = (
     'summary', 'arguments', 'server', 'without', 'needs', 'leaves', 'timeout', 'attempts', 'steps',
     'does', 'says', 'phrases',
 )  # fmt: skip
+_PARTS = ('rules', 'vocabulary', 'skills')
 _MOST_TIMEOUT_S = 3600.0
 
 
@@ -79,15 +80,13 @@ def load_skills(path: Path) -> Skills:
 
     """
     top = load_table(path)
-    top.allow('skills', 'rules', 'vocabulary')
-    given = top.table('rules')
+    top.allow(*_PARTS)
+    given, lists, tables = (top.table(name) for name in _PARTS)
     rules = {name: _phrase(given.value(name), given.at(name)) for name in given.names}
     for name in _NEEDED_RULES:
         if name not in rules:
             raise given.place.missing(name)
-    lists = top.table('vocabulary')
     vocabulary = {name: _words(lists.table(name)) for name in lists.names}
-    tables = top.table('skills')
     found = Skills(
         {name: _skill(name, tables.table(name)) for name in tables.names}, rules, vocabulary
     )

@@ -61,7 +61,7 @@ CHANGES: list[tuple[tuple[str, ...], Any, str]] = [
     (('skills', 'go_to', 'does'), 'go to {place}', 'unknown argument'),
     (('skills', 'go_to', 'server'), {'action': 'a', 'service': 'b'}, 'two servers'),
     (('skills', 'move', 'arguments', 'distance', 'unit'), 'miles', 'has a unit'),
-    (('skills', 'wave', 'arguments', 'arm', 'default'), 'third', 'must be one of left, right'),
+    (('skills', 'wave', 'arguments', 'arm', 'default'), 'third', 'arm.default must be one of '),
     (('skills', 'take', 'steps'), [{'fnd': {}}], "Did you mean 'find'?"),
     (('skills', 'take', 'steps'), [{'bring': {}}], 'is not a simple skill'),
     (('skills', 'take', 'steps'), [{'find': {'object': 'cat'}}], 'takes object from cat'),
