@@ -165,9 +165,7 @@ class SingleRun:
         if self._tests_done and status == 0:
             self._run_tests(self._run.post_shutdown_tests)
             return
-        text = self._failure or self._observation.explain_end(
-            status, was_ready=self._was_ready
-        )
+        text = self._failure or self._observation.explain_end(status, was_ready=self._was_ready)
         text += self._observation.report()
         self._fail(text)
 
