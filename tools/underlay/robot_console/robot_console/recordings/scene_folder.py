@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 from robot_console.recordings.widgets import assign, size_text
 from rviz_common.context import Context
+from rviz_common.page.viser_connection import connection_of
 from rviz_common.status import escaped
 from viser import ViserServer
+from viser.infra import WebsockMessageHandler
 
 __all__ = ['SceneFolder', 'SceneTape', 'TooLarge']
 
@@ -41,7 +43,7 @@ class Reel:
     Parameters
     ----------
     web
-        The websocket server of the page, a `viser.infra.WebsockServer`.
+        The connection to browsers.
 
     Attributes
     ----------
@@ -56,7 +58,7 @@ class Reel:
 
     """
 
-    def __init__(self, web: Any) -> None:
+    def __init__(self, web: WebsockMessageHandler) -> None:
         self.start_s = time.monotonic()
         self.sent: list[tuple[float, Any]] = []
         self.size_bytes = 0
@@ -95,7 +97,7 @@ class SceneTape:
     """
 
     def __init__(self, server: ViserServer, span_s: float, max_bytes: int) -> None:
-        self._web: Any = server._websock_server
+        self._web = connection_of(server.gui)
         self._span_s = span_s
         self._max_bytes = max_bytes
         self._lock = threading.Lock()

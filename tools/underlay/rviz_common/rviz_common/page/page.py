@@ -15,7 +15,7 @@ from rviz_common.page.client_html import adapted
 from rviz_common.page.connection_log import complain_about_task, LOGGER
 from rviz_common.page.gated_page import GatedPage, POLICY
 from rviz_common.page.message_filter import OptionsOf, Strained, Uploads
-from rviz_common.page.raw_messages import send
+from rviz_common.page.viser_connection import connection_of
 from rviz_common.page.watchdog import serving
 import viser
 from viser._messages import FileTransferPartAck, FileTransferStartUpload, RemoveNotificationMessage
@@ -86,7 +86,7 @@ class Page(GatedPage):
         )
         for client in self.viser.get_clients().values():
             for message in (complete, RemoveNotificationMessage(f'upload-{start.transfer_uuid}')):
-                send(client.gui, message)
+                connection_of(client.gui).queue_message(message)
 
     def present(self, name: str, icon: str = '') -> None:
         """

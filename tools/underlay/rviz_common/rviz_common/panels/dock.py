@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING
 
-from rviz_common.page.raw_messages import send
+from rviz_common.page.viser_connection import connection_of
 from rviz_common.widget_order import TABS_ORDER
 from viser._messages import GuiFolderMessage
 
@@ -136,7 +136,8 @@ class Dock:
         folder.parent_container_id = container
         handle._children[folder.uuid] = before._children.pop(folder.uuid)
         tab.handle = handle
-        send(self._gui, GuiFolderMessage(folder.uuid, container, folder.props))
+        message = GuiFolderMessage(folder.uuid, container, folder.props)
+        connection_of(self._gui).queue_message(message)
 
     def _arrange_row(self) -> None:
         """Order the tabs in the row; viser has only a way to append new ones."""
