@@ -63,6 +63,10 @@ class Hands:
 
         return ActionServer(self.node, GripperCommand, name, execute, cancel_callback=cancel)
 
+    def have_all(self) -> bool:
+        """Return whether the goals of the client are executed, two of each action."""
+        return all(len(ids) == 2 for ids in self.ids.values())
+
     def newest(self) -> dict[str, list[bytes]]:
         """Return the newest goal of each action."""
         return {name: ids[-1:] for name, ids in self.ids.items()}
@@ -98,6 +102,8 @@ def test_goals_end_with_who_gave_them(
     with running_program([sys.executable, str(script)]) as program:
         hands.ros.wait_until(lambda: 'both' in program.output, PATIENCE_S, program.output)
         guard = guard_of(hands.ros, program.pid)
+        # A goal is accepted before it is executed.
+        hands.ros.wait_until(hands.have_all, PATIENCE_S, 'the goals')
         given = hands.newest()
         other = ActionCaller(hands.ros, GripperCommand, 'another')
         assert other.send().accepted

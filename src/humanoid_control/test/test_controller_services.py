@@ -14,7 +14,13 @@ from controller_manager_msgs.srv import (
     SwitchController,
 )
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_control.controllers import follow_mode, hold_mode, TrajectoryPoint, TrajectoryRequest
+from humanoid_control.controllers import (
+    CommandError,
+    follow_mode,
+    hold_mode,
+    TrajectoryPoint,
+    TrajectoryRequest,
+)
 from humanoid_control.hosting.controller_services import controllers_of, switch
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.mock_robot import MockRobot
@@ -100,7 +106,7 @@ def test_deactivate_and_activate() -> None:
     robot.tick()
     assert ends[0].message == 'The controller was deactivated.'
     assert robot.states()[LEFT] == 'inactive' and robot.claims() == {'follow': JOINTS}
-    with pytest.raises(ValueError, match="'left_arm_controller' is inactive. Activate it: ros2"):
+    with pytest.raises(CommandError, match="'left_arm_controller' is inactive. Activate it: ros2"):
         robot.send()
     assert switch(robot.control, [LEFT], [], STRICT) == (True, '')
     assert robot.states()[LEFT] == 'active'
