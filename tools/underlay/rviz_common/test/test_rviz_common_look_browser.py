@@ -23,6 +23,13 @@ SMOOTHED = """
     window.__viserMutable.canvas.getContext('webgl2').getContextAttributes().antialias
 """
 RATIO = 'window.__viserTestpoints?.devSettings.get().fixedDpr'
+SIMPLE = """(() => {
+    const found = [];
+    window.__viserMutable.scene.traverse(({ material }) => {
+      if (material?.type === 'MeshBasicMaterial') found.push(Boolean(material.userData.isSimple));
+    });
+    return found;
+})()"""
 SCHEME = "document.documentElement.getAttribute('data-mantine-color-scheme')"
 
 
@@ -83,10 +90,12 @@ def test_each_browser_draws_as_much_as_it_can(
     look.locator('#quality').select_option('Coarse')
     spin_until(lambda: tab.evaluate(RATIO) == 0.6, 'fewer pixels')
     assert client.scene.get_handle_by_name(EVEN_LIGHT) is not None
+    spin_until(lambda: any(tab.evaluate(SIMPLE)), 'simple light')
     tab.reload(wait_until='commit')
     spin_until(look.locator('#quality').is_visible, 'the choice')
     assert look.locator('#quality').input_value() == '2'
     look.locator('#quality').select_option('Automatic')
     spin_until(lambda: told.is_visible() and tab.evaluate(RATIO) is None, 'all pixels again')
+    spin_until(lambda: not any(tab.evaluate(SIMPLE)), 'no simple light')
     (frame,) = (each for each in tab.frames if '/look/' in each.url)
     assert obstacles(frame) == []

@@ -67,7 +67,8 @@ class Viewers:
             'rate': self._take_rate,
         }
         self._channel = Channel(context.queue, lambda viewer: None, actions)
-        route = Route(filled(web_file('look.html'), {}), self._channel.talk)
+        text = web_file('look.html').replace('/* drawing.js */', web_file('drawing.js'))
+        route = Route(filled(text, {}), self._channel.talk)
         self._path = next(PATHS)
         context.page.routes.add(self._path, route)
         context.server.on_client_connect(
