@@ -16,7 +16,7 @@ from rviz_common.status import Level
 __all__ = ['Axes', 'Grid', 'GridSize', 'in_pieces', 'lines']
 
 MAX_LINES = 20000
-PIECE_CELLS = 2
+PIECE_CELLS = 10
 """The length of the pieces in which lines are drawn, in cells: each piece is six triangles."""
 BACKGROUND = 48  # RViz's grey, which translucent lines are blended with
 LINES, BILLBOARDS = 'Lines', 'Billboards'
