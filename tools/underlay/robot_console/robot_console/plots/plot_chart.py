@@ -14,10 +14,9 @@ from robot_console.plots.plot_board import Plotted
 from robot_console.plots.traces import Numbers, slice_times
 from robot_console.plots.units import shared_unit
 from viser import uplot
-from viser._messages import GuiUpdateMessage
 
 if TYPE_CHECKING:
-    from viser import ViserServer
+    from viser import GuiApi, ViserServer
 
 __all__ = ['STYLE', 'PlotChart', 'legend_html']
 
@@ -93,8 +92,9 @@ class PlotChart:
     """
     The viser widget that draws curves over a time window.
 
-    New curves and new options are sent in one message: uPlot fails if they do not match. The
-    widget is never replaced: a slow browser would still get curves for the one that was removed.
+    The widget is replaced whenever the number of curves, the scale or the unit changes: a browser
+    receives the curves and the options of a widget one after the other, and uPlot fails if they do
+    not match.
 
     Parameters
     ----------
@@ -104,16 +104,11 @@ class PlotChart:
     """
 
     def __init__(self, server: ViserServer) -> None:
+        self._server = server
+        self._place = server.gui.add_folder(None)
         self._count, self._is_zero, self._unit = 0, True, ''
         self._is_wider = False
-        times = np.array([-1.0, 0.0])
-        self._chart = server.gui.add_uplot(
-            (times, np.zeros(2)),
-            **self._options(),
-            legend=uplot.Legend(show=False),
-            height=HEIGHT,
-            padding=(10, 16, 0, 0),
-        )
+        self._chart = self._new_chart(np.array([-1.0, 0.0]))
 
     def draw(self, window_s: float, curves: Sequence[Numbers], unit: str) -> None:
         """
@@ -133,29 +128,32 @@ class PlotChart:
         times = slice_times(window_s) * (WIDER if self._is_wider else 1.0)
         is_zero = not any(np.nan_to_num(curve).any() for curve in curves)
         kind = len(curves), is_zero, unit
-        shown = curves or [np.zeros(len(times))]
-        # Arrays of viser contain numbers only, but uPlot requires null for a gap.
-        data = {'data': tuple(map(_encoded, (times, *shown)))}
-        if kind != (self._count, self._is_zero, self._unit):
-            self._count, self._is_zero, self._unit = kind
-            self._send({**data, **self._options()})
-        self._send(data)  # always: a new browser gets the newest message of each kind, in order
+        with self._server.atomic():
+            if kind != (self._count, self._is_zero, self._unit):
+                self._count, self._is_zero, self._unit = kind
+                self._chart.remove()
+                self._chart = self._new_chart(times)
+            shown = curves or [np.zeros(len(times))]
+            # Arrays of viser contain numbers only, but uPlot requires null for a gap.
+            self._chart._queue_update('data', tuple(map(_encoded, (times, *shown))))
 
-    def _send(self, updates: dict[str, Any]) -> None:
-        message = GuiUpdateMessage(self._chart._impl.uuid, updates)
-        self._chart._impl.gui_api._websock_interface.queue_message(message)
-
-    def _options(self) -> dict[str, Any]:
-        """Return the options for the current number of curves, scale and unit."""
+    def _new_chart(self, times: Numbers) -> Any:
+        """Add a widget for the current number of curves, scale and unit."""
+        gui: GuiApi = self._server.gui
         series = [
             uplot.Series(label=f'{number}', stroke=color, width=1.5, spanGaps=False)
             for number, color in enumerate(COLORS[: self._count], 1)
         ] or [NO_CURVE]
-        return {
-            'series': (X_AXIS, *series),
-            'scales': AROUND_ZERO if self._is_zero else FREE,
-            'axes': (_axis('s'), _axis(self._unit)),
-        }
+        with self._place:
+            return gui.add_uplot(
+                (times, *(np.zeros(len(times)) for _ in series)),
+                (X_AXIS, *series),
+                scales=AROUND_ZERO if self._is_zero else FREE,
+                axes=(_axis('s'), _axis(self._unit)),
+                legend=uplot.Legend(show=False),
+                height=HEIGHT,
+                padding=(10, 16, 0, 0),
+            )
 
 
 def _axis(unit: str) -> uplot.Axis:

@@ -54,8 +54,6 @@ def test_other_series(
         ticks = tab.evaluate(TICKS)
         return tab.evaluate(DRAWN) == [count] and len(ticks) == 1 and min(ticks[0]) > 2
 
-    complaints: list[str] = []
-    tab.on('console', lambda message: complaints.append(message.text))
     tab.goto(f'{watched_page.url}?fixedDpr=0.5')
     work_until(panel, lambda: tab.get_by_role('tab', name='Plots').count(), move)
     tab.get_by_role('tab', name='Plots').click()
@@ -65,21 +63,3 @@ def test_other_series(
         panel.show(series)
         work_until(panel, lambda count=len(series): is_drawn(count), move)
     assert tab.evaluate(LABELS) == [['s', 'rad or m']]
-    assert [each for each in complaints if 'component' in each] == []
-
-
-def test_another_browser(
-    watched_page: Page, show_panel: Any, work_until: Any, move: Callable[[], None], tab: Any
-) -> None:
-    """A browser that comes later shows the plot as it is then, without an error."""
-    panel = show_panel(PlotsPanel, Series=POSITION)
-    work_until(panel, lambda: panel._board.plotted[0].trace.newest, move)
-    panel.show(parse_all(EFFORT))
-    work_until(panel, lambda: panel._board.plotted[0].trace.newest, move)
-    panel._draw_curves()
-    panel.show(parse_all(STILL))
-    complaints: list[str] = []
-    tab.on('console', lambda message: complaints.append(message.text))
-    tab.goto(f'{watched_page.url}?fixedDpr=0.5')
-    work_until(panel, lambda: tab.evaluate(DRAWN) == [2], move)
-    assert [each for each in complaints if 'component' in each] == []
