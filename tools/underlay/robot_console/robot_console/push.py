@@ -11,7 +11,7 @@ from typing import Any
 from robot_console.namespaces import NAMESPACE
 from robot_console.spring import Grip, Spring
 from robot_console.wrench_link import Pulses, WrenchLink
-from rviz_common.canvas import Canvas, IN_FRONT
+from rviz_common.canvas import Canvas
 from rviz_common.context import Context
 from rviz_common.frames import Pose
 from rviz_common.properties import Number, Text
@@ -218,12 +218,12 @@ class Push(ObjectTool):
             link.push(entity, force_n, point, duration_s, lambda reason: self._fail(pull, reason))
 
     def _show(self, at: Point, pull: _Pull, force_n: Point) -> None:
-        """Draw the spring as an arrow, in front of what hides it, with the force in N."""
+        """Draw the spring as an arrow, with the force in N."""
         size_n = math.hypot(*force_n)
         x, y, z = (b - a for a, b in zip(at, pull.target))
         is_limited = size_n > 0.999 * pull.spring.limit_n
         with self._canvas.anew():
-            add_arrow_to(self._canvas, IN_FRONT, (x, y, z), WIDTH_M, PAINT, at)
+            add_arrow_to(self._canvas, 'arrow', (x, y, z), WIDTH_M, PAINT, at)
             self._canvas.put(
                 'label',
                 'force',
