@@ -13,10 +13,7 @@ import numpy as np
 if TYPE_CHECKING:
     from viser import SceneApi
 
-__all__ = ['IN_FRONT', 'Canvas']
-
-IN_FRONT = 'in_front'
-"""The name of a node that browsers draw in front of all that is not named so: see `drawing.js`."""
+__all__ = ['Canvas']
 
 COLORS = ('colors', 'batched_colors')
 ONCE = ('jpeg_quality',)

@@ -1,6 +1,5 @@
 // How this browser draws the scene of viser, which shows it to its own tests as `__viserMutable`.
 const drawScene = (() => {
-  const IN_FRONT = '/in_front';  // as in canvas.py
   const THIN_M = 0.01;
   // Light at vertices only, as a diffuse surface reflects it: without a graphics card, pixels are what takes time.
   const LIGHTS = `
@@ -103,19 +102,6 @@ const drawScene = (() => {
     Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   }
 
-  function nearer(renderer) {
-    const range = renderer.capabilities.reversedDepthBuffer ? [0.9, 1] : [0, 0.1];
-    renderer.getContext().depthRange(...range);
-  }
-
-  function asEver(renderer) {
-    renderer.getContext().depthRange(0, 1);
-  }
-
-  function bringToFront(object) {
-    if (object.isMesh) Object.assign(object, { onBeforeRender: nearer, onAfterRender: asEver });
-  }
-
   // Has each frame drawn as this browser can; to be called again now and then, since viser can begin anew.
   return (viser, hasCard, isCoarse) => {
     if (!viser?.scene) return;
@@ -127,9 +113,6 @@ const drawScene = (() => {
         thicken(object, domElement);
         setBack(object);
       });
-      for (const [name, node] of Object.entries(viser.nodeRefFromName)) {
-        if (name.endsWith(IN_FRONT)) node?.traverse(bringToFront);
-      }
     };
   };
 })();
