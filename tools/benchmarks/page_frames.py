@@ -35,6 +35,7 @@ WALK = [
     'geometry_msgs/msg/Twist',
     '{linear: {x: 0.3}}',
 ]
+QUALITIES = ('full', 'no-cast-shadows', 'coarse')
 DISPLAYS = ('CommandedRobot', 'RobotModel')
 TIMEOUT_S, SETTLE_S, CHANGE_S = 60.0, 15.0, 3.0
 COUNT = """(seconds) => new Promise((done) => {
@@ -55,6 +56,9 @@ def main() -> None:
     parser.add_argument('--width', type=in_range(int, 200), default=1200, help='in pixels')
     parser.add_argument('--height', type=in_range(int, 200), default=800, help='in pixels')
     parser.add_argument(
+        '--quality', choices=QUALITIES, help='of the page; without it, the page chooses by itself'
+    )
+    parser.add_argument(
         '--seconds', type=in_range(float, 1.0), default=6.0, help='how long each row is measured'
     )
     options = parser.parse_args()
@@ -67,7 +71,11 @@ def main() -> None:
         with running(command):
             browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
             size = {'width': options.width, 'height': options.height}
-            page = opened(browser.new_page(viewport=size), f'http://127.0.0.1:{port}')
+            page = browser.new_page(viewport=size)
+            if options.quality is not None:
+                step = QUALITIES.index(options.quality)
+                page.add_init_script(f"localStorage.setItem('rviz.quality', '{step}')")
+            opened(page, f'http://127.0.0.1:{port}')
             measure(page, options.seconds)
             browser.close()
 
