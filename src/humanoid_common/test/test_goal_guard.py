@@ -20,21 +20,25 @@ from rclpy.action import ActionServer, CancelResponse
 from rclpy.task import Future
 
 CLIENT = """\
+import sys
 import rclpy
 from control_msgs.action import GripperCommand
 from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
+from humanoid_common.running import run_node
 
-rclpy.init()
-node = rclpy.create_node('client')
-guard = GoalGuard(node)
-clients = [GuardedActionClient(guard, GripperCommand, name) for name in ('one', 'another')]
-for client in clients:
-    assert client.wait_for_server(30.0)
-    for position in (0.01, 0.02):
-        sent = client.send_goal_async(GripperCommand.Goal())
-        rclpy.spin_until_future_complete(node, sent)
-print('both are on their way', flush=True)
-rclpy.spin(node)
+def client():
+    node = rclpy.create_node('client')
+    guard = GoalGuard(node)
+    clients = [GuardedActionClient(guard, GripperCommand, name) for name in ('one', 'another')]
+    for client in clients:
+        assert client.wait_for_server(30.0)
+        for position in (0.01, 0.02):
+            sent = client.send_goal_async(GripperCommand.Goal())
+            rclpy.spin_until_future_complete(node, sent)
+    print('both are on their way', flush=True)
+    return node
+
+sys.exit(run_node(client))
 """
 PATIENCE_S = 30.0
 
