@@ -9,6 +9,7 @@ verbs = (
     'list_controllers',
     'list_hardware_components',
     'list_hardware_interfaces',
+    'set_controller_state',
     'switch_controllers',
 )
 

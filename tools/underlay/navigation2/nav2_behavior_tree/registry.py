@@ -34,9 +34,15 @@ _RENAMED = {
     'BlackboardCheckDouble': 'Precondition',
     'BlackboardCheckString': 'Precondition',
 }
+_NO_ROUTES = 'there is no route server; ComputePathToPose plans on the map instead'
 _MISSING = {
     'ManualSelector': 'it would need a user who selects a child',
     'ConsumeQueue': 'deprecated nodes of BehaviorTree.CPP are left out',
+    'ComputeRoute': _NO_ROUTES,
+    'ComputeAndTrackRoute': _NO_ROUTES,
+    'CancelComputeAndTrackRoute': _NO_ROUTES,
+    'ComputeCoveragePath': 'there is no coverage server; ComputePathThroughPoses visits poses',
+    'CancelCoverage': 'there is no coverage server',
 }
 
 

@@ -14,6 +14,7 @@ from nav2_behavior_tree.ros_interface import LATCHED, OdometrySmoother, RosInter
 from nav2_msgs.srv import GetCost
 from nav2_util import LifecycleNode, Pose2D
 from nav2_util.geometry import make_path
+from nav_msgs.msg import Path as NavPath
 import pytest
 from rclpy.action.client import ClientGoalHandle
 from rclpy.task import Future
@@ -99,6 +100,40 @@ def test_paths_are_cut_and_measured(lab: Lab) -> None:
     assert tree.tick() is SUCCESS and tree.blackboard.get('out').pose.position.x == 4.0
     tree = lab.tree('<GetPoseFromPath path="{path}" index="9" pose="{out}"/>', path=straight(4))
     assert tree.tick() is FAILURE and 'none with index 9' in str(tree.failure)
+
+
+def test_paths_are_joined(lab: Lab) -> None:
+    """One after the other, in one frame; one of them may be missing."""
+    join = '<ConcatenatePaths input_path1="{a}" input_path2="{b}" output_path="{out}"/>'
+    tree = lab.tree(join, a=straight(2), b=straight(1))
+    assert tree.tick() is SUCCESS
+    assert [each.pose.position.x for each in tree.blackboard.get('out').poses] == [0, 1, 2, 0, 1]
+    assert tree.blackboard.get('out').header.frame_id == 'map'
+    tree = lab.tree(join.replace(' input_path1="{a}"', ''), b=straight(1))
+    assert tree.tick() is SUCCESS and len(tree.blackboard.get('out').poses) == 2
+    tree = lab.tree(join, a=NavPath(), b=NavPath())
+    assert tree.tick() is FAILURE and 'Both paths are empty' in str(tree.failure)
+    elsewhere = straight(1)
+    elsewhere.header.frame_id = 'odom'
+    tree = lab.tree(join, a=straight(1), b=elsewhere)
+    assert tree.tick() is FAILURE and "frames, 'map' and 'odom'" in str(tree.failure)
+
+
+def test_poses_are_compared_with_that_of_the_robot(lab: Lab) -> None:
+    """GetCurrentPose writes the robot's pose; ArePosesNear compares two."""
+    lab.move(1.5)
+    body = (
+        '<Sequence><GetCurrentPose current_pose="{here}"/>'
+        '<ArePosesNear ref_pose="{here}" target_pose="{goal}" tolerance="0.10"/></Sequence>'
+    )
+    assert lab.tree(body, goal=pose(1.55)).tick() is SUCCESS
+    tree = lab.tree(body, goal=pose(1.7))
+    assert tree.tick() is FAILURE
+    here = tree.blackboard.get('here')
+    assert (here.header.frame_id, here.pose.position.x) == ('map', pytest.approx(1.5))
+    in_robot = pose(0.05)
+    in_robot.header.frame_id = 'base_link'
+    assert lab.tree(body, goal=in_robot).tick() is SUCCESS
 
 
 def test_a_much_longer_path_near_the_goal_is_noticed(lab: Lab) -> None:
@@ -336,6 +371,10 @@ EXAMPLES = [
     '<DockRobot dock_id="{dock_id}" error_code_id="{e}"/>',
     '<UndockRobot dock_type="{dock_type}"/>',
     '<GetPoseFromPath path="{path}" pose="{p}" index="-1"/>',
+    '<ConcatenatePaths input_path1="{main_path}" input_path2="{last_mile_path}" '
+    'output_path="{path}"/>',
+    '<GetCurrentPose current_pose="{current_pose}"/>',
+    '<ArePosesNear ref_pose="{init_pose}" target_pose="{goal_pose}" tolerance="0.10"/>',
     '<GlobalUpdatedGoal/>',
     '<InitialPoseReceived/>',
     '<WouldASmootherRecoveryHelp error_code="{smoother_error_code}"/>',

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A process that answers as a controller manager does: one that walks, and an arm."""
+"""
+A process that answers as controller managers do.
+
+One has a controller that walks, and an arm; the other one, `legs/controller_manager`, has a
+controller that is not configured.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +19,7 @@ from controller_manager_msgs.msg import (
     HardwareInterface,
 )
 from controller_manager_msgs.srv import (
+    ConfigureController,
     ListControllers,
     ListControllerTypes,
     ListHardwareComponents,
@@ -97,15 +103,37 @@ class Manager:
         return response
 
 
+class Legs:
+    """The answers of a manager with a controller that is not configured."""
+
+    def __init__(self, node: Any) -> None:
+        """Offer the services."""
+        self._state = 'unconfigured'
+        for kind, name, answer in (
+            (ListControllers, 'list_controllers', self._controllers),
+            (ConfigureController, 'configure_controller', self._configure),
+        ):
+            node.create_service(kind, f'legs/controller_manager/{name}', answer)
+
+    def _controllers(self, _: Any, response: Any) -> Any:
+        response.controller = [ControllerState(name='leg', state=self._state, type='l/Leg')]
+        return response
+
+    def _configure(self, request: Any, response: Any) -> Any:
+        self._state = 'inactive'
+        response.ok = request.name == 'leg'
+        return response
+
+
 def main() -> None:
     """Answer until a signal comes."""
     try:
         rclpy.init()
         node = rclpy.create_node('host', namespace=sys.argv[1] if sys.argv[1:] else '')
-        manager = Manager(node)
+        managers = Manager(node), Legs(node)
         print('ready', flush=True)
         rclpy.spin(node)
-        del manager
+        del managers
     except (KeyboardInterrupt, ExternalShutdownException):
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         rclpy.try_shutdown()

@@ -152,6 +152,38 @@ def test_switch_what_is_not_there(control: Ros2) -> None:
     assert done.stderr == "Error switching controllers. There is no 'leg'.\n"
 
 
+def test_set_controller_state(control: Ros2) -> None:
+    """A controller gets the state; that it has it already is no error."""
+    done = control('set_controller_state', 'arm_controller', 'inactive')
+    said = 'Successfully deactivated arm_controller\n'
+    assert (done.returncode, done.stdout, done.stderr) == (0, said, '')
+    assert control('list_controllers').stdout == INACTIVE
+    again = control('set_controller_state', 'arm_controller', 'inactive')
+    assert (again.returncode, again.stdout) == (0, 'arm_controller is inactive\n')
+    done = control('set_controller_state', 'arm_controller', 'active')
+    assert done.stdout == 'Successfully activated arm_controller\n'
+    assert control('list_controllers').stdout == ACTIVE
+
+
+def test_set_the_state_of_a_controller_that_is_not_configured(control: Ros2) -> None:
+    """It is configured first."""
+    done = control('set_controller_state', 'leg', 'inactive', '-c', 'legs/controller_manager')
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout == 'Successfully configured leg\nleg is inactive\n'
+
+
+def test_set_the_state_of_what_is_not_there(control: Ros2) -> None:
+    """A controller that does not exist is an error with a similar name; others are refused."""
+    done = control('set_controller_state', 'arm_controler', 'active')
+    assert done.stderr == (
+        "controller 'arm_controler' does not seem to be loaded\n"
+        "Did you mean 'arm_controller'?\n"
+    )
+    done = control('set_controller_state', 'walk', 'inactive')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == "Error deactivating controller 'walk'. There is no 'walk'.\n"
+
+
 def test_switch_nothing(control: Ros2) -> None:
     """To name no controller is a mistake."""
     done = control('switch_controllers')

@@ -14,11 +14,13 @@ from nav2_behavior_tree.ports import in_port, out_port, Port
 from nav2_behavior_tree.registry import register
 from nav2_behavior_tree.status import NodeStatus
 from nav2_util.errors import NavigationError
-from nav2_util.geometry import make_quaternion, path_poses
+from nav2_util.geometry import make_pose_stamped, make_quaternion, path_poses
 from nav_msgs.msg import Path
 from rclpy.time import Time
 
 __all__ = [
+    'ConcatenatePaths',
+    'GetCurrentPose',
     'GetPoseFromPath',
     'GoalUpdater',
     'RemovePassedGoals',
@@ -175,6 +177,50 @@ class GetPoseFromPath(TreeNode):
         if not pose.header.frame_id:
             pose = PoseStamped(header=path.header, pose=pose.pose)
         self.output('pose', pose)
+        return SUCCESS
+
+
+@register()
+class ConcatenatePaths(TreeNode):
+    """Appends a path to another one."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'input_path1': in_port('path', None, 'The first path.'),
+        'input_path2': in_port('path', None, 'The path that follows it, in the same frame.'),
+        'output_path': out_port('path', 'Both, one after the other.'),
+    }
+
+    def on_tick(self) -> NodeStatus:
+        """Write the poses of both paths; one of them may be missing or empty."""
+        first, second = (self.input(name) or Path() for name in ('input_path1', 'input_path2'))
+        if not first.poses and not second.poses:
+            self.fail('Both paths are empty.')
+            return FAILURE
+        frames = [path.header.frame_id for path in (first, second) if path.poses]
+        if len(set(frames)) > 1:
+            self.fail(f"The paths are in different frames, '{frames[0]}' and '{frames[1]}'.")
+            return FAILURE
+        header = (first if first.poses else second).header
+        self.output('output_path', Path(header=header, poses=[*first.poses, *second.poses]))
+        return SUCCESS
+
+
+@register()
+class GetCurrentPose(TreeNode):
+    """Writes the pose of the robot."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'global_frame': in_port('text', '', "The frame of the pose; empty: the navigator's."),
+        'robot_base_frame': in_port('text', '', "The robot's frame; empty: the navigator's."),
+        'current_pose': out_port('pose', 'The pose.'),
+    }
+
+    def on_tick(self) -> NodeStatus:
+        """Look up the newest pose."""
+        ros = self.context.ros
+        frame = self.input('global_frame') or ros.global_frame
+        robot = ros.robot_pose(frame, self.input('robot_base_frame'))
+        self.output('current_pose', make_pose_stamped(robot, frame, ros.stamp()))
         return SUCCESS
 
 

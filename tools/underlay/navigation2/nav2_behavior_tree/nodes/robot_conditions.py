@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions on the robot: its pose, motion, battery and transforms."""
+"""Conditions on poses, and on the robot: its motion, battery and transforms."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from nav2_util import Pose2D
 from sensor_msgs.msg import BatteryState
 
 __all__ = [
+    'ArePosesNear',
     'DistanceTraveled',
     'GoalReached',
     'IsBatteryCharging',
@@ -56,6 +57,26 @@ class GoalReached(TreeNode):
         robot = ros.robot_pose(frame, self.input('robot_base_frame'))
         goal = ros.pose_in(self.required('goal'), frame)
         return outcome(robot.distance_to(goal) <= self._tolerance_m)
+
+
+@register()
+class ArePosesNear(TreeNode):
+    """Succeeds if two poses are near each other."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'ref_pose': in_port('pose', None, 'One pose.'),
+        'target_pose': in_port('pose', None, 'The other one.'),
+        'global_frame': in_port('text', '', "Where their frames differ; empty: the navigator's."),
+        'tolerance': in_port('number', '0.5', 'How near, in m.'),
+    }
+
+    def on_tick(self) -> NodeStatus:
+        """Measure the distance, in the frame of the poses if it is the same."""
+        poses = [self.required(name) for name in ('ref_pose', 'target_pose')]
+        frames = {pose.header.frame_id for pose in poses}
+        frame = frames.pop() if len(frames) == 1 else self.input('global_frame')
+        first, second = (self.context.ros.pose_in(pose, frame) for pose in poses)
+        return outcome(first.distance_to(second) <= self.input('tolerance'))
 
 
 @register()

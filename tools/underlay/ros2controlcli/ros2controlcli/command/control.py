@@ -28,6 +28,10 @@ class ControlCommand(VerbCommand):
             'ros2controlcli.verb.list_hardware_interfaces:ListHardwareInterfacesVerb',
             'List command and state interfaces',
         ),
+        'set_controller_state': Entry(
+            'ros2controlcli.verb.set_controller_state:SetControllerStateVerb',
+            'Adjust the state of a controller',
+        ),
         'switch_controllers': Entry(
             'ros2controlcli.verb.switch_controllers:SwitchControllersVerb',
             'Switch controllers in a controller manager',
