@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / 'docs' / 'reference'
 NOTE = '<!-- Made by `make docs`; an edit here is overwritten. -->\n'
 ENVIRONMENT = {**os.environ, 'COLUMNS': '100', 'TERM': 'dumb'}
-TRANSFORM_PACKAGES = ('tf2_ros', 'tf2_py', 'tf2_geometry_msgs', 'tf2_tools')
+TRANSFORM_PACKAGES = ('tf2_ros', 'tf2_py', 'tf2_geometry_msgs', 'tf2_sensor_msgs', 'tf2_tools')
 
 
 def output(*command: str) -> str:
