@@ -10,6 +10,7 @@ from typing import Any
 
 from message_filters.simple_filter import SimpleFilter
 from message_filters.stamps import nanoseconds, stamp_ns
+from rclpy.clock import ClockType
 from rclpy.time import Time
 
 __all__ = ['Cache']
@@ -59,7 +60,7 @@ class Cache(SimpleFilter):
     def cache_times(self) -> list[Time]:
         """The times of the kept messages in the order of their arrival."""
         with self._lock:
-            return [Time(nanoseconds=stamp) for stamp, _ in self._kept]
+            return [_ros_time(stamp) for stamp, _ in self._kept]
 
     def connectInput(self, f: SimpleFilter) -> None:
         """
@@ -138,19 +139,23 @@ class Cache(SimpleFilter):
     def getLatestTime(self) -> Time | None:
         """Return the time of the newest message; None if there is none."""
         with self._lock:
-            return Time(nanoseconds=max(map(_time, self._kept))) if self._kept else None
+            return _ros_time(max(map(_time, self._kept))) if self._kept else None
 
     getLastestTime = getLatestTime  # noqa: N815  (the spelling of the genuine package)
 
     def getOldestTime(self) -> Time | None:
         """Return the time of the oldest message; None if there is none."""
         with self._lock:
-            return Time(nanoseconds=min(map(_time, self._kept))) if self._kept else None
+            return _ros_time(min(map(_time, self._kept))) if self._kept else None
 
     def getLast(self) -> Any:
         """Return the newest message; None if there is none."""
         with self._lock:
             return max(self._kept, key=_time)[1] if self._kept else None
+
+
+def _ros_time(stamp_ns: int) -> Time:
+    return Time(nanoseconds=stamp_ns, clock_type=ClockType.ROS_TIME)
 
 
 def _time(entry: tuple[int, Any]) -> int:

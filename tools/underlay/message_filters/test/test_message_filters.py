@@ -135,8 +135,8 @@ def test_cache() -> None:
         source.signalMessage(at(seconds))
     assert passed == [(1.0,), (2.0,), (3.0,), (4.0,)]
     second = Time(seconds=1)
-    assert cache.getOldestTime() == Time(seconds=2)
-    assert cache.getLastestTime() == cache.getLatestTime() == Time(seconds=4)
+    assert cache.getOldestTime() == Time.from_msg(at(2.0).header.stamp)
+    assert cache.getLastestTime() == cache.getLatestTime() == Time.from_msg(at(4.0).header.stamp)
     assert seconds_of(*cache.getInterval(second, Time(seconds=3))) == (2.0, 3.0)
     assert seconds_of(cache.getElemAfterTime(at(2.5).header.stamp)) == (3.0,)
     assert seconds_of(cache.getElemBeforeTime(Time(nanoseconds=2_500_000_000))) == (2.0,)

@@ -272,14 +272,14 @@ def create_cloud_xyz32(header: Header, points: Iterable[Any]) -> PointCloud2:
 
 
 def _all_points(cloud: PointCloud2) -> np.ndarray:
-    """Return a view of all points of a message, without the padding of rows."""
+    """Return a copy of all points of a message, without the padding of rows."""
     kind = dtype_from_fields(cloud.fields, cloud.point_step)
     if bool(cloud.is_bigendian) != (sys.byteorder != 'little'):
         kind = kind.newbyteorder()
     strides = (cloud.row_step or cloud.width * cloud.point_step, cloud.point_step)
     if not cloud.width * cloud.height:
         return np.empty(0, kind)
-    rows = np.ndarray((cloud.height, cloud.width), kind, bytes(cloud.data), strides=strides)
+    rows = np.ndarray((cloud.height, cloud.width), kind, bytearray(cloud.data), strides=strides)
     return rows.reshape(-1)
 
 

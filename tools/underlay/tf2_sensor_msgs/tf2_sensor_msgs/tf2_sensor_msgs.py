@@ -60,7 +60,7 @@ def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped) -> Point
         The cloud does not have the fields x, y and z.
 
     """
-    points = read_points(cloud).copy()
+    points = read_points(cloud)
     names = points.dtype.names or ()
     if not set(_PLACE) <= set(names):
         raise ValueError(
