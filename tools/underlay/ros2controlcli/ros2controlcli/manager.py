@@ -37,7 +37,7 @@ def add_manager_arguments(parser: argparse.ArgumentParser) -> None:
     add_hidden_nodes_argument(parser)
 
 
-def ask(args: argparse.Namespace, name: str, kind: str, **request: Any) -> Any:
+def ask(args: argparse.Namespace, name: str, kind: str, /, **request: Any) -> Any:
     """
     Call a service of the controller manager that the command line names.
 

@@ -176,8 +176,7 @@ def test_set_the_state_of_what_is_not_there(control: Ros2) -> None:
     """A controller that does not exist is an error with a similar name; others are refused."""
     done = control('set_controller_state', 'arm_controler', 'active')
     assert done.stderr == (
-        "controller 'arm_controler' does not seem to be loaded\n"
-        "Did you mean 'arm_controller'?\n"
+        "controller 'arm_controler' does not seem to be loaded\nDid you mean 'arm_controller'?\n"
     )
     done = control('set_controller_state', 'walk', 'inactive')
     assert (done.returncode, done.stdout) == (1, '')

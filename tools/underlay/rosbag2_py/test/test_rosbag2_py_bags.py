@@ -92,9 +92,7 @@ def test_filters_and_times(bag: str) -> None:
     assert {name for name, _, _ in read(reader)} == {'/count'}
     limited = rosbag2_py.SequentialReader()
     limited.open(
-        rosbag2_py.StorageOptions(
-            bag, start_time_ns=START_NS + 2000, end_time_ns=START_NS + 3000
-        )
+        rosbag2_py.StorageOptions(bag, start_time_ns=START_NS + 2000, end_time_ns=START_NS + 3000)
     )
     assert len(read(limited)) == 3
 

@@ -155,7 +155,7 @@ def read_points_list(
 
     """
     points = read_points(cloud, field_names, skip_nans, uvs)
-    point = namedtuple('Point', points.dtype.names)  # noqa: PYI024  (the fields are data)
+    point = namedtuple('Point', points.dtype.names)
     return [point._make(row) for row in points.tolist()]
 
 
