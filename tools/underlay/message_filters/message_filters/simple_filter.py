@@ -11,7 +11,7 @@ __all__ = ['SimpleFilter']
 
 
 class SimpleFilter:
-    """Base class of filters: `registerCallback` connects the next filter, or the user's function."""
+    """Base class of filters: `registerCallback` connects the next filter or a function."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., object], tuple[Any, ...]]] = {}

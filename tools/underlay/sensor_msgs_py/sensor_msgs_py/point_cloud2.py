@@ -122,8 +122,8 @@ def read_points_numpy(
     if len({field.datatype for field in fields}) > 1:
         types = ', '.join(f'{field.name}: {_TYPES[field.datatype]}' for field in fields)
         raise ValueError(
-            f'An array of numbers needs fields of one type, these are of several ({types}): choose '
-            'some with field_names, or use read_points'
+            f'An array of numbers needs fields of one type, these are of several ({types}): '
+            'choose some with field_names, or use read_points'
         )
     points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
     return structured_to_unstructured(points)
