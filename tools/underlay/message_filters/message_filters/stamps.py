@@ -46,9 +46,9 @@ def stamp_ns(msg: Any, source: Any, *, allow_headerless: bool) -> int | None:
         None, and a warning, for a message without a header that may not be without.
 
     """
-    header = getattr(msg, 'header', None)
-    if hasattr(header, 'stamp'):
-        return nanoseconds(header.stamp)
+    stamp = getattr(getattr(msg, 'header', None), 'stamp', None)
+    if stamp is not None:
+        return nanoseconds(stamp)
     if not allow_headerless:
         get_logger('message_filters').warning(
             f'A message of type {type(msg).__name__} has no header with a time stamp, so it is '

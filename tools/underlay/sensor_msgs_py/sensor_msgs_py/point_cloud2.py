@@ -24,7 +24,7 @@ __all__ = [
 ]
 
 DUMMY_FIELD_PREFIX = 'unnamed_field'
-_TYPES = {
+_TYPES: dict[int, np.dtype] = {
     PointField.INT8: np.dtype(np.int8),
     PointField.UINT8: np.dtype(np.uint8),
     PointField.INT16: np.dtype(np.int16),
@@ -155,7 +155,7 @@ def read_points_list(
 
     """
     points = read_points(cloud, field_names, skip_nans, uvs)
-    point = namedtuple('Point', points.dtype.names)
+    point = namedtuple('Point', list(points.dtype.names or ()))  # type: ignore[misc]
     return [point._make(row) for row in points.tolist()]
 
 
@@ -185,10 +185,11 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
             names.append(name if field.count <= 1 else f'{name}_{element}')
             offsets.append(field.offset + element * kind.itemsize)
             formats.append(kind)
-    layout: dict[str, Any] = {'names': names, 'offsets': offsets, 'formats': formats}
+    layout: Any = {'names': names, 'offsets': offsets, 'formats': formats}
     if point_step is not None:
         layout['itemsize'] = point_step
-    return np.dtype(layout)
+    kind: np.dtype = np.dtype(layout)
+    return kind
 
 
 def create_cloud(
@@ -279,7 +280,7 @@ def _all_points(cloud: PointCloud2) -> np.ndarray:
     strides = (cloud.row_step or cloud.width * cloud.point_step, cloud.point_step)
     if not cloud.width * cloud.height:
         return np.empty(0, kind)
-    rows = np.ndarray((cloud.height, cloud.width), kind, bytearray(cloud.data), strides=strides)
+    rows: np.ndarray = np.ndarray((cloud.height, cloud.width), kind, bytearray(cloud.data), strides=strides)
     return rows.reshape(-1)
 
 

@@ -35,7 +35,8 @@ def transform_points(point_cloud: np.ndarray, transform: Transform) -> np.ndarra
 
     """
     move = transform.translation
-    return _turn(transform).apply(point_cloud) + (move.x, move.y, move.z)
+    moved: np.ndarray = _turn(transform).apply(point_cloud) + (move.x, move.y, move.z)
+    return moved
 
 
 def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped) -> PointCloud2:
