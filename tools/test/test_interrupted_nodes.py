@@ -78,6 +78,7 @@ while rclpy.ok():
 WOKEN = """
 import threading
 import rclpy
+import rclpy.executors
 
 rclpy.init()
 executor = rclpy.executors.SingleThreadedExecutor()
@@ -109,6 +110,7 @@ except rclpy.executors.ExternalShutdownException:
 """
 SHUT_DOWN_BETWEEN = """
 import rclpy
+import rclpy.executors
 
 rclpy.init()
 executor = rclpy.executors.SingleThreadedExecutor()

@@ -249,7 +249,9 @@ def write_wheels(environment: Path, packages: Path) -> None:
     client.write_text('import threading\n\n\nclass ActionClient:\n    take_data = len\n')
     messages = packages / 'viser' / 'infra' / '_async_message_buffer.py'
     messages.parent.mkdir(parents=True)
-    messages.write_text('            self.message_event.set()\n            if self.atomic_counter == 0:')
+    messages.write_text(
+        '            self.message_event.set()\n            if self.atomic_counter == 0:'
+    )
     (packages / 'cmeel.pth').write_text('import cmeel_pth')
     linter = packages / 'ament_flake8' / 'configuration' / 'ament_flake8.ini'
     linter.parent.mkdir(parents=True)
@@ -292,9 +294,7 @@ def write_wheels(environment: Path, packages: Path) -> None:
         ('viser/infra/_async_message_buffer.py', 'message_event'),
     ],
 )
-def test_another_text_is_not_mended(
-    tmp_path: Path, packages: Path, path: str, lacks: str
-) -> None:
+def test_another_text_is_not_mended(tmp_path: Path, packages: Path, path: str, lacks: str) -> None:
     """A file that another version changed is named, with what it lacks, and is left as it is."""
     write_wheels(tmp_path, packages)
     other = packages / path

@@ -71,9 +71,7 @@ class Stack:
         for server in self.servers[1:]:
             assert server.trigger_activate().name == 'SUCCESS'
         self.velocities: list[Twist] = []
-        self.node.create_subscription(
-            Twist, 'cmd_vel', self.velocities.append, 10
-        )
+        self.node.create_subscription(Twist, 'cmd_vel', self.velocities.append, 10)
         self.client = Client(ros, self.node, NavigateToPose, 'navigate_to_pose')
 
     def _make(self, kind: Any, *more: str) -> Any:
