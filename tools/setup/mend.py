@@ -17,6 +17,9 @@
   that of the underlay takes its place, and uses the module of the wheel.
 - A signal shuts the context of a node down. The rclpy.shutdown() at the end of its main() then
   fails, so that each Ctrl-C on a node written as tutorials have it ends in a traceback.
+- A signal wakes the executor of a node, and then shuts its context down, which wakes nobody. An
+  executor that looks at the context in between waits for good, or fails, and SIGTERM does not end
+  the node.
 - An action client loses an answer that comes before its request is noted down, as it can when one
   thread sends and another spins: the goal, its result or its cancellation is waited for in vain.
 - The page's server, viser, sets an event of its event loop from other threads. Set in the moment
@@ -46,6 +49,8 @@ import os
 from pathlib import Path
 import re
 
+from console import SetupError
+
 BUILD_PYTHON = re.compile(r'/opt/python/cp\d+-cp\d+/include/python3\.\d+')
 BUILD_NUMPY = re.compile(r'/opt/python/[^;"]*/numpy/_core/include')
 ASCII_READ = 'file(STRINGS "${idl_output}" idl_tuples)'
@@ -66,7 +71,6 @@ fi
 GENERATOR_IMPORT = re.compile(r'try:\n    from \.generate_py_impl import .*', re.DOTALL)
 UNNEEDED_IMPORTS = re.compile(r'^(?:import pathlib|from typing import .*)\n', re.MULTILINE)
 FIRST_IMPORT = re.compile(r'^(?=import |from )', re.MULTILINE)
-IMPORT_FAILS = re.compile(r'(    except ImportError as e:)\n(?! *from pathlib)')
 GENERATOR_WHEN_NEEDED = """\
 def __getattr__(name):
     if name != 'generate_py':
@@ -221,6 +225,38 @@ _try_shutdown_by_call.__doc__ = _try_shutdown.__doc__
 Context.shutdown, Context.try_shutdown = _shutdown_after_signal, _try_shutdown_by_call
 """
 
+GUARDS_READY = """\
+                guards_ready = wait_set.get_ready_entities('guard_condition')
+"""
+WAIT_FOR_SHUTDOWN = f"""\
+{GUARDS_READY}
+                # Added where these wheels were installed: a signal wakes this, and then shuts the
+                # context down, which wakes nobody.
+                if self._sigint_gc.handle.pointer in guards_ready:
+                    for _ in range(10000):
+                        if not self._context.ok():
+                            raise ExternalShutdownException()
+                        time.sleep(0.001)
+"""
+SHUT_DOWN_WHILE_WAITING = """
+
+# Added where these wheels were installed: a signal may shut the context down after this has looked
+# at it, and nothing can wait in a context that is shut down.
+_wait = Executor.wait_for_ready_callbacks
+
+
+def _wait_or_end(self, *args, **kwargs):
+    try:
+        return _wait(self, *args, **kwargs)
+    except _rclpy.RCLError:
+        if self._context.ok():
+            raise
+        raise ExternalShutdownException() from None
+
+
+_wait_or_end.__doc__ = _wait.__doc__
+Executor.wait_for_ready_callbacks = _wait_or_end
+"""
 ANSWERS_AFTER_REQUESTS = """
 
 # Added where these wheels were installed: no thread takes an answer while another one sends a
@@ -276,6 +312,24 @@ class Interpreter:
 Mend = Callable[[str, Interpreter], str]
 
 
+class UnexpectedTextError(Exception):
+    """A file of a wheel is not the one that was to be mended; the text that it lacks."""
+
+
+def _replace(text: str, old: str, new: str) -> str:
+    """Return a text with a part of it replaced, which may have been done before."""
+    if new in text and (old in new or old not in text):
+        return text
+    if old not in text:
+        raise UnexpectedTextError(old)
+    return text.replace(old, new)
+
+
+def _append(text: str, addition: str) -> str:
+    """Return a text with an addition at its end, which may be there."""
+    return text if text.endswith(addition) else text + addition
+
+
 def _name_python(text: str, interpreter: Interpreter) -> str:
     if '/opt/python/' not in text:
         return text
@@ -284,7 +338,7 @@ def _name_python(text: str, interpreter: Interpreter) -> str:
 
 
 def _read_utf8(text: str, _: Interpreter) -> str:
-    return text.replace(ASCII_READ, UTF8_READ)
+    return _replace(text, ASCII_READ, UTF8_READ)
 
 
 def _start_quickly(_: str, __: Interpreter) -> str:
@@ -300,27 +354,29 @@ def _import_pathlib_when_needed(text: str, _: Interpreter) -> str:
     if 'from __future__ import annotations' in text:
         return text
     text = UNNEEDED_IMPORTS.sub('', text)
-    text = FIRST_IMPORT.sub('from __future__ import annotations\n\n', text, count=1)
-    return text.replace(
-        '    path = pathlib.Path(', '    import pathlib\n\n    path = pathlib.Path('
-    )
+    text, found = FIRST_IMPORT.subn('from __future__ import annotations\n\n', text, count=1)
+    if not found:
+        raise UnexpectedTextError('import')
+    if 'pathlib.Path(' not in text:
+        return text
+    use = '    path = pathlib.Path('
+    return _replace(text, use, f'    import pathlib\n\n{use}')
 
 
 def _import_pathlib_for_errors(text: str, _: Interpreter) -> str:
     text = text.replace('\nfrom pathlib import Path\n', '\n')
-    return IMPORT_FAILS.sub(r'\1\n        from pathlib import Path\n\n', text)
+    handler = '    except ImportError as e:\n'
+    return _replace(text, handler, f'{handler}        from pathlib import Path\n\n')
 
 
 def _import_in_functions(line: str, *uses: str) -> Mend:
     """Return a mend that moves an import of a module to the lines that use it, as they begin."""
 
     def mend(text: str, _: Interpreter) -> str:
-        if f'\n{line}\n' not in text:
-            return text
         text = text.replace(f'\n{line}\n', '\n').replace('-> Path:', "-> 'Path':")
         for use in uses:
             indent = use[: len(use) - len(use.lstrip())]
-            text = text.replace(f'\n{use}', f'\n{indent}{line}\n\n{use}')
+            text = _replace(text, f'\n{use}', f'\n{indent}{line}\n\n{use}')
         return text
 
     return mend
@@ -328,54 +384,58 @@ def _import_in_functions(line: str, *uses: str) -> Mend:
 
 def _import_when_needed(text: str, _: Interpreter) -> str:
     text = text.replace('\nimport logging\nimport traceback\n', '\n')  # for the import below
-    return GENERATOR_IMPORT.sub(GENERATOR_WHEN_NEEDED, text)
+    text = GENERATOR_IMPORT.sub(GENERATOR_WHEN_NEEDED, text)
+    if GENERATOR_WHEN_NEEDED not in text:
+        raise UnexpectedTextError('from .generate_py_impl import')
+    return text
 
 
 def _say_where(text: str, _: Interpreter) -> str:
-    return text.replace('from xacro import', 'from xacro_program import')
+    return _replace(text, 'from xacro import', 'from xacro_program import')
 
 
 def _shut_down_after_signal(text: str, _: Interpreter) -> str:
-    return text if SHUTDOWN_AFTER_SIGNAL in text else text + SHUTDOWN_AFTER_SIGNAL
+    return _append(text, SHUTDOWN_AFTER_SIGNAL)
+
+
+def _end_with_context(text: str, interpreter: Interpreter) -> str:
+    text = _import_in_functions(POOL_IMPORT, POOL_USE)(text, interpreter)
+    return _append(_replace(text, GUARDS_READY, WAIT_FOR_SHUTDOWN), SHUT_DOWN_WHILE_WAITING)
 
 
 def _note_requests_first(text: str, _: Interpreter) -> str:
-    if ANSWERS_AFTER_REQUESTS in text:
-        return text
-    return text.replace('import threading\n', 'import functools\nimport threading\n', 1) + (
-        ANSWERS_AFTER_REQUESTS
-    )
+    text = _replace(text, 'import threading\n', 'import functools\nimport threading\n')
+    return _append(text, ANSWERS_AFTER_REQUESTS)
 
 
 def _wake_event_loop(text: str, _: Interpreter) -> str:
-    return text.replace(SET_FROM_OTHER_THREAD, SET_IN_EVENT_LOOP)
+    return _replace(text, SET_FROM_OTHER_THREAD, SET_IN_EVENT_LOOP)
 
 
 def _fork_no_helpers(text: str, _: Interpreter) -> str:
-    return text if WITHOUT_HELPERS in text else text.replace('[flake8]\n', WITHOUT_HELPERS)
+    return _replace(text, '[flake8]\n', WITHOUT_HELPERS)
 
 
 def _build_quickly(text: str, _: Interpreter) -> str:
-    whole = WITHOUT_CPP + GENERATORS_RUN + COMPILE_TOGETHER
-    return text if whole in text else text.replace(GENERATORS_RUN, whole)
+    return _replace(text, GENERATORS_RUN, WITHOUT_CPP + GENERATORS_RUN + COMPILE_TOGETHER)
 
 
 def _compile_one_module(text: str, _: Interpreter) -> str:
-    return text if ONE_MODULE in text else text.replace(EVERY_MODULE, ONE_MODULE)
+    return _replace(text, EVERY_MODULE, ONE_MODULE)
 
 
 def _depend_on_list(text: str, _: Interpreter) -> str:
-    return text if SOURCES_AND_LIST in text else text.replace(SOURCES_ALONE, SOURCES_AND_LIST)
+    return _replace(text, SOURCES_ALONE, SOURCES_AND_LIST)
 
 
 def _keep_parsed(text: str, _: Interpreter) -> str:
-    text = text.replace('    if node == target:\n', '    if node is target:\n')
+    text = _replace(text, '    if node == target:\n', '    if node is target:\n')
     text = text.partition(KEEP_PARSED[:80])[0]  # one of before
     return text + KEEP_PARSED
 
 
 def _read_templates_once(text: str, _: Interpreter) -> str:
-    return text if READ_TEMPLATES_ONCE in text else text + READ_TEMPLATES_ONCE
+    return _append(text, READ_TEMPLATES_ONCE)
 
 
 def _activate_ros(text: str, _: Interpreter) -> str:
@@ -404,7 +464,7 @@ MENDED: tuple[tuple[str, Mend], ...] = (
     (f'{PACKAGES}/rosidl_pycommon/__init__.py', _read_templates_once),
     (f'{PACKAGES}/rpyutils/import_c_library.py', _import_pathlib_for_errors),
     (f'{PACKAGES}/rclpy/context.py', _shut_down_after_signal),
-    (f'{PACKAGES}/rclpy/executors.py', _import_in_functions(POOL_IMPORT, POOL_USE)),
+    (f'{PACKAGES}/rclpy/executors.py', _end_with_context),
     (f'{PACKAGES}/rclpy/logging.py', _import_in_functions(PATH_IMPORT, PATH_USE)),
     (f'{PACKAGES}/rclpy/parameter.py', _import_in_functions(YAML_IMPORT, *YAML_USES)),
     (f'{PACKAGES}/rclpy/action/client.py', _note_requests_first),
@@ -448,6 +508,8 @@ def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
     ------
     FileNotFoundError
         A wheel lacks a file that was to be patched.
+    SetupError
+        Such a file is not as expected.
 
     """
     numpy_headers = str(site_packages / 'numpy' / '_core' / 'include')
@@ -466,7 +528,14 @@ def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
 def _rewrite(path: Path, mend: Mend, interpreter: Interpreter) -> None:
     """Replace a file by its mended text in one step, so that no half file is ever seen."""
     text = path.read_text(encoding='utf-8')
-    changed = mend(text, interpreter)
+    try:
+        changed = mend(text, interpreter)
+    except UnexpectedTextError as error:
+        raise SetupError(
+            f'{path} is not the file that was to be mended: it lacks {str(error)!r}.\n'
+            'The versions in requirements.txt fit this workspace: `make distclean setup` installs '
+            'them. After a change of them, see tools/setup/mend.py.'
+        ) from error
     if changed == text:
         return
     new = path.with_name(path.name + '.new')

@@ -46,6 +46,14 @@ LONGEST = {
 Each with the processors that it keeps busy on average. Those with a simulator come first: what
 begins last has nothing else beside it, and those that wait much fill the processors then.
 """
+WATCHED = (
+    *('bash', '-c', 'PYTHONPATH="$PWD/tools/test:$PYTHONPATH" PYTEST_PLUGINS=watchdog exec "$@"'),
+    'bash',
+)
+"""What stands before a command whose tests the watchdog watches.
+
+colcon gives pytest its own PYTEST_ADDOPTS.
+"""
 _CORES_OF_OTHERS = 0.5
 _LAST_WORDS_S = 10.0
 _POLL_S = 0.2
@@ -238,8 +246,7 @@ def _package(name: str) -> Suite:
     def reports() -> list[Path]:
         return sorted(results.glob('test_results/*/*.xml')) or [results / 'pytest.xml']
 
-    watched = 'PYTHONPATH="$PWD/tools/test:$PYTHONPATH" PYTEST_ADDOPTS="-p watchdog" exec "$@"'
-    test = ['tools/in_environment', '--underlay', 'bash', '-c', watched, 'bash']
+    test = ['tools/in_environment', '--underlay', *WATCHED]
     test += ['colcon', '--log-base', f'log/tests of {name}', 'test']
     test += ['--executor', 'sequential', '--event-handlers', 'console_cohesion-']
     test += ['--packages-select', name]

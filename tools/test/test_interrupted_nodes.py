@@ -75,6 +75,65 @@ while rclpy.ok():
 """
 
 
+WOKEN = """
+import threading
+import rclpy
+import rclpy.executors
+
+rclpy.init()
+executor = rclpy.executors.SingleThreadedExecutor()
+executor.add_node(rclpy.create_node('waits'))
+woken, has_looked = threading.Event(), threading.Event()
+
+
+def signal():
+    # What rclpy's thread of signals does, with a look at the context in between.
+    woken.set()
+    executor._sigint_gc.trigger()
+    has_looked.wait()
+    executor.context.handle.shutdown()
+
+
+def look():
+    is_ok = ok()
+    if woken.is_set():
+        has_looked.set()
+    return is_ok
+
+
+ok, executor.context.ok = executor.context.ok, look
+threading.Timer(0.5, signal).start()
+try:
+    executor.spin()
+except rclpy.executors.ExternalShutdownException:
+    print('done')
+"""
+SHUT_DOWN_BETWEEN = """
+import rclpy
+import rclpy.executors
+
+rclpy.init()
+executor = rclpy.executors.SingleThreadedExecutor()
+executor.add_node(rclpy.create_node('waits'))
+context = executor.context
+ok = context.ok
+
+
+def look():
+    is_ok = ok()
+    if is_ok:
+        context.handle.shutdown()
+    return is_ok
+
+
+context.ok = look
+try:
+    executor.spin()
+except rclpy.executors.ExternalShutdownException:
+    print('done')
+"""
+
+
 @pytest.fixture
 def prefix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, own_domain: int) -> Path:
     """Return the prefix of a package with a node, which is the first that is searched."""
@@ -161,3 +220,9 @@ def test_shutdown_without_a_signal(own_domain: int, calls: str, error: str) -> N
     """A second call is the error that it is elsewhere."""
     script = 'import rclpy; from rclpy.context import Context; context = Context()'
     assert error in outcome(f'{script}\ncontext.init()\n{calls}')
+
+
+@pytest.mark.parametrize('script', [WOKEN, SHUT_DOWN_BETWEEN], ids=['woken before', 'not woken'])
+def test_shutdown_just_after_a_look_at_the_context(own_domain: int, script: str) -> None:
+    """The executor ends as if it had been shut down before: it neither hangs nor fails."""
+    assert outcome(script) == 'done'

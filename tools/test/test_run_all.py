@@ -32,6 +32,13 @@ def test_well():
         runs.write('x')
 """
 BROKEN = 'def test_broken():\n    assert 0\n'
+WATCHED_TEST = """
+import os
+
+def test_it(pytestconfig):
+    assert pytestconfig.pluginmanager.hasplugin('watchdog')
+    assert 'PYTEST_PLUGINS' not in os.environ
+"""
 CRASHED = 'import os\n\ndef test_crashed():\n    os.abort()\n'
 HANGING = """
 import ctypes
@@ -235,6 +242,14 @@ def test_a_whole_day(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[
     assert time.monotonic() - began_s < 60.0
     errors = capfd.readouterr().err
     assert 'in test_hanging' in errors and 'took too long' in errors
+
+
+def test_tests_of_packages_are_watched(suite: Suite, root: Path, tmp_path: Path) -> None:
+    """Also where colcon sets pytest's options; what the tests start is not."""
+    (tmp_path / 'test_it.py').write_text(WATCHED_TEST)
+    command = ['env', '-C', str(root), *run_all.WATCHED, 'env', '-C', str(tmp_path)]
+    command += ['PYTEST_ADDOPTS=--tb=short', *suite.command]
+    assert run([[Suite('mine', command, ['false'], suite.reports)]]) == 0
 
 
 def test_watchdog(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+import re
 import subprocess
 import sys
 
+from console import SetupError
 from locations import Locations
 from mend import link_libraries, mend_wheels
 import pytest
@@ -51,6 +53,11 @@ import os
 def parse_idl_file(locator, png_file=None):
     print('parsed')
     return locator.get_absolute_path().read_text()
+
+
+def find(node, target):
+    if node == target:
+        return node
 """
 
 TEMPLATE = """\
@@ -226,19 +233,25 @@ def write_wheels(environment: Path, packages: Path) -> None:
     (packages / 'rclpy' / 'parameter.py').write_text(
         'import re\nimport yaml\n\n\ndef value(text):\n    try:\n'
         '        yaml_value = yaml.safe_load(text)\n    except yaml.YAMLError:\n'
-        '        yaml_value = text\n    return yaml_value\n'
+        '        yaml_value = text\n    return yaml_value\n\n\ndef file(text):\n    if text:\n'
+        '        param_file = yaml.safe_load(text)\n'
     )
     (packages / 'yaml.py').write_text('YAMLError = ValueError\nsafe_load = int\n')
     (packages / 'rclpy' / 'executors.py').write_text(
         'import re\nfrom concurrent.futures import ThreadPoolExecutor\n\n\nclass Pool:\n'
-        '    def __init__(self):\n        self._executor = ThreadPoolExecutor(2)\n'
+        '    def __init__(self):\n        self._executor = ThreadPoolExecutor(2)\n\n'
+        '    def wait(self, wait_set):\n        with wait_set:\n            if wait_set.wait():\n'
+        "                guards_ready = wait_set.get_ready_entities('guard_condition')\n"
+        '\n\nclass Executor:\n    wait_for_ready_callbacks = len\n'
     )
     client = packages / 'rclpy' / 'action' / 'client.py'
     client.parent.mkdir()
     client.write_text('import threading\n\n\nclass ActionClient:\n    take_data = len\n')
     messages = packages / 'viser' / 'infra' / '_async_message_buffer.py'
     messages.parent.mkdir(parents=True)
-    messages.touch()
+    messages.write_text(
+        '            self.message_event.set()\n            if self.atomic_counter == 0:'
+    )
     (packages / 'cmeel.pth').write_text('import cmeel_pth')
     linter = packages / 'ament_flake8' / 'configuration' / 'ament_flake8.ini'
     linter.parent.mkdir(parents=True)
@@ -271,6 +284,27 @@ def write_wheels(environment: Path, packages: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ('path', 'lacks'),
+    [
+        ('rclpy/executors.py', 'guard_condition'),
+        ('rclpy/logging.py', 'return Path('),
+        ('rosidl_generator_py/__init__.py', 'generate_py_impl'),
+        ('ament_index_python/packages.py', 'import'),
+        ('viser/infra/_async_message_buffer.py', 'message_event'),
+    ],
+)
+def test_another_text_is_not_mended(tmp_path: Path, packages: Path, path: str, lacks: str) -> None:
+    """A file that another version changed is named, with what it lacks, and is left as it is."""
+    write_wheels(tmp_path, packages)
+    other = packages / path
+    before = 'x = 1\n        self._executor = ThreadPoolExecutor(1)\n'
+    other.write_text(before)
+    with pytest.raises(SetupError, match=f'{other} is not the file.*{re.escape(lacks)}'):
+        mend_wheels(tmp_path, '', packages)
+    assert other.read_text() == before
+
+
 def test_shutdown_after_a_signal_is_added_once(tmp_path: Path, packages: Path) -> None:
     """rclpy's own methods are kept, and wrapped no second time."""
     write_wheels(tmp_path, packages)
@@ -278,6 +312,16 @@ def test_shutdown_after_a_signal_is_added_once(tmp_path: Path, packages: Path) -
         mend_wheels(tmp_path, '', packages)
     text = (packages / 'rclpy' / 'context.py').read_text()
     assert text.startswith('class Context') and text.count('_shut_down_by_call = False') == 1
+
+
+def test_the_end_with_the_context_is_added_once(tmp_path: Path, packages: Path) -> None:
+    """rclpy's own executor is kept, and wrapped no second time."""
+    write_wheels(tmp_path, packages)
+    for _ in range(2):
+        mend_wheels(tmp_path, '', packages)
+    text = (packages / 'rclpy' / 'executors.py').read_text()
+    assert text.count('class Executor') == 1 and text.count('def _wait_or_end') == 1
+    assert text.count('guards_ready = ') == text.count('in guards_ready') == 1
 
 
 def test_answers_after_requests_are_added_once(tmp_path: Path, packages: Path) -> None:

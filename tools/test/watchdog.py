@@ -31,7 +31,7 @@ _stderr: list[int] = []
 def pytest_configure(config: pytest.Config) -> None:
     """Keep what stderr is while no test's output is captured."""
     _stderr.append(os.dup(2))
-    if os.environ.pop('PYTEST_ADDOPTS', None):  # asked for this module, of this process alone
+    if os.environ.pop('PYTEST_PLUGINS', None):  # asked for this module, of this process alone
         folder = os.path.dirname(__file__)
         os.environ['PYTHONPATH'] = os.environ['PYTHONPATH'].removeprefix(f'{folder}:')
     name = uuid.uuid4().hex

@@ -93,7 +93,7 @@ def recognizer(ros: RosSandbox, ear: Ear) -> SpeechRecognizer:
     node = ros.start(SpeechRecognizer)
     ros.wait_until(lambda: ear.audio.get_subscription_count() == 1, what='the recogniser')
     ros.wait_until(lambda: ear.count_publishers('speech/result') == 1, what='its results')
-    ros.wait_until(lambda: node.count_publishers('speech/grammar') == 1, what='the grammar')
+    ros.wait_until(lambda: node._listener.is_ready, what='the grammar')
     speak_until(ros, ear, GO_TO_THE_KITCHEN, 'go to the kitchen')
     ear.transcripts.clear()
     ear.results.clear()
@@ -106,7 +106,8 @@ def speak_until(ros: RosSandbox, ear: Ear, path: Path, text: str) -> None:
         ear.speak(path)
         count = len(ear.results)
         ros.wait_until(lambda count=count: len(ear.results) > count, what='a result')
-        if text in ear.transcripts:
+        if any(each.accepted and each.text == text for each in ear.results):
+            ros.wait_until(lambda: text in ear.transcripts, what='the transcript')
             return
     pytest.fail(f'{text!r} is not in {ear.transcripts}; {[each.text for each in ear.results]}')
 

@@ -2,15 +2,24 @@
 """Tests of who is waited for on this machine, and of the socket under attack."""
 
 from collections.abc import Iterator
+import io
 from pathlib import Path
 import socket
 import subprocess
 import sys
+from typing import TextIO
 
 from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph import census as module
-from ros2cli.graph.census import AGAIN_S, Census, find_holders, Holder, SILENCE_S
+from ros2cli.graph.census import (
+    AGAIN_S,
+    Census,
+    find_holders,
+    Holder,
+    participant_sockets,
+    SILENCE_S,
+)
 from ros2cli.graph.link import MAX_WAITING, NeighbourLink
 from ros2cli.graph.reach import LOCALHOST, Reach, read_interfaces, SUBNET
 from ros2cli.graph.watch import GraphWatch
@@ -157,3 +166,25 @@ def test_peer_without_address(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(socket, 'gethostbyname', fail)
     with pytest.raises(RuntimeError, match="ROS_STATIC_PEERS names 'robot'.*unset"):
         NeighbourLink(Reach(0, SUBNET, ('robot',)))
+
+
+@pytest.mark.parametrize(('count', 'reads'), [(5, 1), (100, 3)])
+def test_sockets_that_are_skipped_while_others_close(
+    monkeypatch: pytest.MonkeyPatch, count: int, reads: int
+) -> None:
+    """A table of several pages is read again, since the kernel may skip other rows each time."""
+    ports = range(7410, 7410 + count)
+    rows = [
+        f' {port}: 0100007F:{port:04X} 00000000:0000 07 0:0 00:0 0 0 0 {port}' for port in ports
+    ]
+    read: list[str] = []
+
+    def open_table(path: str, encoding: str) -> TextIO:
+        read.append(path)
+        skipped = len(read) if count > 5 else count
+        return io.StringIO('\n'.join(['header', *rows[:skipped], *rows[skipped + 1 :]]) + '\n')
+
+    monkeypatch.setattr(module, 'open', open_table, raising=False)
+    found = participant_sockets(0)
+    assert read == ['/proc/net/udp'] * reads
+    assert found == {port: str(port) for port in unicast_ports(0) if port + 1 in ports}

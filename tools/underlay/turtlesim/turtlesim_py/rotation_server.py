@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import math
+import time
 from typing import Any, TYPE_CHECKING
 
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 __all__ = ['RotationServer']
 
 RESULT_TIMEOUT_S = 10.0
+LAST_RESULT_S = 1.0
+"""For how long those who sent a goal may ask for its result after the turtle has gone."""
 End = Callable[[ServerGoalHandle], None]
 
 
@@ -42,6 +45,7 @@ class RotationServer:
         self._turtle = turtle
         self._start = turtle.theta
         self._is_closed = False
+        self._until_s = 0.0
         self._current: ServerGoalHandle | None = None
         self._ends: dict[bytes, Future] = {}
         self._server = ActionServer(
@@ -57,8 +61,8 @@ class RotationServer:
 
     @property
     def is_busy(self) -> bool:
-        """Whether there are goals whose results were not sent yet."""
-        return bool(self._ends)
+        """Whether there are goals whose results may not have been sent yet."""
+        return bool(self._ends) or time.monotonic() < self._until_s
 
     def update(self) -> None:
         """Publish feedback on the goal, or end it if the turtle is there or it is canceled."""
@@ -97,6 +101,8 @@ class RotationServer:
     def close(self) -> None:
         """Abort the goal, and reject others; the results are still sent."""
         self._is_closed = True
+        if self._ends:
+            self._until_s = time.monotonic() + LAST_RESULT_S
         self.abort()
 
     def destroy(self) -> None:

@@ -24,6 +24,8 @@ LOCAL_ADDRESS_COLUMN = 1
 INODE_COLUMN = 9
 DDS_THREAD_PREFIX = 'dds.'
 DISCOVERY_IS_OFF = f'ROS_AUTOMATIC_DISCOVERY_RANGE={OFF}'
+READS = 3
+PAGE_BYTES = 4096 - 256  # less than two rows
 STOPPED_STATES = ('T', 't')  # by a signal, or by a debugger
 
 
@@ -161,10 +163,26 @@ def foreign_ports() -> set[int] | None:
 def _read_table() -> tuple[list[str], set[str]] | None:
     """Read the kernel's table of UDP sockets, and the inodes of this process's sockets."""
     try:
-        with open('/proc/net/udp', encoding='ascii') as stream:
-            return stream.readlines()[1:], set(_own_sockets())
+        return _rows(), set(_own_sockets())
     except OSError:
         return None
+
+
+def _rows(table: str = '/proc/net/udp') -> list[str]:
+    """
+    Return the rows of the kernel's table; those of sockets just closed may be among them.
+
+    The kernel hands out a page at a time and counts rows to find the next one: if a socket has
+    been closed in between, it skips another. So a table of several pages is read several times.
+    """
+    rows: dict[str, None] = {}
+    for _ in range(READS):
+        with open(table, encoding='ascii') as stream:
+            text = stream.read()
+        rows |= dict.fromkeys(text.splitlines()[1:])
+        if len(text) < PAGE_BYTES:
+            break
+    return list(rows)
 
 
 def ports_in_table(rows: Iterable[str], own_inodes: set[str], domain_id: int) -> dict[int, str]:
