@@ -188,8 +188,8 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
     layout: Any = {'names': names, 'offsets': offsets, 'formats': formats}
     if point_step is not None:
         layout['itemsize'] = point_step
-    kind: np.dtype = np.dtype(layout)
-    return kind
+    whole: np.dtype = np.dtype(layout)
+    return whole
 
 
 def create_cloud(
@@ -280,7 +280,9 @@ def _all_points(cloud: PointCloud2) -> np.ndarray:
     strides = (cloud.row_step or cloud.width * cloud.point_step, cloud.point_step)
     if not cloud.width * cloud.height:
         return np.empty(0, kind)
-    rows: np.ndarray = np.ndarray((cloud.height, cloud.width), kind, bytearray(cloud.data), strides=strides)
+    rows: np.ndarray = np.ndarray(
+        (cloud.height, cloud.width), kind, bytearray(cloud.data), strides=strides
+    )
     return rows.reshape(-1)
 
 
