@@ -56,6 +56,10 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['fleet', '--ways', 'shouting'], "invalid choice: 'shouting'"),
         (['discovery_time', '--nodes', '1'], "'1' is no int from 2 to 100."),
         (['sweep_cost', '--walks', '0'], "'0' is no int at least 1."),
+        (['hand_drift', '--dampings', '0'], "'0' is no float from 0.1 to 2.5."),
+        (['hand_drift', '--seconds', '1'], "'1' is no float at least 4."),
+        (['carry_trials', '--ways', '0'], "'0' is no int at least 1."),
+        (['pick_trials', '--first', '5', '--trials', '3'], 'There are 3 trials'),
     ],
 )
 def test_no_number_to_begin_with(words: list[str], sentence: str) -> None:

@@ -59,6 +59,7 @@ class Arms:
         self._waist: JointMover | None = None
         self._positions: dict[str, float] = {}
         self._efforts: dict[str, float] = {}
+        self._listening = 0
         node.create_subscription(String, 'robot_description', self._read, LATCHED)
 
     @property
@@ -72,13 +73,20 @@ class Arms:
     def listening(self) -> Iterator[None]:
         """Subscribe to the joint states in the enclosed block."""
         self._positions = {}
+        self._listening += 1
         subscription = self._node.create_subscription(
             JointState, 'joint_states', self._take, SENSOR
         )
         try:
             yield
         finally:
+            self._listening -= 1
             self._node.destroy_subscription(subscription)
+
+    @property
+    def is_listening(self) -> bool:
+        """Whether a goal that uses the arms runs."""
+        return self._listening > 0
 
     async def wait(self, goal: RunningGoal) -> None:
         """
@@ -134,8 +142,20 @@ class Arms:
             The gap between the fingers (m), and the force (N): positive if it opens them.
 
         """
-        finger = f'{self._prefix}{side}_gripper'
+        finger = self.finger_of(side)
         return 2.0 * self._positions.get(finger, 0.0), self._efforts.get(finger, 0.0)
+
+    def finger_of(self, side: str) -> str:
+        """
+        Return the joint of the finger of a gripper; the thumb mirrors it.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+
+        """
+        return f'{self._prefix}{side}_gripper'
 
     def efforts_of(self, side: str) -> Array:
         """

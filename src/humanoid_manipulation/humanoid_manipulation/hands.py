@@ -16,7 +16,7 @@ import numpy as np
 from rclpy.action import ActionClient
 from rclpy.node import Node
 
-__all__ = ['LEAST_SHARE', 'Hands']
+__all__ = ['LEAST_SHARE', 'Hands', 'has_lost']
 
 LEAST_SHARE = 0.5
 """Smallest gap of a closed gripper that holds an object, as a fraction of the object's width."""
@@ -30,6 +30,20 @@ _OTHER_M = 0.025
 """Change of the gap between the fingers from which an object counts as no longer held."""
 _SOMETHING_M = (0.07, 0.07, 0.15)
 """The assumed size of an unknown held object."""
+
+
+def has_lost(held: Held, gap_m: float) -> bool:
+    """
+    Check whether a hand no longer holds an object, from the gap between its fingers.
+
+    Parameters
+    ----------
+    held, gap_m
+        The object, and the measured gap.
+
+    """
+    has_closed = gap_m < LEAST_SHARE * held.width_m
+    return has_closed or abs(gap_m - held.width_m) > _OTHER_M
 
 
 class Hands:
@@ -69,7 +83,7 @@ class Hands:
         held = self._held.get(side)
         if held is None and gap_m > _THIN_M and force_n < -_HOLDING_N:
             self._held[side] = _something(gripper, gap_m)
-        elif held is not None and abs(gap_m - held.width_m) > _OTHER_M:
+        elif held is not None and has_lost(held, gap_m):
             del self._held[side]
 
     def holding(self, asked: str) -> tuple[str, Held]:

@@ -15,6 +15,7 @@ from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.hands import Hands
 from humanoid_manipulation.held_things import held_objects, HeldThings
+from humanoid_manipulation.slip_watch import SlipWatch
 from humanoid_manipulation.surroundings import Surroundings
 from humanoid_perception.transforms import Transforms
 from rclpy.node import Node
@@ -76,6 +77,7 @@ class ManipulationNode(Node):
         self._held = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
         self.held = HeldThings(self._tell_held)
         self.hands = Hands(self, self.held)
+        self._slips = SlipWatch(self, self.arms, self.held)
 
     def update_held(self) -> None:
         """Update which hands hold an object, from their grippers. Call after `Arms.wait`."""
@@ -89,8 +91,9 @@ class ManipulationNode(Node):
         super().destroy_node()
 
     def _tell_held(self) -> None:
-        """Publish the held objects."""
+        """Publish the held objects, and watch them."""
         header = Header(frame_id=self.parameters.current.base_frame)
         header.stamp = self.get_clock().now().to_msg()
         grippers = {side: arm.gripper for side, arm in self.arms.body.arms.items()}
         self._held.publish(held_objects(self.held, grippers, header))
+        self._slips.update()

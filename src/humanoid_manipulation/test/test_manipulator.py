@@ -9,14 +9,19 @@ import signal
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from control_msgs.action import GripperCommand
 from humanoid_common.qos import LATCHED
 from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.processes import module_command, running_program
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
+from humanoid_control.dynamics.frames import Frame
 from humanoid_control.mock_robot import MockRobot
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Pick, Reach
+from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.manipulator import Manipulator
+from humanoid_manipulation.obstacle import Obstacle
+import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -42,8 +47,7 @@ class World:
         self._description.publish(String(data=humanoid_urdf(hands=True)))
         self.objects = self.node.create_publisher(Detection3DArray, 'objects', LATCHED)
         ros.start(MockRobot, {'hands': True})
-        if not is_launched:
-            ros.start(Manipulator)
+        self.manipulator = None if is_launched else ros.start(Manipulator)
         self.caller = ActionCaller(ros, Reach, 'reach')
 
     def send(self, position_m: tuple[float, float, float], **fields: Any) -> Any:
@@ -175,6 +179,32 @@ def test_what_is_not_remembered_is_not_seen_wherever_the_robot_is(world: World) 
     caller.close()
     assert end.status == GoalStatus.STATUS_ABORTED
     assert end.result.error_code == Pick.Result.NOT_SEEN
+
+
+def test_what_has_slipped_out_of_a_hand_is_not_held(world: World) -> None:
+    """No goal needs to come for that; what is still there stays."""
+    manipulator, told = world.manipulator, list[int]()
+    assert manipulator is not None
+    world.node.create_subscription(
+        Detection3DArray,
+        'held_objects',
+        lambda message: told.append(len(message.detections)),
+        LATCHED,
+    )
+    hand = ActionCaller(world.ros, GripperCommand, 'left_gripper_controller/gripper_cmd')
+    grip = GripperCommand.Goal()
+    grip.command.position = 0.06
+    assert hand.end_of(hand.send(command=grip.command)).result.reached_goal
+    assert world.caller.end_of(world.send(ASIDE, side='left')).result.error_code == 0
+    box = Obstacle('mug', Frame(np.zeros(3), np.eye(3)), (0.06, 0.06, 0.1))
+    manipulator.held['left'] = Held('mug_1', ('mug',), box, 0.06, np.eye(3), 0.05)
+    world.wait_for_rest()
+    assert 'left' in manipulator.held and told[-1] == 1
+    grip.command.position = 0.0
+    hand.end_of(hand.send(command=grip.command))
+    world.ros.wait_until(lambda: told[-1] == 0, PATIENCE_S, 'an empty hand')
+    assert not manipulator.held
+    hand.close()
 
 
 def test_an_arm_stops_when_its_node_is_killed() -> None:

@@ -82,9 +82,7 @@ class Walking:
         """Walk back to the pose stored by `begin_plan`."""
         if self._home is None:
             raise SkillError('I did not know where I was when you asked me, so I cannot go back.')
-        yield from self._robot.act(
-            NavigateToPose, 'navigate_to_pose', NavigateToPose.Goal(pose=stamped(self._home))
-        )
+        yield from self._navigate(self._home)
 
     def follow_path(self, places: Sequence[str]) -> SkillRun:
         """
@@ -195,14 +193,26 @@ class Walking:
                 reason = str(error)
                 continue
             try:
-                yield from self._robot.act(
-                    NavigateToPose, 'navigate_to_pose', NavigateToPose.Goal(pose=stamped(stand))
-                )
+                yield from self._navigate(stand)
             except SkillError:
                 self._missed.append(stand)
                 raise
             return
         raise SkillError(f'I cannot find a way to {what}. {reason}')
+
+    def _navigate(self, pose: Pose) -> SkillRun:
+        """Walk to a pose; raise SkillError as soon as a hand has lost what it held."""
+        held = ''
+        goal = NavigateToPose.Goal(pose=stamped(pose))
+        walk = self._robot.act(NavigateToPose, 'navigate_to_pose', goal)
+        try:
+            for _ in walk:
+                if held and not self._watch.holding:
+                    raise SkillError(f'I have lost the {held} on the way.', is_final=True)
+                held = self._watch.holding
+                yield
+        finally:
+            walk.close()
 
     def face(self, position_m: Sequence[float]) -> SkillRun:
         """

@@ -125,6 +125,24 @@ def test_it_tidies(ros: RosSandbox, tell: Any) -> None:
     ros.wait_until(robot.heard('kitchen counter'), 60.0, 'a place that there is not here')
 
 
+def test_it_stops_when_it_has_lost_what_it_carries(ros: RosSandbox, tell: Any) -> None:
+    """It says so on the way, rather than at its end, and does not try again."""
+    robot = tell.robot
+    robot.give_hands()
+    ros.wait_until(lambda: robot.count_subscribers('held_objects') == 2, 60.0, 'both of them')
+    tell('take the blue mug')
+    ros.wait_until(lambda: robot.held, 60.0, 'a mug in its hand')
+    tell('where is the blue mug')
+    ros.wait_until(robot.heard('I am holding the blue mug.'), 60.0, 'words')
+    robot.is_slow, walks = True, len(robot.walks)
+    tell('put it on the shelf')
+    ros.wait_until(lambda: len(robot.walks) > walks, 60.0, 'a walk')
+    robot.holding.publish(Detection3DArray())
+    ros.wait_until(robot.heard('I have lost the blue mug on the way.'), 60.0, 'words')
+    ros.wait_until(lambda: robot.cancelled == 1, 60.0, 'a canceled walk')
+    assert len(robot.walks) == walks + 1 and robot.placed == []
+
+
 def test_it_waves_and_points_with_a_hand_that_is_free(ros: RosSandbox, tell: Any) -> None:
     """Whichever that is; it does not wave what it holds, even if it is told to."""
     robot = tell.robot

@@ -36,9 +36,9 @@ _PAD_STIFFNESS, _PAD_DAMPING = 0.25, 1.3
 Stiffness and damping of contacts with pads, in units of the physics period T: 1 / T^2 and 1 / T.
 
 MuJoCo's contacts leave out the centripetal acceleration of a hand, so that what it holds drifts to
-its fingertips while the robot walks: by 0.4 mm/s with the usual contacts, by 0.05 mm/s with a
-damping of 1, which takes all of a slip away in one period, and by 0.03 mm/s with 1.3. At 2 it
-would oscillate.
+its fingertips while the robot walks: by 0.36 mm/s with the usual contacts, by 0.05 mm/s with a
+damping of 1, which takes all of a slip away in one period, and by 0.02 mm/s with 1.3. At 2 it
+oscillates, and drifts across the hand. The benchmark `hand_drift.py` measures that.
 """
 
 # ROS: z forward and y down; MuJoCo: z backward and y up.
