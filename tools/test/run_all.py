@@ -32,19 +32,19 @@ CORES = min(os.cpu_count() or 1, 12)
 With more packages at once, simulators take processors from each other and fall behind real time.
 """
 LONGEST = {
-    'humanoid_simulation': 1.0,
+    'humanoid_simulation': 0.75,
+    'robot_mcp': 0.2,
+    'llm_planner': 0.2,
     'humanoid_bringup': 1.0,
-    'humanoid_navigation': 1.0,
-    'humanoid_manipulation': 1.0,
-    'robot_mcp': 0.5,
-    'humanoid_perception': 0.5,
-    'llm_planner': 0.5,
-    'humanoid_control': 0.5,
+    'humanoid_navigation': 0.9,
+    'humanoid_manipulation': 0.7,
+    'humanoid_perception': 0.4,
+    'humanoid_control': 0.4,
 }
 """Packages whose tests take minutes, in the order in which they begin, before the others.
 
-Each with the processors that it keeps busy on average. Those with a simulator come first: what
-begins last has nothing else beside it, and those that wait much fill the processors then.
+Each with the processors that it keeps busy on average: its CPU time over its duration. The longest
+comes first, beside tools/, and those that wait much fill what is left of the processors.
 """
 WATCHED = (
     *('bash', '-c', 'PYTHONPATH="$PWD/tools/test:$PYTHONPATH" PYTEST_PLUGINS=watchdog exec "$@"'),
