@@ -38,6 +38,8 @@ _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
 _GRAMMAR_WEIGHT = 3.0
 """Language weight: how much the word probabilities of the grammar count against the sound."""
+_END = 0.5
+"""The probability that a sentence ends where it can."""
 _SHORT_STOP = 4
 """
 Maximum number of words of a sentence that stops the robot however badly it fits; a longer one may
@@ -249,17 +251,16 @@ class GrammarRecognizer:
     def _add(self, search: str, network: WordNetwork) -> None:
         """Create a decoder search from a word network; it replaces one of the same name."""
         last = len(network.arcs)
-        # All words at a state are equally likely, and so is the end of the sentence.
-        shares = [
-            1.0 / (len(words) + (state in network.finals))
-            for state, words in enumerate(network.arcs)
-        ]
-        arcs = [
-            (state, target, shares[state], word)
-            for state, words in enumerate(network.arcs)
-            for word, target in words.items()
-        ]
-        ends = [(state, last, shares[state]) for state in network.finals]
+        # What can come at a state, words and the end of the sentence, has probabilities that sum up
+        # to 1: words in proportion to their weights, and the end as likely as to go on.
+        arcs, ends = [], []
+        for state, words in enumerate(network.arcs):
+            weights = network.weights[state]
+            share = (_END if state in network.finals else 0.0) if words else 1.0
+            scale = (1.0 - share) / (sum(weights.values()) or 1.0)
+            arcs += [(state, words[word], scale * weights[word], word) for word in words]
+            if state in network.finals:
+                ends.append((state, last, share))
         fsg = self._decoder.create_fsg(search, 0, last, [*arcs, *ends])
         self._decoder.add_fsg(search, fsg)
         self._decoder.activate_search(search)
