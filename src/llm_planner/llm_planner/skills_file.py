@@ -98,6 +98,7 @@ def load_skills(path: Path) -> Skills:
     )
     for skill in found:
         tables.at(skill.name).checked(partial(_check_steps, skill, found))
+        tables.at(skill.name).checked(partial(_check_slots, skill, found))
     known = {*rules, *vocabulary, *_KINDS_OF_PLACES}
     for name, phrase in rules.items():
         for part in part_of(phrase):
@@ -221,6 +222,19 @@ def _check_steps(skill: Skill, skills: Skills) -> None:
                 raise UserError(
                     f"the step '{step.skill}' of the skill '{skill.name}' takes {name} from "
                     f'{source}, and one of them is not an argument.'
+                )
+
+
+def _check_slots(skill: Skill, skills: Skills) -> None:
+    """Validate that the slots of phrases are arguments, or refer to rules or word lists."""
+    own = {f'{skill.name}_{name}' for name in skill.arguments}
+    known = {*skills.rules, *skills.vocabulary, *_KINDS_OF_PLACES, *own}
+    for saying in skill.sayings:
+        for part in part_of(saying.phrase):
+            if isinstance(part, Slot) and part.rule not in known:
+                raise UserError(
+                    f"a phrase of the skill '{skill.name}' has the slot '{part.rule}', which is not "
+                    f'defined. {did_you_mean(part.rule, known)}'
                 )
 
 

@@ -102,15 +102,15 @@ def _deterministic(moves: Moves, first: int, last: int) -> tuple[_Table, _Ends]:
         """Return the epsilon closure of a state: its states with words, and the last one."""
         found = free[state]
         if found is None:
-            weights, todo = {state: 1.0}, [state]
+            ways, todo = {state: 1.0}, [state]
             for each in todo:
                 for word, target, weight in moves[each]:
-                    if not word and target not in weights:
-                        weights[target] = weights[each] * weight
+                    if not word and target not in ways:
+                        ways[target] = ways[each] * weight
                         todo.append(target)
             found = free[state] = frozenset(
                 (each, weight)
-                for each, weight in weights.items()
+                for each, weight in ways.items()
                 if each == last or any(word for word, _, _ in moves[each])
             )
         return found
@@ -122,29 +122,23 @@ def _deterministic(moves: Moves, first: int, last: int) -> tuple[_Table, _Ends]:
     while todo:
         subset = todo.pop()
         number = numbers[subset]
-        targets: dict[str, dict[int, float]] = {}
-        shares: dict[str, float] = {}
+        targets: dict[str, set[tuple[int, float]]] = {}
+        weights: dict[str, float] = {}
         for state, before in subset:
             if state == last:
-                ends[number] = before
+                ends[number] = max(ends.get(number, 0.0), before)
             for word, target, weight in moves[state]:
                 if word:
-                    shares[word] = max(shares.get(word, 0.0), before * weight)
-                    _join(targets.setdefault(word, {}), reached(target))
+                    weights[word] = max(weights.get(word, 0.0), before * weight)
+                    targets.setdefault(word, set()).update(reached(target))
         for word, states in targets.items():
-            following = frozenset(states.items())
+            following = frozenset(states)
             if following not in numbers:
                 numbers[following] = len(table)
                 table.append({})
                 todo.append(following)
-            table[number][word] = numbers[following], shares[word]
+            table[number][word] = numbers[following], weights[word]
     return table, ends
-
-
-def _join(states: dict[int, float], more: _Subset) -> None:
-    """Add states, each with the largest of its weights."""
-    for state, weight in more:
-        states[state] = max(states.get(state, 0.0), weight)
 
 
 def _minimal(table: _Table, ends: _Ends) -> WordNetwork:
