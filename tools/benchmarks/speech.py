@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 import math
 from pathlib import Path
@@ -146,6 +147,10 @@ def main() -> int:
         '--threshold', type=float, default=THRESHOLD, help='that of the recogniser'
     )
     parser.add_argument(
+        '--held-out', action='store_true',
+        help='the sentences of speech_held_out.yaml, not those of the tests',
+    )  # fmt: skip
+    parser.add_argument(
         '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
     )
     parser.add_argument(
@@ -176,10 +181,8 @@ def main() -> int:
     if options.samples:
         write_samples(options.samples, planner.to_jsgf(world))
         return 0
-    said = yaml.safe_load((TESTS / 'sentences.yaml').read_text())
-    # Free text cannot be in a grammar.
-    commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
-    commands = commands[:: options.every]
+    commands, others = held_out() if options.held_out else (of_tests(), OTHER)
+    commands, others = commands[:: options.every], others[:: options.every]
     try:
         suppress = None if options.raw else NoiseSuppressor().suppress
         whisper = FasterWhisper(options.whisper) if options.whisper else None
@@ -189,15 +192,15 @@ def main() -> int:
     grammar = GrammarRecognizer(threshold, suppress=suppress)
     listener = Listener(grammar, whisper)
     unknown = listener.set_grammar(planner.to_jsgf(world))
-    print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')
+    print(f'{len(commands)} commands, {len(others)} others; unknown words: {unknown or "none"}')
     print(
         f'{"voice":<18}{"right":>7}{"article":>9}{"wrong":>7}{"rejected":>10}{"others taken":>14}'
         f'{"for a stop":>12}{"stops":>7}{"CPU":>7}'
     )
     for name, words in voices.items():
-        row = measured(words, commands, planner, world, listener, options)
+        row = measured(words, commands, others, planner, world, listener, options)
         shares = [row.counts[kind] / len(commands) for kind in KINDS_OF_COMMANDS]
-        shares += [row.counts[kind] / len(OTHER) for kind in KINDS_OF_OTHERS]
+        shares += [row.counts[kind] / len(others) for kind in KINDS_OF_OTHERS]
         shares.append(row.counts['stop'] / len(STOPS))
         print(
             f'{name:<18}{shares[0]:>7.0%}{shares[1]:>9.0%}{shares[2]:>7.0%}{shares[3]:>10.0%}'
@@ -206,10 +209,22 @@ def main() -> int:
         )
         for threshold in THRESHOLDS if options.roc else ():
             counts = row.above(threshold)
-            right, taken = counts['right'] / len(commands), counts['taken'] / len(OTHER)
-            stop = counts['taken for a stop'] / len(OTHER)
+            right, taken = counts['right'] / len(commands), counts['taken'] / len(others)
+            stop = counts['taken for a stop'] / len(others)
             print(f'{threshold:>18.1f}{right:>7.0%}{taken:>40.0%}{stop:>12.0%}')
     return 0
+
+
+def of_tests() -> Sequence[str]:
+    """Return the commands of the planner's tests, but for free text: no grammar can have that."""
+    said = yaml.safe_load((TESTS / 'sentences.yaml').read_text())
+    return [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
+
+
+def held_out() -> tuple[Sequence[str], Sequence[str]]:
+    """Return the commands and the other sentences of speech_held_out.yaml."""
+    said = yaml.safe_load(Path(__file__).with_name('speech_held_out.yaml').read_text())
+    return said['commands'], said['others']
 
 
 def synthesizer(text: str) -> list[str]:
@@ -240,8 +255,8 @@ def synthesizer(text: str) -> list[str]:
 
 
 def measured(
-    words: list[str], commands: list[str], planner: RulePlanner, world: World,
-    listener: Listener, options: argparse.Namespace,
+    words: list[str], commands: Sequence[str], others: Sequence[str], planner: RulePlanner,
+    world: World, listener: Listener, options: argparse.Namespace,
 ) -> Row:  # fmt: skip
     """
     Synthesize all sentences with a voice, recognize them, and count the results.
@@ -251,7 +266,9 @@ def measured(
     words
         The command of the voice, one of `VOICES`.
     commands
-        The sentences that are commands; `OTHER` and `STOPS` follow.
+        The sentences that are commands; `STOPS` follow.
+    others
+        Those that are not.
     planner, world
         Decide whether two sentences mean the same.
     listener
@@ -261,13 +278,13 @@ def measured(
 
     """
     row = Row()
-    for number, text in enumerate([*commands, *OTHER, *STOPS]):
+    for number, text in enumerate([*commands, *others, *STOPS]):
         sound = spoken(words, text, options.noise, number)
         begin_s = time.process_time()
         heard = recognized(listener, sound)
         row.cpu_s += time.process_time() - begin_s
         row.speech_s += duration_s(sound)
-        kind = kind_of(text, heard, planner, world)
+        kind = kind_of(text, heard, planner, world, is_other=text in others)
         row.counts[kind] += 1
         if kind not in ('rejected', 'left', 'missed'):
             is_short_stop = heard.is_stop and len(heard.text.split()) <= SHORT_STOP
@@ -277,7 +294,9 @@ def measured(
     return row
 
 
-def kind_of(text: str, heard: Spotted, planner: RulePlanner, world: World) -> str:
+def kind_of(
+    text: str, heard: Spotted, planner: RulePlanner, world: World, *, is_other: bool
+) -> str:
     """
     Classify what was recognized.
 
@@ -289,6 +308,8 @@ def kind_of(text: str, heard: Spotted, planner: RulePlanner, world: World) -> st
         What was recognized.
     planner, world
         Decide whether two sentences mean the same.
+    is_other
+        Whether the sentence is not a command.
 
     Returns
     -------
@@ -300,7 +321,7 @@ def kind_of(text: str, heard: Spotted, planner: RulePlanner, world: World) -> st
     if text in STOPS:
         return 'stop' if heard.is_stop else 'missed'
     outcome = plan_of(planner, world, heard.text) if heard.is_accepted else None
-    if text in OTHER:
+    if is_other:
         if outcome is None:
             return 'left'
         return 'taken for a stop' if heard.is_stop else 'taken'

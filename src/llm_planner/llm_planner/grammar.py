@@ -229,7 +229,9 @@ class Grammar:
         pending = dict(self.rules)
         while True:
             more = {
-                n for n, phrase in pending.items() if n not in usable and self._jsgf(phrase, usable)
+                name
+                for name, phrase in pending.items()
+                if name not in usable and self._jsgf(phrase, usable)
             }
             if not more:
                 break

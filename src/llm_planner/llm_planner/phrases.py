@@ -4,9 +4,9 @@ Common notation of phrases for parsing and for speech recognition.
 
 A phrase is written like an expansion of JSGF (the Java Speech Grammar Format): words, `(a | b)`
 for alternatives, `[a]` for optional parts, and `{name}` for a slot, which stands for a rule, a
-list of words with their values, a number, or free text. `{name:rule}` names the rule of a slot if it
-is not that of the name. `(a | /0.1/ b)` says that b is a tenth as likely as a, which is for speech
-recognisers only.
+list of words with their values, a number, or free text. `{name:rule}` names the rule of a slot if
+it is not that of the name. `(a | /0.1/ b)` says that b is a tenth as likely as a, which is for
+speech recognisers only.
 """
 
 from __future__ import annotations
@@ -168,7 +168,9 @@ def _weight(token: str, text: str) -> float:
     except ValueError:
         weight = 0.0
     if weight <= 0.0:
-        raise GrammarError(f"The phrase '{text}' has the weight '{token}': write one such as /0.1/.")
+        raise GrammarError(
+            f"The phrase '{text}' has the weight '{token}': write one such as /0.1/."
+        )
     return weight
 
 

@@ -34,8 +34,8 @@ _WITHOUT_JOINT = 0.01
 _OPEN = ('place', 'class', 'classes')
 """Slots of names; if a sentence matches except for a name, that name is reported as unknown."""
 _PLACES = ('place', 'inside', 'surface', 'room')
-"""Lists of places: all, those that things are put into, those that they are put onto, rooms. What is
-typed may be any place, and a speech recogniser expects only the likely ones."""
+"""Lists of places: all, those that things are put into, those that they are put onto, rooms. What
+is typed may be any place, and a speech recogniser expects only the likely ones."""
 _NAMES = (*_OPEN, *_PLACES[1:])
 """Lists of names."""
 

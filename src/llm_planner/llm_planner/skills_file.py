@@ -233,8 +233,8 @@ def _check_slots(skill: Skill, skills: Skills) -> None:
         for part in part_of(saying.phrase):
             if isinstance(part, Slot) and part.rule not in known:
                 raise UserError(
-                    f"a phrase of the skill '{skill.name}' has the slot '{part.rule}', which is not "
-                    f'defined. {did_you_mean(part.rule, known)}'
+                    f"a phrase of the skill '{skill.name}' has the slot '{part.rule}', which is "
+                    f'not defined. {did_you_mean(part.rule, known)}'
                 )
 
 

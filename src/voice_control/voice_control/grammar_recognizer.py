@@ -38,8 +38,8 @@ _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
 _GRAMMAR_WEIGHT = 3.0
 """
-Language weight: how much the word probabilities of the grammar count against the sound. pocketsphinx
-applies its own (`lw`) to grammars in files only.
+Language weight: how much the word probabilities of the grammar count against the sound. The `lw` of
+pocketsphinx has no effect on a grammar that comes from a program.
 """
 _PHONE_WEIGHT = 3.0
 """Language weight of the phone loop."""
@@ -254,8 +254,8 @@ class GrammarRecognizer:
     def _add(self, search: str, network: WordNetwork) -> None:
         """Create a decoder search from a word network; it replaces one of the same name."""
         last = len(network.arcs)
-        # What can come at a state, words and the end of the sentence, has probabilities that sum up
-        # to 1: words in proportion to their weights, and the end of a command as likely as to go on.
+        # What can come at a state has probabilities that sum up to 1: words in proportion to their
+        # weights, and the end of a command as likely as all words together.
         power = _GRAMMAR_WEIGHT if search == _COMMANDS else 1.0
         arcs, ends = [], []
         for state, words in enumerate(network.arcs):

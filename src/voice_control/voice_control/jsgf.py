@@ -8,9 +8,9 @@ becomes a nondeterministic automaton (Thompson's construction; see Hopcroft, Mot
 Introduction to Automata Theory, chapter 3), and then a minimal deterministic one. Words that
 cannot be pronounced are left out on the way, with everything that requires them.
 
-JSGF: https://www.w3.org/TR/jsgf/. A weight multiplies how likely the first words of its alternative
-are; all words that can come next are equally likely otherwise. Tags are ignored; imports and
-recursive rules are rejected.
+JSGF: https://www.w3.org/TR/jsgf/. A weight multiplies how likely the first words of its
+alternative are; all words that can come next are equally likely otherwise. Tags are ignored;
+imports and recursive rules are rejected.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@ Minimal networks of words that a decoder can search.
 
 A nondeterministic automaton over words becomes a deterministic one (subset construction), and then
 the minimal one (Moore's partition refinement); see Hopcroft, Motwani and Ullman, Introduction to
-Automata Theory, chapters 2 and 4. Both keep the weights of the moves: of several moves with the same
-word, the largest weight counts.
+Automata Theory, chapters 2 and 4. Both keep the weights of the moves: of several moves with the
+same word, the largest weight counts.
 """
 
 from __future__ import annotations
