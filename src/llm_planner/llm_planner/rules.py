@@ -267,9 +267,7 @@ class RulePlanner:
         return Plan(text, tuple(reading.steps))
 
 
-def _texts_of(
-    kind: str, places: Mapping[str, Sequence[str]], world: World
-) -> list[str]:
+def _texts_of(kind: str, places: Mapping[str, Sequence[str]], world: World) -> list[str]:
     """Return the spoken texts that can mean a place of a kind, one of `_PLACES`."""
     meant: Mapping[str, Collection[str]] = {
         'place': world.place_names,

@@ -97,10 +97,13 @@ def test_texts_are_as_short_as_possible_first() -> None:
     assert read('say {text} [then go]', 'say hello then go')[0] == {'text': 'hello'}
 
 
-@pytest.mark.parametrize('phrase', [
+@pytest.mark.parametrize(
+    'phrase',
+    [
         *('(a | b', 'a ]', '[a', '(a |)', '', '( )', 'a | '),
         *('(a | /0/ b)', '/./ a', 'a /2/ b', '(/2/)'),
-    ],)
+    ],
+)
 def test_phrases_that_cannot_be_read(phrase: str) -> None:
     """The sentence quotes the phrase."""
     with pytest.raises(GrammarError, match='The phrase'):

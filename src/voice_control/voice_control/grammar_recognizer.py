@@ -38,8 +38,8 @@ _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
 _GRAMMAR_WEIGHT = 3.0
 """
-Language weight: how much the word probabilities of the grammar count against the sound. The `lw` of
-pocketsphinx has no effect on a grammar that comes from a program.
+Language weight: how much the word probabilities of the grammar count against the sound. The `lw`
+of pocketsphinx has no effect on a grammar that comes from a program.
 """
 _PHONE_WEIGHT = 3.0
 """Language weight of the phone loop."""

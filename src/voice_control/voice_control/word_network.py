@@ -169,9 +169,7 @@ def _minimal(table: _Table, ends: _Ends) -> WordNetwork:
             arcs_of[number][word] = order[classes[target]]
             weights_of[number][word] = weight
     kept = {order[classes[state]]: w for state, w in ends.items() if classes[state] in order}
-    return WordNetwork(
-        tuple(arcs_of), frozenset(kept), weights=tuple(weights_of), ends=kept
-    )
+    return WordNetwork(tuple(arcs_of), frozenset(kept), weights=tuple(weights_of), ends=kept)
 
 
 def _useful(table: _Table, finals: set[int]) -> set[int]:
